@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Builds everything and runs every test; ends with the test runner's summary.
+#   ./check.sh           what must pass before a change goes in
+#   ./check.sh --tidy    the same, with clang-tidy over every source file (slow)
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$root/cmake/build.sh"
+howl_install_packages
+# Measured records and practice rigs are optional: the tests that read them skip, saying so,
+# where these folders are absent.
+if [ -d "$root/../shared/realdata" ]; then
+  export HOWL_DATA=${HOWL_DATA:-$(cd "$root/../shared/realdata" && pwd)}
+fi
+if [ -d "$root/../shared/practice" ]; then
+  export HOWL_PRACTICE=${HOWL_PRACTICE:-$(cd "$root/../shared/practice" && pwd)}
+fi
+sources=$(cd "$root" && find model estimation diagnosis io app rig tests bench -name '*.h' -o -name '*.cc')
+(cd "$root" && clang-format --dry-run -Werror $sources)
+howl_build "$root" all
+if [ "${1:-}" = --tidy ]; then
+  (cd "$root" && find model estimation diagnosis io app rig -name '*.cc' -print0 |
+    xargs -0 -n 4 -P "$(nproc)" clang-tidy -p build --quiet)
+fi
+cd "$root/build"
+exec ctest --output-on-failure --timeout 300 -j "$(nproc)" -LE long

@@ -1,0 +1,44 @@
+# Sourced by run.sh and check.sh: what a fresh Debian 12 machine needs, and how to build.
+
+# Installs the packages that are missing, quietly and without asking; asks no server when none is.
+howl_install_packages() {
+  local wanted=(g++ cmake ninja-build pkg-config clang-format clang-tidy python3
+    libeigen3-dev libceres-dev libgoogle-glog-dev libgflags-dev libyaml-cpp-dev
+    libtbb-dev libboost-dev libmpfi-dev nlohmann-json3-dev libvalijson-dev
+    libmatio-dev libhdf5-dev zlib1g-dev libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox)
+  local missing=() package
+  for package in "${wanted[@]}"; do
+    if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then
+      missing+=("$package")
+    fi
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  echo "installing: ${missing[*]}" >&2
+  local as_root=()
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+  local log
+  log=$(mktemp)
+  if ! { "${as_root[@]}" apt-get update -qq &&
+         DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq \
+           --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    cat "$log" >&2
+    echo "could not install: ${missing[*]}" >&2
+    return 1
+  fi
+  rm -f "$log"
+}
+
+# howl_build ROOT TARGET: configures ROOT/build and builds TARGET, silent unless something is wrong.
+howl_build() {
+  local root=$1 target=$2 log
+  log=$(mktemp)
+  local tests=ON
+  [ "$target" = all ] || tests=OFF
+  if ! { cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+           -DHOWL_BUILD_TESTS=$tests -DHOWL_BUILD_BENCH=$tests &&
+         cmake --build "$root/build" --target "$target"; } >"$log" 2>&1; then
+    cat "$log" >&2
+    return 1
+  fi
+  rm -f "$log"
+}

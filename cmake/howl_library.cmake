@@ -1,0 +1,27 @@
+# One library a folder. howl_library(NAME DEPENDS ...) takes every source in the current folder and
+# below it, so that a new effect, residual or reader is one new file and no build change.
+
+add_library(howl_warnings INTERFACE)
+target_compile_options(howl_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                       -Wold-style-cast -Woverloaded-virtual -Wnull-dereference -Werror
+                       -Wno-missing-field-initializers)
+
+function(howl_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  add_library(howl_${name} STATIC ${sources} ${headers})
+  add_library(howl::${name} ALIAS howl_${name})
+  set_target_properties(howl_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
+  target_compile_features(howl_${name} PUBLIC cxx_std_20)
+  target_include_directories(howl_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/howl>)
+  target_link_libraries(howl_${name} PUBLIC ${ARG_PUBLIC}
+                        PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:howl_warnings>)
+  install(TARGETS howl_${name} EXPORT howl_targets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/howl
+          FILES_MATCHING PATTERN "*.h")
+endfunction()

@@ -1,0 +1,75 @@
+// The loop's free parameters: which are shared by all experiments, which each experiment has to
+// itself, where the search starts, and the guard rails it keeps to.
+#ifndef HOWL_ESTIMATION_PARAMETERS_H_
+#define HOWL_ESTIMATION_PARAMETERS_H_
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "model/loop.h"
+
+namespace howl {
+
+// kMOverN takes kM's place when the config gives the second mode relative to the first.
+enum class ParameterKind { kOmega, kXi, kN, kM, kMOverN, kTau };
+
+inline constexpr std::array kParameterKinds = {ParameterKind::kOmega,  ParameterKind::kXi,
+                                               ParameterKind::kN,      ParameterKind::kM,
+                                               ParameterKind::kMOverN, ParameterKind::kTau};
+inline constexpr std::size_t kNumParameterKinds = kParameterKinds.size();
+
+// As in configs and files: "omega_hz", "xi", "N", "M", "M_over_N", "tau_s".
+constexpr std::string_view ParameterName(ParameterKind kind) {
+  constexpr std::array<std::string_view, kNumParameterKinds> kNames = {"omega_hz", "xi",   "N", "M",
+                                                                       "M_over_N", "tau_s"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+enum class ParameterScope { kExperiment, kShared };
+
+struct ParameterSpec {
+  ParameterScope scope = ParameterScope::kExperiment;
+  std::optional<double> initial;  // default: from the data, by the closed form
+  double min = 0.0;               // natural units; positive: the search runs in logarithms
+  double max = 0.0;
+  bool fixed = false;  // held at `initial`
+};
+
+struct ModelSpec {
+  int modes = 1;  // 1: N alone; 2: N, and M or M_over_N
+  double harmonic_ratio = kSeedHarmonicRatio;
+  bool second_mode_relative = false;  // the free parameter is M / N instead of M
+  std::array<ParameterSpec, kNumParameterKinds> parameters;
+
+  ParameterSpec& operator[](ParameterKind kind) {
+    return parameters[static_cast<std::size_t>(kind)];
+  }
+  const ParameterSpec& operator[](ParameterKind kind) const {
+    return parameters[static_cast<std::size_t>(kind)];
+  }
+  bool Uses(ParameterKind kind) const {
+    if (kind == ParameterKind::kM) return modes == 2 && !second_mode_relative;
+    if (kind == ParameterKind::kMOverN) return modes == 2 && second_mode_relative;
+    return true;
+  }
+};
+
+// Documented defaults: all but the second mode per experiment; wide guard rails.
+ModelSpec DefaultModelSpec();
+
+// One model of one experiment, in natural units.
+struct LoopModel {
+  double omega_hz = 0.0;
+  double xi = 0.0;
+  double N = 0.0;
+  double M = 0.0;
+  double tau_s = 0.0;
+  double harmonic_ratio = kSeedHarmonicRatio;
+
+  LoopParameters<double> Loop() const { return {{omega_hz, xi, N, M, harmonic_ratio}, tau_s}; }
+};
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_PARAMETERS_H_
