@@ -1,0 +1,104 @@
+// The falsification test: a model (one LoopModel for each experiment) is a member of the family of
+// unfalsified models when no condition rejects it. With z = G(j 2 pi f) at the limit-cycle
+// frequency f of each experiment, the conditions are
+//
+//   gain_tolerance             | |z| / gain - 1 |        <= tolerance      (5a), (5c)
+//   phase_tolerance_deg        | arg z - phase |         <= tolerance      (5a), (5c)
+//   loop_phase_tolerance_deg   | arg L - 180 degrees |   <= tolerance      (1a)
+//   loop_gain_min              |L Phi'(0)|               >= minimum        (1b), reliable ones only
+//   second_crossing_tolerance_deg  the same as (1a) at every observed line
+//   omega_spread_max           max omega / min omega - 1 <= maximum        over experiments
+//   xi_max                     xi                        <= maximum
+//   xi_increasing              xi does not fall as phi grows
+//
+// An infinite tolerance or maximum, or a loop_gain_min of zero, switches its condition off.
+#ifndef HOWL_ESTIMATION_FAMILY_MEMBERSHIP_H_
+#define HOWL_ESTIMATION_FAMILY_MEMBERSHIP_H_
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "estimation/experiment.h"
+#include "estimation/parameters.h"
+
+namespace howl {
+
+enum class Condition {
+  kGain,
+  kPhase,
+  kLoopPhase,
+  kLoopGain,
+  kSecondCrossing,
+  kOmegaSpread,
+  kXiMax,
+  kXiIncreasing,
+};
+
+inline constexpr std::array kConditions = {Condition::kGain,           Condition::kPhase,
+                                           Condition::kLoopPhase,      Condition::kLoopGain,
+                                           Condition::kSecondCrossing, Condition::kOmegaSpread,
+                                           Condition::kXiMax,          Condition::kXiIncreasing};
+inline constexpr std::size_t kNumConditions = kConditions.size();
+
+// The condition's key in a config's `family: test:`.
+constexpr std::string_view ConditionName(Condition condition) {
+  constexpr std::array<std::string_view, kNumConditions> kNames = {"gain_tolerance",
+                                                                   "phase_tolerance_deg",
+                                                                   "loop_phase_tolerance_deg",
+                                                                   "loop_gain_min",
+                                                                   "second_crossing_tolerance_deg",
+                                                                   "omega_spread_max",
+                                                                   "xi_max",
+                                                                   "xi_increasing"};
+  return kNames[static_cast<std::size_t>(condition)];
+}
+
+struct MembershipTest {
+  double gain_tolerance = 0.01;
+  double phase_tolerance_deg = 0.5;
+  double loop_phase_tolerance_deg = 1.0;
+  double loop_gain_min = 1.0;
+  double second_crossing_tolerance_deg = 10.0;
+  double omega_spread_max = 0.25;
+  double xi_max = 0.3;
+  bool xi_increasing = true;
+};
+
+// How far one experiment's model is from the data; zero is a perfect fit.
+struct ExperimentErrors {
+  double gain_error = 0.0;                 // |z| / gain - 1
+  double phase_error_deg = 0.0;            // arg z - phase, wrapped
+  double loop_phase_error_deg = 0.0;       // arg L - 180 degrees, wrapped
+  double loop_gain = 0.0;                  // |L Phi'(0)|; NaN where the slope is not known
+  double second_crossing_error_deg = 0.0;  // largest over the lines; zero without lines
+};
+
+// In the full form (5a); with M = 0 it is the reduced form (5c).
+ExperimentErrors ComputeErrors(const Experiment& experiment, const LoopModel& model);
+
+// A set of Conditions.
+class ConditionSet {
+ public:
+  void Insert(Condition condition) { bits_ |= 1u << static_cast<unsigned>(condition); }
+  bool Contains(Condition condition) const {
+    return (bits_ >> static_cast<unsigned>(condition)) & 1u;
+  }
+  bool IsEmpty() const { return bits_ == 0; }
+
+ private:
+  unsigned bits_ = 0;
+};
+
+// The conditions that reject the model; empty for a member. models[i] belongs to experiments[i].
+ConditionSet Falsify(std::span<const Experiment> experiments, std::span<const LoopModel> models,
+                     const MembershipTest& test);
+
+inline bool IsMember(std::span<const Experiment> experiments, std::span<const LoopModel> models,
+                     const MembershipTest& test) {
+  return Falsify(experiments, models, test).IsEmpty();
+}
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_FAMILY_MEMBERSHIP_H_

@@ -1,0 +1,72 @@
+// Which residuals a joint fit has, how heavy each is, and on which experiments it acts. The
+// equations are in estimation/residuals/, one file each.
+#ifndef HOWL_ESTIMATION_RESIDUAL_SPEC_H_
+#define HOWL_ESTIMATION_RESIDUAL_SPEC_H_
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace howl {
+
+enum class ResidualKind {
+  kGainEquality,     // |G| = gain, (5a) or (5c)
+  kPhaseEquality,    // arg G = phase, (5a) or (5c)
+  kLimitCyclePhase,  // arg L = 180 degrees, (1a)
+  kLimitCycleGain,   // |L Phi'(0)| > 1, (1b), one-sided
+  kSecondCrossing,   // arg L = 180 degrees at an observed non-harmonic line
+  kOmegaPrior,       // omega nearly constant over the experiments
+  kXiIncreasing,     // xi does not fall as phi grows, one-sided
+  kDampingPrior,     // xi small
+  kTauPrior,         // tau nearly constant over the experiments
+};
+
+inline constexpr std::array kResidualKinds = {
+    ResidualKind::kGainEquality,   ResidualKind::kPhaseEquality,  ResidualKind::kLimitCyclePhase,
+    ResidualKind::kLimitCycleGain, ResidualKind::kSecondCrossing, ResidualKind::kOmegaPrior,
+    ResidualKind::kXiIncreasing,   ResidualKind::kDampingPrior,   ResidualKind::kTauPrior};
+inline constexpr std::size_t kNumResidualKinds = kResidualKinds.size();
+
+// As in configs.
+constexpr std::string_view ResidualName(ResidualKind kind) {
+  constexpr std::array<std::string_view, kNumResidualKinds> kNames = {
+      "gain_equality", "phase_equality", "limit_cycle_phase", "limit_cycle_gain", "second_crossing",
+      "omega_prior",   "xi_increasing",  "damping_prior",     "tau_prior"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+// kAuto: the full form (5a) with two modes, the reduced form (5c) with one.
+enum class EquationForm { kAuto, kFull, kReduced };
+
+enum class LossKind { kNone, kHuber, kSoftL1, kCauchy, kTukey };
+
+struct ResidualSpec {
+  bool enabled = true;
+  // Standard deviation of the residual's error. Relative for gain, omega and tau; degrees for
+  // phases; absolute for loop gain and xi. Experiments that bring their own take its place.
+  double std = 1.0;
+  double weight = 1.0;  // multiplies the squared residual
+  LossKind loss = LossKind::kNone;
+  double loss_scale = 1.0;               // in standard deviations
+  std::vector<std::string> experiments;  // empty: all
+  EquationForm form = EquationForm::kAuto;
+};
+
+struct ResidualSet {
+  std::array<ResidualSpec, kNumResidualKinds> specs;
+  // Multiplies the weight of every residual of an experiment marked `reliable: false`.
+  double unreliable_weight = 0.25;
+
+  ResidualSpec& operator[](ResidualKind kind) { return specs[static_cast<std::size_t>(kind)]; }
+  const ResidualSpec& operator[](ResidualKind kind) const {
+    return specs[static_cast<std::size_t>(kind)];
+  }
+};
+
+// Documented defaults: every residual on.
+ResidualSet DefaultResidualSet();
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RESIDUAL_SPEC_H_
