@@ -3,7 +3,7 @@
 
 add_library(howl_warnings INTERFACE)
 target_compile_options(howl_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                       -Wold-style-cast -Woverloaded-virtual -Wnull-dereference -Werror
+                       -Wold-style-cast -Woverloaded-virtual -Werror
                        # Designated initialisers leave the rest at its default on purpose.
                        -Wno-missing-field-initializers)
 # GCC 12 sees overlapping copies in std::string's operator+ where there are none (bug 105651).

@@ -11,7 +11,8 @@ ResidualSet DefaultResidualSet() {
   set[ResidualKind::kSecondCrossing].std = 5.0;
   set[ResidualKind::kOmegaPrior].std = 0.05;
   set[ResidualKind::kXiIncreasing].std = 0.02;
-  set[ResidualKind::kDampingPrior].std = 0.2;
+  set[ResidualKind::kDampingPrior].std = 1.0;
+  set[ResidualKind::kDampingPrior].center = 0.1;
   set[ResidualKind::kTauPrior].std = 0.03;
   return set;
 }

@@ -43,9 +43,11 @@ enum class LossKind { kNone, kHuber, kSoftL1, kCauchy, kTukey };
 
 struct ResidualSpec {
   bool enabled = true;
-  // Standard deviation of the residual's error. Relative for gain, omega and tau; degrees for
-  // phases; absolute for loop gain and xi. Experiments that bring their own take its place.
+  // Standard deviation of the residual's error. Relative for gain, omega, tau and the damping
+  // prior; degrees for phases; absolute for loop gain and the order of xi. Experiments that bring
+  // their own take its place.
   double std = 1.0;
+  double center = 0.0;  // damping_prior alone: the damping ratio that counts as small
   double weight = 1.0;  // multiplies the squared residual
   LossKind loss = LossKind::kNone;
   double loss_scale = 1.0;               // in standard deviations

@@ -1,0 +1,162 @@
+#include "estimation/joint_fit.h"
+
+#include <ceres/cost_function.h>
+#include <ceres/crs_matrix.h>
+#include <ceres/solver.h>
+#include <glog/logging.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace howl {
+namespace {
+
+constexpr double kSameCost = 1e-6;
+constexpr double kZeroCost = 1e-12;
+constexpr double kAtBound = 1e-6;
+
+struct StartResult {
+  std::vector<double> logs;
+  double cost = 0.0;
+  bool converged = false;
+  int iterations = 0;
+  std::string termination;
+};
+
+StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver, std::uint64_t seed,
+                       int number) {
+  StartResult result;
+  result.logs = problem.Start(number, seed);
+  const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(result.logs.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = solver.max_iterations;
+  options.function_tolerance = 1e-14;
+  options.gradient_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-12;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, ceres_problem.get(), &summary);
+  result.cost = summary.final_cost;
+  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  result.iterations = static_cast<int>(summary.iterations.size());
+  result.termination = std::string(ceres::TerminationTypeToString(summary.termination_type)) +
+                       ": " + summary.message;
+  return result;
+}
+
+std::vector<int> FreeParameters(const JointProblem& problem) {
+  std::vector<int> free;
+  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+    if (!problem.parameters()[i].fixed) free.push_back(static_cast<int>(i));
+  }
+  return free;
+}
+
+Eigen::MatrixXd Jacobian(const JointProblem& problem, std::vector<double> logs) {
+  const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(logs.data());
+  ceres::Problem::EvaluateOptions options;
+  for (const int i : FreeParameters(problem))
+    options.parameter_blocks.push_back(&logs[static_cast<std::size_t>(i)]);
+  ceres::CRSMatrix sparse;
+  CHECK(ceres_problem->Evaluate(options, nullptr, nullptr, nullptr, &sparse));
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+  for (int row = 0; row < sparse.num_rows; ++row) {
+    for (int k = sparse.rows[static_cast<std::size_t>(row)];
+         k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k) {
+      dense(row, sparse.cols[static_cast<std::size_t>(k)]) =
+          sparse.values[static_cast<std::size_t>(k)];
+    }
+  }
+  return dense;
+}
+
+void DescribeParameters(const JointProblem& problem, JointFit& fit) {
+  std::size_t column = 0;
+  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+    const ParameterBlock& block = problem.parameters()[i];
+    FitParameter parameter;
+    parameter.name = block.name;
+    parameter.value = std::exp(fit.logs[i]);
+    parameter.fixed = block.fixed;
+    if (!block.fixed) {
+      parameter.std_relative = fit.identifiability.log_std[column++];
+      parameter.at_bound =
+          fit.logs[i] - block.min_log < kAtBound || block.max_log - fit.logs[i] < kAtBound;
+      fit.free_names.push_back(block.name);
+    }
+    fit.parameters.push_back(std::move(parameter));
+  }
+}
+
+void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
+  for (const ResidualBlock& block : problem.residuals()) {
+    std::vector<const double*> parameters;
+    for (const int index : block.parameters) {
+      parameters.push_back(&fit.logs[static_cast<std::size_t>(index)]);
+    }
+    FitResidual residual{block.label, {}, block.weight};
+    residual.values.resize(static_cast<std::size_t>(block.cost->num_residuals()));
+    CHECK(block.cost->Evaluate(parameters.data(), residual.values.data(), nullptr)) << block.label;
+    fit.residuals.push_back(std::move(residual));
+  }
+}
+
+// The first start that reaches the lowest cost; one that converged beats one that did not.
+std::vector<StartResult>::const_iterator BestStart(const std::vector<StartResult>& starts) {
+  const bool any_converged =
+      std::ranges::any_of(starts, [](const StartResult& start) { return start.converged; });
+  const auto counts = [&](const StartResult& start) { return start.converged || !any_converged; };
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const StartResult& start : starts) {
+    if (counts(start)) lowest = std::min(lowest, start.cost);
+  }
+  return std::ranges::find_if(starts, [&](const StartResult& start) {
+    return counts(start) && start.cost <= lowest * (1.0 + kSameCost) + kZeroCost;
+  });
+}
+
+}  // namespace
+
+Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector<double>& logs) {
+  std::vector<std::string> names;
+  for (const int i : FreeParameters(problem))
+    names.push_back(problem.parameters()[static_cast<std::size_t>(i)].name);
+  return ComputeIdentifiability(Jacobian(problem, logs), names);
+}
+
+JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::uint64_t seed,
+                    int threads) {
+  CHECK_GE(solver.starts, 1);
+  std::vector<StartResult> starts(static_cast<std::size_t>(solver.starts));
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(0, solver.starts, [&](int number) {
+      starts[static_cast<std::size_t>(number)] = SolveStart(problem, solver, seed, number);
+    });
+  });
+  const auto best = BestStart(starts);
+  JointFit fit;
+  fit.converged = best->converged;
+  fit.termination = best->termination;
+  fit.cost = best->cost;
+  fit.iterations = best->iterations;
+  fit.starts = solver.starts;
+  for (const StartResult& start : starts) {
+    fit.starts_converged += start.converged ? 1 : 0;
+    const bool same = std::abs(start.cost - best->cost) <= kSameCost * best->cost + kZeroCost;
+    fit.starts_at_best += start.converged && same ? 1 : 0;
+  }
+  fit.logs = best->logs;
+  fit.models = problem.Models(fit.logs);
+  fit.identifiability = IdentifiabilityAt(problem, fit.logs);
+  DescribeParameters(problem, fit);
+  DescribeResiduals(problem, fit);
+  return fit;
+}
+
+}  // namespace howl

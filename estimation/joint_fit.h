@@ -1,0 +1,57 @@
+// Solves a JointProblem from several starts and reports what the best one means.
+#ifndef HOWL_ESTIMATION_JOINT_FIT_H_
+#define HOWL_ESTIMATION_JOINT_FIT_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "estimation/identifiability.h"
+#include "estimation/joint_problem.h"
+#include "estimation/solver_spec.h"
+
+namespace howl {
+
+struct FitParameter {
+  std::string name;
+  double value = 0.0;         // natural units
+  double std_relative = 0.0;  // standard deviation of the logarithm; infinite: not determined
+  bool at_bound = false;
+  bool fixed = false;
+};
+
+struct FitResidual {
+  std::string label;
+  std::vector<double> values;  // in standard deviations, before weight and loss
+  double weight = 1.0;
+};
+
+struct JointFit {
+  bool converged = false;
+  std::string termination;  // Ceres' word, then its message
+  double cost = 0.0;
+  int iterations = 0;
+  int starts = 0;
+  int starts_converged = 0;
+  int starts_at_best = 0;  // that reached the best cost to 1e-6
+  std::vector<double> logs;
+  std::vector<LoopModel> models;  // one an experiment
+  std::vector<FitParameter> parameters;
+  std::vector<FitResidual> residuals;
+  // Over the parameters that are not fixed, in their order.
+  std::vector<std::string> free_names;
+  Identifiability identifiability;
+};
+
+// Start number 0 is always tried; ties in cost go to the lowest number, so that the answer does not
+// depend on `threads`.
+JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::uint64_t seed,
+                    int threads);
+
+// J and identifiability at `logs` (weights and losses applied).
+Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector<double>& logs);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_JOINT_FIT_H_

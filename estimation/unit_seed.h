@@ -1,0 +1,29 @@
+// Every independent unit of work (a start, a member, a bootstrap replicate) draws from a generator
+// of its own, seeded by the run's seed and the unit's key. So the answer does not depend on how
+// units are spread over threads.
+#ifndef HOWL_ESTIMATION_UNIT_SEED_H_
+#define HOWL_ESTIMATION_UNIT_SEED_H_
+
+#include <cstdint>
+#include <string_view>
+
+namespace howl {
+
+// The splitmix64 finaliser: every input bit reaches every output bit.
+constexpr std::uint64_t MixBits(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+constexpr std::uint64_t UnitSeed(std::uint64_t run_seed, std::string_view key,
+                                 std::uint64_t index = 0) {
+  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
+  for (const char c : key) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return MixBits(MixBits(run_seed ^ hash) + index);
+}
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_UNIT_SEED_H_
