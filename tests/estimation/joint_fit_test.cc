@@ -155,6 +155,7 @@ TEST(JointFit, RobustLossLimitsAnOutlier) {
     experiment.phase_deg = -10.0;  // the same rig at every operating point
     experiment.gain = 12.0;
     experiment.reliable = true;
+    experiment.flame_slope.reset();
   }
   experiments[1].gain *= 3.0;
   ModelSpec model = DefaultModelSpec();
