@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 std::string Number(const Json& value) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value.get<double>());
+  std::snprintf(text.data(), text.size(), "%.10g", value.get<double>());
   return text.data();
 }
 

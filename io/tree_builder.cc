@@ -46,6 +46,7 @@ void TreeBuilder::OnScalar(const YAML::Mark& mark, const std::string& tag, YAML:
          "a text of " + std::to_string(value.size()) + " characters, expected at most " +
              std::to_string(kMaxScalarBytes));
   }
+  if (tag != "?") last_quoted_ = mark;
   const bool quoted = tag == "!" || tag == "tag:yaml.org,2002:str";
   if (!quoted && tag != "?" && !tag.empty() && !tag.starts_with("tag:yaml.org,2002:")) {
     Fail(LineOf(mark), Path(), "the tag " + tag + " has no meaning here, expected a plain value");

@@ -24,6 +24,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
 
+  // Where the last scalar in quotes (or in a block) started; null when there was none.
+  YAML::Mark LastQuoted() const { return last_quoted_; }
   LocatedNode TakeRoot() { return std::move(root_); }
 
   void OnDocumentStart(const YAML::Mark& mark) override;
@@ -67,6 +69,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Frame> open_;
   std::map<YAML::anchor_t, Anchored> anchored_;
   std::size_t num_nodes_ = 0;
+  YAML::Mark last_quoted_ = YAML::Mark::null_mark();
   LocatedNode root_;
 };
 

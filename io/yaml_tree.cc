@@ -4,11 +4,13 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "io/config_text.h"
 #include "io/tree_builder.h"
 #include "io/user_error.h"
+#include "io/yaml_unclosed.h"
 
 namespace howl {
 namespace {
@@ -16,8 +18,7 @@ namespace {
 // What was expected where the parser stopped with `message`.
 std::string ParseExpectation(const std::string& message) {
   const auto says = [&](const char* part) { return message.find(part) != std::string::npos; };
-  if (says("end of map flow")) return "a comma or a closing } after a value";
-  if (says("end of sequence flow")) return "a comma or a closing ] after an item";
+  if (says("flow")) return "a comma or a closing bracket behind a value";
   if (says("illegal map value")) {
     return "one `key: value` on a line, and quotes around text that has a colon";
   }
@@ -54,6 +55,16 @@ class NoMoreDocuments : public YAML::EventHandler {
   const std::string& file_;
 };
 
+void FailAtUnclosedBracket(const std::string& file, const std::string& text) {
+  const std::optional<Unclosed> unclosed = FindUnclosedBracket(text);
+  if (!unclosed) return;
+  const bool is_brace = unclosed->opening == '{';
+  throw UserError(file, unclosed->line, KeyNearLine(text, unclosed->line),
+                  std::string("this is not YAML (") + (is_brace ? "{" : "[") +
+                      " is not closed), expected a comma or a closing " + (is_brace ? "}" : "]") +
+                      " behind a value");
+}
+
 }  // namespace
 
 LocatedNode ParseYaml(const std::string& file, const std::string& text) {
@@ -64,7 +75,11 @@ LocatedNode ParseYaml(const std::string& file, const std::string& text) {
     parser.HandleNextDocument(builder);
     NoMoreDocuments no_more(file);
     parser.HandleNextDocument(no_more);
+  } catch (const UserError&) {
+    FailAtUnclosedBracket(file, text);
+    throw;
   } catch (const YAML::Exception& error) {
+    FailAtUnclosedBracket(file, text);
     // A missing end is noticed behind the last line; the last line is where to look.
     const int last_line = 1 + static_cast<int>(std::count(text.begin(), text.end(), '\n')) -
                           (text.ends_with('\n') ? 1 : 0);
@@ -72,6 +87,11 @@ LocatedNode ParseYaml(const std::string& file, const std::string& text) {
     throw UserError(
         file, line, KeyNearLine(text, line),
         "this is not YAML (" + error.msg + "), expected " + ParseExpectation(error.msg));
+  }
+  const YAML::Mark quoted = builder.LastQuoted();
+  if (!quoted.is_null() && IsUnclosedQuote(text, quoted.line, quoted.column)) {
+    throw UserError(file, quoted.line + 1, KeyNearLine(text, quoted.line + 1),
+                    "this is not YAML (a quote is not closed), expected a closing quote");
   }
   return builder.TakeRoot();
 }
