@@ -1,0 +1,62 @@
+#include "io/config.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/config_cursor.h"
+#include "io/config_schema.h"
+#include "io/config_sections.h"
+#include "io/config_text.h"
+#include "io/schema_check.h"
+#include "io/schema_words.h"
+#include "io/user_error.h"
+#include "io/yaml_tree.h"
+
+namespace howl {
+namespace {
+
+void CheckIsMapping(const std::string& file, const LocatedNode& root) {
+  if (root.kind == LocatedNode::Kind::kMapping) return;
+  const std::string is = root.kind == LocatedNode::Kind::kNull   ? "the file is empty"
+                         : root.kind == LocatedNode::Kind::kList ? "the file is a list"
+                                                                 : "the file is a bare value";
+  throw UserError(file, root.line, "experiments",
+                  is + ", expected a mapping with at least `experiments:` and their list");
+}
+
+// The schema depends on it, so it is read before the schema's check; what is wrong with it as a
+// value is left to that check.
+std::string ReadOperatingParameter(const ConfigCursor& root) {
+  const LocatedMember* const member = root.Node().Find("operating_parameter");
+  if (member == nullptr || member->value.kind != LocatedNode::Kind::kText) return "phi";
+  const std::string& name = member->value.text;
+  const nlohmann::json& experiment = ConfigSchema()["definitions"]["experiment"];
+  if (name != "phi" && experiment["properties"].contains(name)) {
+    root.FailAt("operating_parameter", "\"" + name +
+                                           "\" already means something else in experiments, "
+                                           "expected another name");
+  }
+  return name;
+}
+
+}  // namespace
+
+Config LoadConfig(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const LocatedNode tree = ParseYaml(file, ReadConfigText(path));
+  CheckIsMapping(file, tree);
+  const ConfigCursor root(file, tree);
+  Config config;
+  config.source = path;
+  config.operating_parameter = ReadOperatingParameter(root);
+  CheckSchema(file, tree, ConfigSchemaFor(config.operating_parameter));
+  root.Read("title", config.title);
+  ReadExperiments(root, config);
+  ReadModel(root, config);
+  ReadResiduals(root, config);
+  ReadSolver(root, config);
+  ReadFamily(root, config);
+  ReadAnalysis(root, config);
+  return config;
+}
+
+}  // namespace howl

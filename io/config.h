@@ -1,0 +1,47 @@
+// The config: one YAML file that states a problem. Only `experiments` is needed; all else has the
+// defaults of the structs below, which the schema (io/config_schema.json) repeats. Keys carry their
+// unit; what the options of a command set (seed, threads, output folder) is not here.
+#ifndef HOWL_IO_CONFIG_H_
+#define HOWL_IO_CONFIG_H_
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimation/analysis_spec.h"
+#include "estimation/experiment.h"
+#include "estimation/family/family_spec.h"
+#include "estimation/parameters.h"
+#include "estimation/residual_spec.h"
+#include "estimation/solver_spec.h"
+#include "io/record_spec.h"
+
+namespace howl {
+
+struct ExperimentConfig {
+  Experiment experiment;             // where a record is given: name, phi and reliable alone
+  std::optional<RecordSpec> record;  // to be analysed first
+  int line = 0;                      // of the experiment in the config
+  int record_line = 0;               // of record.file; 0 without a record
+};
+
+struct Config {
+  std::filesystem::path source;
+  std::string title;
+  std::string operating_parameter = "phi";  // the key that experiments carry in place of phi
+  std::vector<ExperimentConfig> experiments;
+  ModelSpec model = DefaultModelSpec();
+  ResidualSet residuals = DefaultResidualSet();
+  SolverSpec solver;
+  FamilySpec family;
+  AnalysisSpec analysis;
+};
+
+// Throws UserError at the first mistake, in the order of the file's lines for what the schema
+// states; then come the rules that join several keys.
+Config LoadConfig(const std::filesystem::path& path);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_CONFIG_H_

@@ -1,0 +1,83 @@
+#include <map>
+
+#include "io/config_sections.h"
+
+namespace howl {
+namespace {
+
+constexpr const char* kNeededNumbers[] = {"frequency_hz", "phase_deg", "gain"};
+constexpr const char* kOtherNumbers[] = {"flame_slope", "frequency_std_hz", "phase_std_deg",
+                                         "gain_std",    "flame_slope_std",  "lines"};
+
+void CheckRecordAlone(const ConfigCursor& cursor) {
+  const auto check = [&](const char* key) {
+    if (!cursor.Find(key)) return;
+    cursor.FailAt(key,
+                  "stands beside a record, which gives it; expected either record or published "
+                  "numbers (frequency_hz, phase_deg, gain, ...)");
+  };
+  for (const char* const key : kNeededNumbers) check(key);
+  for (const char* const key : kOtherNumbers) check(key);
+}
+
+void CheckNumbersComplete(const ConfigCursor& cursor) {
+  bool has_any = false;
+  for (const char* const key : kNeededNumbers) has_any = has_any || cursor.Find(key);
+  for (const char* const key : kNeededNumbers) {
+    if (cursor.Find(key)) continue;
+    cursor.FailAt(key, has_any ? "is missing, expected frequency_hz, phase_deg and gain together"
+                               : "is missing, expected frequency_hz, phase_deg and gain, or a "
+                                 "record");
+  }
+}
+
+void ReadNumbers(const ConfigCursor& cursor, Experiment& experiment) {
+  cursor.Read("frequency_hz", experiment.frequency_hz);
+  cursor.Read("phase_deg", experiment.phase_deg);
+  cursor.Read("gain", experiment.gain);
+  cursor.Read("flame_slope", experiment.flame_slope);
+  cursor.Read("frequency_std_hz", experiment.frequency_std_hz);
+  cursor.Read("phase_std_deg", experiment.phase_std_deg);
+  cursor.Read("gain_std", experiment.gain_std);
+  cursor.Read("flame_slope_std", experiment.flame_slope_std);
+  if (experiment.flame_slope_std && !experiment.flame_slope) {
+    cursor.FailAt("flame_slope_std", "has no flame_slope to belong to, expected flame_slope too");
+  }
+  const auto lines = cursor.Find("lines");
+  if (!lines) return;
+  for (const ConfigCursor& item : lines->Items()) {
+    ObservedLine line;
+    item.Read("frequency_hz", line.frequency_hz);
+    item.Read("frequency_std_hz", line.frequency_std_hz);
+    experiment.lines.push_back(line);
+  }
+}
+
+}  // namespace
+
+void ReadExperiments(const ConfigCursor& root, Config& config) {
+  std::map<std::string, int> lines_of_names;
+  for (const ConfigCursor& cursor : root.Find("experiments")->Items()) {
+    ExperimentConfig& read = config.experiments.emplace_back();
+    read.line = cursor.Line();
+    cursor.Read("name", read.experiment.name);
+    cursor.Read(config.operating_parameter, read.experiment.phi);
+    cursor.Read("reliable", read.experiment.reliable);
+    const auto [earlier, is_new] =
+        lines_of_names.try_emplace(read.experiment.name, cursor.Find("name")->Line());
+    if (!is_new) {
+      cursor.FailAt("name", "\"" + read.experiment.name + "\" is taken by the experiment on line " +
+                                std::to_string(earlier->second) + ", expected another name");
+    }
+    if (const auto record = cursor.Find("record")) {
+      CheckRecordAlone(cursor);
+      read.record = ReadRecordSpec(*record, config.source);
+      read.record_line = record->Find("file")->Line();
+    } else {
+      CheckNumbersComplete(cursor);
+      ReadNumbers(cursor, read.experiment);
+    }
+  }
+}
+
+}  // namespace howl

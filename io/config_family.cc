@@ -1,0 +1,57 @@
+#include <limits>
+
+#include "io/config_sections.h"
+
+namespace howl {
+namespace {
+
+// null switches a condition off, which for each condition is the value `off`.
+void ReadLimit(const ConfigCursor& test, const char* key, double off, double& limit) {
+  const auto cursor = test.Find(key);
+  if (!cursor) return;
+  limit = cursor->Node().kind == LocatedNode::Kind::kNull ? off : cursor->Node().number;
+}
+
+void ReadTest(const ConfigCursor& cursor, MembershipTest& test) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  ReadLimit(cursor, "gain_tolerance", kInfinity, test.gain_tolerance);
+  ReadLimit(cursor, "phase_tolerance_deg", kInfinity, test.phase_tolerance_deg);
+  ReadLimit(cursor, "loop_phase_tolerance_deg", kInfinity, test.loop_phase_tolerance_deg);
+  ReadLimit(cursor, "loop_gain_min", 0.0, test.loop_gain_min);
+  ReadLimit(cursor, "second_crossing_tolerance_deg", kInfinity, test.second_crossing_tolerance_deg);
+  ReadLimit(cursor, "omega_spread_max", kInfinity, test.omega_spread_max);
+  ReadLimit(cursor, "xi_max", kInfinity, test.xi_max);
+  cursor.Read("xi_increasing", test.xi_increasing);
+}
+
+}  // namespace
+
+void ReadFamily(const ConfigCursor& root, Config& config) {
+  const auto family = root.Find("family");
+  if (!family) return;
+  family->Read("members", config.family.members);
+  family->Read("width", config.family.width);
+  if (const auto test = family->Find("test")) ReadTest(*test, config.family.test);
+}
+
+void ReadSolver(const ConfigCursor& root, Config& config) {
+  const auto solver = root.Find("solver");
+  if (!solver) return;
+  solver->Read("starts", config.solver.starts);
+  solver->Read("max_iterations", config.solver.max_iterations);
+}
+
+void ReadAnalysis(const ConfigCursor& root, Config& config) {
+  const auto analysis = root.Find("analysis");
+  if (!analysis) return;
+  if (const auto method = analysis->Find("method")) {
+    for (const AnalysisMethod each : kAnalysisMethods) {
+      if (method->Node().text == AnalysisMethodName(each)) config.analysis.method = each;
+    }
+  }
+  analysis->Read("harmonics", config.analysis.harmonics);
+  analysis->Read("max_lines", config.analysis.max_lines);
+  analysis->Read("delay_branch", config.analysis.delay_branch);
+}
+
+}  // namespace howl

@@ -1,0 +1,87 @@
+#include <cctype>
+#include <cstdlib>
+#include <system_error>
+
+#include "io/config_sections.h"
+
+namespace howl {
+namespace {
+
+bool IsVariableName(const std::string& name) {
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) != 0) return false;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string ExpandEnvironment(const ConfigCursor& file) {
+  const std::string& text = file.Node().text;
+  std::string expanded;
+  std::size_t begin = 0;
+  for (std::size_t open = text.find("${"); open != std::string::npos;
+       open = text.find("${", begin)) {
+    const std::size_t close = text.find('}', open);
+    if (close == std::string::npos) {
+      file.Fail("\"" + text + "\" has ${ without }, expected ${NAME} of an environment variable");
+    }
+    const std::string name = text.substr(open + 2, close - open - 2);
+    if (!IsVariableName(name)) {
+      file.Fail("\"${" + name +
+                "}\" names no environment variable, expected letters, digits and _");
+    }
+    // Configs are read before any thread starts.
+    const char* const value = std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe)
+    if (value == nullptr || *value == '\0') {
+      const std::string rest = text.substr(close + 1);
+      const bool is_folder = open == 0 && rest.starts_with('/');
+      file.Fail("the environment variable " + name + " is not set, expected it to hold " +
+                (is_folder ? "the folder that has \"" + rest.substr(1) + "\""
+                           : "its part of the path \"" + text + "\""));
+    }
+    expanded += text.substr(begin, open - begin) + value;
+    begin = close + 1;
+  }
+  return expanded + text.substr(begin);
+}
+
+RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file) {
+  const ConfigCursor file = *record.Find("file");
+  RecordSpec spec;
+  spec.file = config_file.parent_path() / ExpandEnvironment(file);
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(spec.file, error);
+  if (!std::filesystem::exists(status)) {
+    file.Fail("there is no file \"" + spec.file.string() +
+              "\", expected a path relative to the config's folder");
+  }
+  if (std::filesystem::is_directory(status)) {
+    file.Fail("\"" + spec.file.string() + "\" is a folder, expected a file of samples");
+  }
+  record.Read("pressure", spec.pressure);
+  record.Read("heat_release", spec.heat_release);
+  record.Read("time", spec.time);
+  record.Read("sampling_hz", spec.sampling_hz);
+  record.Read("pressure_scale", spec.pressure_scale);
+  record.Read("heat_release_scale", spec.heat_release_scale);
+  record.Read("start_s", spec.start_s);
+  record.Read("duration_s", spec.duration_s);
+  if (!spec.sampling_hz && !spec.time) {
+    record.FailAt("sampling_hz", "is missing, expected samples a second, or a column for time");
+  }
+  if (spec.heat_release == spec.pressure) {
+    record.FailAt("heat_release",
+                  "\"" + spec.pressure + "\" is the column of pressure already, expected another");
+  }
+  for (const char* const key : {"pressure_scale", "heat_release_scale"}) {
+    const auto scale = record.Find(key);
+    if (scale && scale->Node().number == 0.0) {
+      scale->Fail("0 leaves nothing of the signal, expected a number other than 0");
+    }
+  }
+  return spec;
+}
+
+}  // namespace howl

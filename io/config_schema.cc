@@ -1,0 +1,37 @@
+#include "io/config_schema.h"
+
+#include <glog/logging.h>
+
+#include <nlohmann/json.hpp>
+
+#include "config_schema.inc"  // kConfigSchemaText
+
+namespace howl {
+
+const nlohmann::json& ConfigSchema() {
+  static const nlohmann::json schema = nlohmann::json::parse(kConfigSchemaText);
+  return schema;
+}
+
+nlohmann::json ConfigSchemaFor(const std::string& operating_parameter) {
+  nlohmann::json schema = ConfigSchema();
+  if (operating_parameter == "phi") return schema;
+  nlohmann::json& experiment = schema["definitions"]["experiment"];
+  nlohmann::json& properties = experiment["properties"];
+  properties[operating_parameter] = properties["phi"];
+  properties.erase("phi");
+  for (nlohmann::json& key : experiment["required"]) {
+    if (key == "phi") key = operating_parameter;
+  }
+  return schema;
+}
+
+const nlohmann::json& ResolveRef(const nlohmann::json& root, const nlohmann::json& schema) {
+  const auto ref = schema.find("$ref");
+  if (ref == schema.end()) return schema;
+  const std::string target = ref->get<std::string>();
+  CHECK(target.starts_with("#")) << target;
+  return root.at(nlohmann::json::json_pointer(target.substr(1)));
+}
+
+}  // namespace howl

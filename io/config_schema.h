@@ -1,0 +1,20 @@
+// The config's JSON schema (draft 7), from io/config_schema.json at build time.
+#ifndef HOWL_IO_CONFIG_SCHEMA_H_
+#define HOWL_IO_CONFIG_SCHEMA_H_
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace howl {
+
+const nlohmann::json& ConfigSchema();
+
+// The schema with experiments that carry the key `operating_parameter` in place of phi.
+nlohmann::json ConfigSchemaFor(const std::string& operating_parameter);
+
+// Follows a "$ref" into the schema's definitions; any other schema is returned as it is.
+const nlohmann::json& ResolveRef(const nlohmann::json& root, const nlohmann::json& schema);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_CONFIG_SCHEMA_H_

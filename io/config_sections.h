@@ -1,0 +1,30 @@
+// One reader for each section of a config that has passed the schema's check. Each states the rules
+// that a schema cannot, and throws UserError where one is broken.
+#ifndef HOWL_IO_CONFIG_SECTIONS_H_
+#define HOWL_IO_CONFIG_SECTIONS_H_
+
+#include "io/config.h"
+#include "io/config_cursor.h"
+
+namespace howl {
+
+// The readers take the config's root and fill their part of `config`.
+void ReadExperiments(const ConfigCursor& root, Config& config);
+void ReadModel(const ConfigCursor& root, Config& config);      // `model`, `parameters`
+void ReadResiduals(const ConfigCursor& root, Config& config);  // after the experiments
+void ReadFamily(const ConfigCursor& root, Config& config);
+void ReadSolver(const ConfigCursor& root, Config& config);
+void ReadAnalysis(const ConfigCursor& root, Config& config);
+
+RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file);
+
+// A path with ${NAME} replaced from the environment. Throws UserError at `file` for a name that is
+// not set.
+std::string ExpandEnvironment(const ConfigCursor& file);
+
+// The key of a residual's standard deviation, with its unit: "std_relative", "std_deg" or "std".
+const char* ResidualStdKey(ResidualKind kind);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_CONFIG_SECTIONS_H_

@@ -1,0 +1,25 @@
+// A config's bytes, checked before any parser sees them.
+#ifndef HOWL_IO_CONFIG_TEXT_H_
+#define HOWL_IO_CONFIG_TEXT_H_
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace howl {
+
+// Generous for hand-written and generated configs alike; they bound the parser's time.
+inline constexpr std::size_t kMaxConfigBytes = std::size_t{4} << 20;
+inline constexpr std::size_t kMaxConfigLineBytes = std::size_t{256} << 10;
+
+// UTF-8 text without control characters. Throws UserError for a missing file, a folder, a file or
+// line that is too long, bytes that are not text, and a tab in an indentation.
+std::string ReadConfigText(const std::filesystem::path& path);
+
+// The key that a line (from 1), or the nearest one above it that has a key, opens with: what a
+// message names when the text does not parse. Empty where there is none.
+std::string KeyNearLine(const std::string& text, int line);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_CONFIG_TEXT_H_

@@ -1,0 +1,72 @@
+// valijson decides whether and where the tree breaks the schema; what is said of the place comes
+// from io/schema_explain.
+#include "io/schema_check.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "io/config_schema.h"
+#include "io/schema_explain.h"
+#include "io/user_error.h"
+
+namespace howl {
+namespace {
+
+struct Place {
+  const LocatedNode* node = nullptr;
+  const nlohmann::json* schema = nullptr;
+  std::string key;  // as in messages: "experiments[2].gain"
+};
+
+// `context` is <root>, [experiments], [2], [gain].
+Place Locate(const std::vector<std::string>& context, const LocatedNode& root,
+             const nlohmann::json& schema) {
+  Place place{&root, &schema, ""};
+  for (std::size_t i = 1; i < context.size(); ++i) {
+    const std::string step = context[i].substr(1, context[i].size() - 2);
+    if (place.node->kind == LocatedNode::Kind::kList) {
+      place.node = &place.node->items.at(std::stoul(step));
+      place.schema = &ResolveRef(schema, place.schema->at("items"));
+      place.key += "[" + step + "]";
+      continue;
+    }
+    const LocatedMember* const member = place.node->Find(step);
+    if (member == nullptr || !place.schema->at("properties").contains(step)) break;
+    place.node = &member->value;
+    place.schema = &ResolveRef(schema, place.schema->at("properties").at(step));
+    place.key = JoinKey(place.key, step);
+  }
+  return place;
+}
+
+}  // namespace
+
+void CheckSchema(const std::string& file, const LocatedNode& root, const nlohmann::json& schema) {
+  const nlohmann::json tree = ToJson(root);
+  valijson::Schema parsed;
+  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), parsed);
+  valijson::ValidationResults results;
+  const valijson::adapters::NlohmannJsonAdapter target(tree);
+  if (valijson::Validator().validate(parsed, target, &results)) return;
+
+  std::optional<SchemaMistake> first;
+  for (const valijson::ValidationResults::Error& error : results) {
+    const Place place = Locate(error.context, root, schema);
+    const auto mistake = ExplainMistake(*place.node, place.key, *place.schema, schema);
+    if (mistake && (!first || mistake->line < first->line)) first = mistake;
+  }
+  if (!first) {
+    const auto& error = *results.begin();
+    const Place place = Locate(error.context, root, schema);
+    first = {place.node->line, place.key,
+             error.description + ", expected what the config's schema says"};
+  }
+  throw UserError(file, first->line, first->key, first->what);
+}
+
+}  // namespace howl

@@ -1,0 +1,17 @@
+// A config's tree against the config's schema.
+#ifndef HOWL_IO_SCHEMA_CHECK_H_
+#define HOWL_IO_SCHEMA_CHECK_H_
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "io/located_node.h"
+
+namespace howl {
+
+// Throws UserError with the mistake that comes first in the file.
+void CheckSchema(const std::string& file, const LocatedNode& root, const nlohmann::json& schema);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_SCHEMA_CHECK_H_
