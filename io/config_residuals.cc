@@ -44,6 +44,7 @@ void ReadResidual(const ConfigCursor& cursor, ResidualKind kind,
   }
   cursor.Read("enabled", spec.enabled);
   cursor.Read(ResidualStdKey(kind), spec.std);
+  if (kind == ResidualKind::kDampingPrior) cursor.Read("xi_typical", spec.center);
   cursor.Read("weight", spec.weight);
   if (const auto loss = cursor.Find("loss")) spec.loss = LossOf(loss->Node().text);
   cursor.Read("loss_scale", spec.loss_scale);
@@ -57,6 +58,7 @@ const char* ResidualStdKey(ResidualKind kind) {
   switch (kind) {
     case ResidualKind::kGainEquality:
     case ResidualKind::kOmegaPrior:
+    case ResidualKind::kDampingPrior:
     case ResidualKind::kTauPrior:
       return "std_relative";
     case ResidualKind::kPhaseEquality:
@@ -65,7 +67,6 @@ const char* ResidualStdKey(ResidualKind kind) {
       return "std_deg";
     case ResidualKind::kLimitCycleGain:
     case ResidualKind::kXiIncreasing:
-    case ResidualKind::kDampingPrior:
       return "std";
   }
   LOG(FATAL) << "unknown residual";

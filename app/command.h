@@ -1,0 +1,34 @@
+// A command of the program: one file each, listed in commands.cc.
+#ifndef HOWL_APP_COMMAND_H_
+#define HOWL_APP_COMMAND_H_
+
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+
+namespace howl {
+
+// Exit statuses. A user's mistake (2) is thrown as UserError or UsageError.
+inline constexpr int kDone = 0;
+inline constexpr int kNegativeAnswer = 1;
+inline constexpr int kBadInput = 2;
+
+struct Command {
+  std::string name;
+  std::string summary;  // one line
+  std::string details;  // what it reads, computes and writes
+  std::vector<OptionHelp> options;
+  int (*run)(const Options&);
+};
+
+const std::vector<Command>& Commands();
+
+Command FitCommand();
+Command FamilyCommand();
+Command ListCommand();
+Command RegressCommand();
+
+}  // namespace howl
+
+#endif  // HOWL_APP_COMMAND_H_

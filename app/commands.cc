@@ -1,0 +1,11 @@
+#include "app/command.h"
+
+namespace howl {
+
+const std::vector<Command>& Commands() {
+  static const std::vector<Command> commands = {FitCommand(), FamilyCommand(), ListCommand(),
+                                                RegressCommand()};
+  return commands;
+}
+
+}  // namespace howl

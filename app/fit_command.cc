@@ -1,0 +1,89 @@
+#include <cstdio>
+
+#include "app/command.h"
+#include "app/problem_input.h"
+#include "app/text_table.h"
+#include "estimation/family/membership.h"
+#include "estimation/joint_fit.h"
+#include "io/config.h"
+#include "io/results/solution_json.h"
+#include "io/results/whole_file.h"
+
+namespace howl {
+namespace {
+
+constexpr double kPerCent = 100.0;
+
+void PrintModels(const JointProblem& problem, const JointFit& fit) {
+  TextTable table({"experiment", "phi", "f Hz", "omega Hz", "xi", "N", "M", "tau ms", "loop gain",
+                   "gain err %", "phase err", "loop err"});
+  for (std::size_t i = 0; i < fit.models.size(); ++i) {
+    const Experiment& experiment = problem.experiments()[i];
+    const LoopModel& model = fit.models[i];
+    const ExperimentErrors errors = ComputeErrors(experiment, model);
+    table.AddRow({experiment.name + (experiment.reliable ? "" : " *"),
+                  Significant(experiment.phi, 4), Fixed(experiment.frequency_hz, 1),
+                  Fixed(model.omega_hz, 2), Fixed(model.xi, 4), Significant(model.N),
+                  Significant(model.M), Fixed(1e3 * model.tau_s, 4), Fixed(errors.loop_gain, 3),
+                  Fixed(kPerCent * errors.gain_error, 2), Fixed(errors.phase_error_deg, 2),
+                  Fixed(errors.loop_phase_error_deg, 2)});
+  }
+  std::printf("%s", table.Text().c_str());
+  std::printf("phase errors in degrees; * not reliable, weighs less\n");
+}
+
+void PrintShared(const JointProblem& problem, const JointFit& fit) {
+  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+    if (problem.parameters()[i].experiment != kShared) continue;
+    const FitParameter& parameter = fit.parameters[i];
+    std::printf("%s = %s", parameter.name.c_str(), Significant(parameter.value).c_str());
+    if (parameter.fixed) {
+      std::printf(" (fixed)\n");
+    } else {
+      std::printf(" +- %s %%%s\n", Significant(kPerCent * parameter.std_relative, 2).c_str(),
+                  parameter.at_bound ? " (at its bound)" : "");
+    }
+  }
+}
+
+void PrintIdentifiability(const JointFit& fit) {
+  const Identifiability& what = fit.identifiability;
+  const std::size_t free_directions = fit.free_names.size() - static_cast<std::size_t>(what.rank);
+  std::printf("%zu parameters, %d directions determined, %zu not\n", fit.free_names.size(),
+              what.rank, free_directions);
+  for (const UndeterminedDirection& direction : what.undetermined) {
+    std::printf("  %s\n", direction.text.c_str());
+  }
+}
+
+int Run(const Options& options) {
+  const Config config = LoadConfig(options.config);
+  const JointProblem problem(LoadExperiments(config, options), config.model, config.residuals);
+  const JointFit fit = SolveJoint(problem, config.solver, options.seed, options.threads);
+  const std::filesystem::path path = options.out / "solution.json";
+  WriteWholeFile(path, SolutionJson(problem, fit).dump(2) + "\n");
+  if (!options.quiet) {
+    PrintModels(problem, fit);
+    PrintShared(problem, fit);
+    std::printf("cost %s; %d of %d starts reached it; %s\n", Significant(fit.cost).c_str(),
+                fit.starts_at_best, fit.starts, fit.termination.c_str());
+    PrintIdentifiability(fit);
+    std::printf("written: %s\n", path.c_str());
+  }
+  return fit.converged ? kDone : kNegativeAnswer;
+}
+
+}  // namespace
+
+Command FitCommand() {
+  return {
+      "fit",
+      "fit acoustics and delay to all experiments together",
+      "Minimises all residuals of the config over all experiments in one problem, from several\n"
+      "starts, and reports which directions in parameter space the data leave undetermined.\n"
+      "Writes solution.json. Exit status 1 when no start converged.",
+      {},
+      Run};
+}
+
+}  // namespace howl

@@ -1,0 +1,51 @@
+// What the user typed: howl COMMAND CONFIG [--out DIR] [--threads N] [--seed S] [--quiet] ...
+#ifndef HOWL_APP_OPTIONS_H_
+#define HOWL_APP_OPTIONS_H_
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace howl {
+
+// A mistake on the command line: one line on standard error, exit status 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct OptionHelp {
+  std::string name;   // "--sort"
+  std::string value;  // "COLUMN"; empty for a switch
+  std::string text;
+};
+
+struct Options {
+  std::filesystem::path config;
+  std::filesystem::path out;  // default: out/ and the config's name without its ending
+  int threads = 0;            // 0: as many as the machine has
+  std::uint64_t seed = 1;
+  bool quiet = false;
+  bool help = false;
+  std::map<std::string, std::string> own;  // the command's own options; a switch maps to ""
+
+  bool Has(const std::string& name) const { return own.contains(name); }
+  std::optional<std::string> Text(const std::string& name) const;
+  // Throw UsageError where the value is no number, or not in the range.
+  std::optional<double> Number(const std::string& name) const;
+  std::optional<int> Count(const std::string& name, int min, int max) const;
+};
+
+// The options that every command has.
+const std::vector<OptionHelp>& CommonOptions();
+
+// `words` follow the command. Throws UsageError.
+Options ParseOptions(const std::vector<std::string>& words, const std::vector<OptionHelp>& own);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_OPTIONS_H_

@@ -1,0 +1,18 @@
+// From a config to the experiments that fit and family take.
+#ifndef HOWL_APP_PROBLEM_INPUT_H_
+#define HOWL_APP_PROBLEM_INPUT_H_
+
+#include <vector>
+
+#include "app/options.h"
+#include "estimation/experiment.h"
+#include "io/config.h"
+
+namespace howl {
+
+// Published numbers as they are.
+std::vector<Experiment> LoadExperiments(const Config& config, const Options& options);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_PROBLEM_INPUT_H_

@@ -1,0 +1,147 @@
+#include "io/results/family_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "estimation/family/membership.h"
+#include "io/user_error.h"
+
+namespace howl {
+namespace {
+
+constexpr const char* kHeader =
+    "member,experiment,phi,omega_hz,xi,N,M,tau_s,loop_gain,gain_error,phase_error_deg,"
+    "loop_phase_error_deg";
+// The numeric columns, behind member and experiment.
+constexpr std::array kNumbers = {"phi",
+                                 "omega_hz",
+                                 "xi",
+                                 "N",
+                                 "M",
+                                 "tau_s",
+                                 "loop_gain",
+                                 "gain_error",
+                                 "phase_error_deg",
+                                 "loop_phase_error_deg"};
+constexpr std::size_t kOmegaColumn = 1;
+constexpr std::size_t kXiColumn = 2;
+
+void AppendNumber(std::string& text, double value) {
+  if (std::isnan(value)) return;  // an empty cell: not known
+  std::array<char, 32> buffer;
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  text.append(buffer.data(), end);
+}
+
+std::vector<std::string> Split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  if (line.ends_with(',')) cells.emplace_back();
+  return cells;
+}
+
+double ParseCell(const std::string& cell, const std::filesystem::path& path, int line,
+                 const std::string& column) {
+  if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size()) {
+    throw UserError(path.string(), line, column, "\"" + cell + "\", expected a number");
+  }
+  return value;
+}
+
+void AddSummary(FamilyTable& table) {
+  for (std::vector<double>& row : table.rows) {
+    double omega_min = std::numeric_limits<double>::infinity();
+    double omega_max = 0.0;
+    double xi_max = 0.0;
+    for (std::size_t k = 3; k < row.size(); k += kNumbers.size()) {
+      omega_min = std::min(omega_min, row[k + kOmegaColumn]);
+      omega_max = std::max(omega_max, row[k + kOmegaColumn]);
+      xi_max = std::max(xi_max, row[k + kXiColumn]);
+    }
+    row[1] = omega_max / omega_min - 1.0;
+    row[2] = xi_max;
+  }
+}
+
+}  // namespace
+
+std::string FamilyCsv(std::span<const Experiment> experiments,
+                      std::span<const std::vector<LoopModel>> members) {
+  std::string text = kHeader;
+  text += '\n';
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    for (std::size_t i = 0; i < experiments.size(); ++i) {
+      const LoopModel& model = members[m][i];
+      const ExperimentErrors errors = ComputeErrors(experiments[i], model);
+      text += std::to_string(m + 1) + "," + experiments[i].name;
+      for (const double value : {experiments[i].phi, model.omega_hz, model.xi, model.N, model.M,
+                                 model.tau_s, errors.loop_gain, errors.gain_error,
+                                 errors.phase_error_deg, errors.loop_phase_error_deg}) {
+        text += ',';
+        AppendNumber(text, value);
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+std::size_t FamilyTable::Column(const std::string& name) const {
+  const auto found = std::ranges::find(columns, name);
+  if (found == columns.end()) throw std::out_of_range(name);
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+FamilyTable ReadFamilyCsv(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) {
+    throw UserError(path.string(), 0, "", "no such file, expected the one that howl family writes");
+  }
+  std::string line;
+  if (!std::getline(file, line) || line != kHeader) {
+    throw UserError(path.string(), 1, "",
+                    "not a family, expected the header " + std::string(kHeader));
+  }
+  FamilyTable table;
+  table.columns = {"member", "omega_spread", "xi_max"};
+  for (int number = 2; std::getline(file, line); ++number) {
+    const std::vector<std::string> cells = Split(line);
+    if (cells.size() != kNumbers.size() + 2) {
+      throw UserError(path.string(), number, "",
+                      std::to_string(cells.size()) + " columns, expected " +
+                          std::to_string(kNumbers.size() + 2));
+    }
+    const double member = ParseCell(cells[0], path, number, "member");
+    if (table.rows.empty() || table.rows.back()[0] != member) {
+      table.rows.push_back({member, 0.0, 0.0});
+    }
+    if (table.rows.size() == 1) {
+      table.experiments.push_back(cells[1]);
+      for (const char* column : kNumbers) table.columns.push_back(cells[1] + "." + column);
+    }
+    for (std::size_t k = 0; k < kNumbers.size(); ++k) {
+      table.rows.back().push_back(ParseCell(cells[k + 2], path, number, kNumbers[k]));
+    }
+  }
+  for (const std::vector<double>& row : table.rows) {
+    if (row.size() != table.columns.size()) {
+      throw UserError(
+          path.string(), 0, "member " + std::to_string(static_cast<int>(row[0])),
+          "not a row for each experiment, expected " + std::to_string(table.experiments.size()));
+    }
+  }
+  AddSummary(table);
+  return table;
+}
+
+}  // namespace howl

@@ -1,0 +1,19 @@
+// solution.json, schema howl.solution/1: what `howl fit` found.
+#ifndef HOWL_IO_RESULTS_SOLUTION_JSON_H_
+#define HOWL_IO_RESULTS_SOLUTION_JSON_H_
+
+#include <nlohmann/json.hpp>
+
+#include "estimation/joint_fit.h"
+
+namespace howl {
+
+// Numbers that are not known or not finite become null.
+nlohmann::ordered_json SolutionJson(const JointProblem& problem, const JointFit& fit);
+
+// A number, or null where it is not finite.
+nlohmann::ordered_json NumberOrNull(double value);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_RESULTS_SOLUTION_JSON_H_
