@@ -50,7 +50,7 @@ std::string ExpandEnvironment(const ConfigCursor& file) {
 RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file) {
   const ConfigCursor file = *record.Find("file");
   RecordSpec spec;
-  spec.file = config_file.parent_path() / ExpandEnvironment(file);
+  spec.file = (config_file.parent_path() / ExpandEnvironment(file)).lexically_normal();
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(spec.file, error);
   if (!std::filesystem::exists(status)) {

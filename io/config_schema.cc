@@ -20,6 +20,8 @@ nlohmann::json ConfigSchemaFor(const std::string& operating_parameter) {
   nlohmann::json& properties = experiment["properties"];
   properties[operating_parameter] = properties["phi"];
   properties.erase("phi");
+  experiment["x-unknown-key"] =
+      "operating_parameter puts " + operating_parameter + " in the place of phi";
   for (nlohmann::json& key : experiment["required"]) {
     if (key == "phi") key = operating_parameter;
   }

@@ -57,6 +57,7 @@ void CheckSchema(const std::string& file, const LocatedNode& root, const nlohman
   std::optional<SchemaMistake> first;
   for (const valijson::ValidationResults::Error& error : results) {
     const Place place = Locate(error.context, root, schema);
+    if (first && place.node->line > first->line) continue;
     const auto mistake = ExplainMistake(*place.node, place.key, *place.schema, schema);
     if (mistake && (!first || mistake->line < first->line)) first = mistake;
   }

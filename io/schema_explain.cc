@@ -75,12 +75,15 @@ std::string ExplainType(const LocatedNode& node, const Json& schema) {
     case Kind::kBoolean: {
       const bool takes_text = Accepts(schema, "string");
       return shown + " means " + (node.boolean ? "true" : "false") + expected +
-             (takes_text ? " (in quotes it is text)" : "");
+             (takes_text ? "; in quotes it is text" : "");
     }
     case Kind::kInteger:
     case Kind::kNumber:
       if (!std::isfinite(node.number)) return shown + " is not a finite number" + expected;
-      if (Accepts(schema, "integer")) return shown + " is not a whole number" + expected;
+      if (Accepts(schema, "integer")) {
+        const bool is_whole = node.number == std::floor(node.number);
+        return shown + (is_whole ? " is out of range" : " is not a whole number") + expected;
+      }
       return shown + " is a number" + expected;
     case Kind::kText:
       if (IsNumberWanted(schema)) return ExplainTextForNumber(node, schema);

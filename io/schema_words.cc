@@ -62,7 +62,8 @@ std::string DescribeExpected(const Json& schema) {
   }
   if (Accepts(schema, "integer")) kinds.push_back("a whole number" + Range(schema));
   if (Accepts(schema, "number")) kinds.push_back("a number" + Range(schema));
-  if (Accepts(schema, "array")) kinds.push_back("a list");
+  if (Accepts(schema, "array"))
+    kinds.push_back(schema.contains("minItems") ? "a list with at least one item" : "a list");
   if (Accepts(schema, "object")) kinds.push_back("a mapping (key: value)");
   if (Accepts(schema, "boolean")) kinds.push_back("true or false");
   if (Accepts(schema, "null")) kinds.push_back("null");

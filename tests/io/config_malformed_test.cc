@@ -107,7 +107,8 @@ std::vector<Malformed> Cases() {
       {"NoExperiments", "title: t\n", 1, "experiments", "is missing", "a list"},
       {"NullExperiments", "title: t\nexperiments:\nmodel: {modes: 1}\n", 2, "experiments",
        "has no value", "a list"},
-      {"EmptyExperiments", "experiments: []\n", 1, "experiments", "list is empty", "a list"},
+      {"EmptyExperiments", "experiments: []\n", 1, "experiments", "list is empty",
+       "a list with at least one item"},
       {"UnknownAtTop", kGood + "modle: {modes: 1}\n", 3, "modle", "not a known key", "model"},
       {"Misspelt", Experiment("frequncy_hz: 219.9"), 4, e0 + ".frequncy_hz", "not a known key",
        "frequency_hz"},
@@ -134,7 +135,7 @@ std::vector<Malformed> Cases() {
        "a number (operating parameter"},
       {"NoRenamedPhi",
        "operating_parameter: air_slpm\nexperiments:\n  - {name: exp1, phi: 1, " + kNumbers + "}\n",
-       3, e0 + ".phi", "not a known key", "air_slpm"},
+       3, e0 + ".phi", "not a known key", "puts air_slpm in the place of phi"},
       {"NoName", "experiments:\n  - {phi: 0.56, " + kNumbers + "}\n", 2, e0 + ".name", "is missing",
        "text"},
       {"NoGain", Experiment("frequency_hz: 219.9\n    phase_deg: 0"), 2, e0 + ".gain", "is missing",
@@ -170,7 +171,7 @@ std::vector<Malformed> Cases() {
       {"FractionForCount", kGood + "solver: {starts: 7.5}\n", 3, "solver.starts",
        "7.5 is not a whole number", "a whole number from 1"},
       {"HugeCount", kGood + "solver: {starts: 123456789012345678901234567890}\n", 3,
-       "solver.starts", "not a whole number", "a whole number from 1"},
+       "solver.starts", "out of range", "a whole number from 1"},
       {"NumberForSwitch", Experiment("reliable: 1"), 4, e0 + ".reliable", "1 is a number",
        "true or false"},
       {"BooleanForName", "experiments:\n  - {name: on, phi: 1, " + kNumbers + "}\n", 2,
@@ -275,6 +276,7 @@ TEST_P(MalformedConfig, GivesOneLineWithLineKeyAndExpectation) {
   const Malformed& bad = GetParam();
   const ConfigFile file(bad.text);
   const std::string message = file.Mistake();
+  RecordProperty("message", message);
   ASSERT_NE(message, "") << "was accepted";
   std::string start = file.Path().string() + ":" + std::to_string(bad.line) + ": ";
   if (!bad.key.empty()) start += bad.key + ": ";

@@ -1,0 +1,163 @@
+// The schema's defaults are the structs' defaults, and a config with experiments alone has them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "io/config_schema.h"
+#include "io/config_sections.h"
+#include "io/nearest_key.h"
+#include "tests/io/config_file.h"
+
+namespace howl {
+namespace {
+
+using Json = nlohmann::json;
+
+// Values are compared as JSON text, which keeps a whole number and a number apart.
+using Defaults = std::map<std::string, std::string>;
+
+template <typename T>
+std::string Dump(const T& value) {
+  return Json(value).dump();
+}
+
+// What each "default" of the schema should be, by the schema's key path, from the structs.
+Defaults StructDefaults() {
+  const ConfigFile file(
+      "experiments:\n  - {name: a, phi: 1, frequency_hz: 1, phase_deg: 1, gain: 1}\n");
+  const Config config = LoadConfig(file.Path());
+  const RecordSpec record;
+  Defaults defaults = {
+      {"title", Dump(config.title)},
+      {"operating_parameter", Dump(config.operating_parameter)},
+      {"experiments[].reliable", Dump(config.experiments[0].experiment.reliable)},
+      {"experiments[].lines[].frequency_std_hz", Dump(ObservedLine().frequency_std_hz)},
+      {"experiments[].record.pressure", Dump(record.pressure)},
+      {"experiments[].record.pressure_scale", Dump(record.pressure_scale)},
+      {"experiments[].record.heat_release_scale", Dump(record.heat_release_scale)},
+      {"experiments[].record.start_s", Dump(record.start_s)},
+      {"model.modes", Dump(config.model.modes)},
+      {"model.harmonic_ratio", Dump(config.model.harmonic_ratio)},
+      {"residuals.unreliable_weight", Dump(config.residuals.unreliable_weight)},
+      {"solver.starts", Dump(config.solver.starts)},
+      {"solver.max_iterations", Dump(config.solver.max_iterations)},
+      {"family.members", Dump(config.family.members)},
+      {"family.width", Dump(config.family.width)},
+      {"family.test.gain_tolerance", Dump(config.family.test.gain_tolerance)},
+      {"family.test.phase_tolerance_deg", Dump(config.family.test.phase_tolerance_deg)},
+      {"family.test.loop_phase_tolerance_deg", Dump(config.family.test.loop_phase_tolerance_deg)},
+      {"family.test.loop_gain_min", Dump(config.family.test.loop_gain_min)},
+      {"family.test.second_crossing_tolerance_deg",
+       Dump(config.family.test.second_crossing_tolerance_deg)},
+      {"family.test.omega_spread_max", Dump(config.family.test.omega_spread_max)},
+      {"family.test.xi_max", Dump(config.family.test.xi_max)},
+      {"family.test.xi_increasing", Dump(config.family.test.xi_increasing)},
+      {"analysis.method", Dump(std::string(AnalysisMethodName(config.analysis.method)))},
+      {"analysis.harmonics", Dump(config.analysis.harmonics)},
+      {"analysis.max_lines", Dump(config.analysis.max_lines)},
+  };
+  for (const ParameterKind kind : kParameterKinds) {
+    const ParameterSpec& spec = config.model[kind];
+    const std::string key = "parameters." + std::string(ParameterName(kind));
+    defaults[key + ".scope"] =
+        Dump(spec.scope == ParameterScope::kShared ? "shared" : "experiment");
+    defaults[key + ".min"] = Dump(spec.min);
+    defaults[key + ".max"] = Dump(spec.max);
+    defaults[key + ".fixed"] = Dump(spec.fixed);
+  }
+  for (const ResidualKind kind : kResidualKinds) {
+    const ResidualSpec& spec = config.residuals[kind];
+    const std::string key = "residuals." + std::string(ResidualName(kind));
+    EXPECT_EQ(spec.loss, LossKind::kNone);
+    EXPECT_EQ(spec.form, EquationForm::kAuto);
+    defaults[key + ".enabled"] = Dump(spec.enabled);
+    defaults[key + "." + ResidualStdKey(kind)] = Dump(spec.std);
+    defaults[key + ".weight"] = Dump(spec.weight);
+    defaults[key + ".loss"] = Dump("none");
+    defaults[key + ".loss_scale"] = Dump(spec.loss_scale);
+    if (kind == ResidualKind::kGainEquality || kind == ResidualKind::kPhaseEquality) {
+      defaults[key + ".form"] = Dump("auto");
+    }
+  }
+  return defaults;
+}
+
+void CollectDefaults(const Json& schema, const std::string& path, Defaults& defaults) {
+  if (schema.contains("default")) defaults[path] = schema["default"].dump();
+  if (schema.contains("items")) {
+    CollectDefaults(ResolveRef(ConfigSchema(), schema["items"]), path + "[]", defaults);
+  }
+  if (!schema.contains("properties")) return;
+  for (const auto& [key, part] : schema["properties"].items()) {
+    CollectDefaults(ResolveRef(ConfigSchema(), part), JoinKey(path, key), defaults);
+  }
+}
+
+TEST(ConfigSchema, DefaultsAreThoseOfTheStructs) {
+  Defaults in_schema;
+  CollectDefaults(ConfigSchema(), "", in_schema);
+  const Defaults in_structs = StructDefaults();
+  for (const auto& [key, value] : in_structs) {
+    ASSERT_TRUE(in_schema.contains(key)) << key << " has no default in the schema";
+    EXPECT_EQ(in_schema[key], value) << key;
+  }
+  for (const auto& [key, value] : in_schema) {
+    EXPECT_TRUE(in_structs.contains(key)) << key << " is not checked";
+  }
+}
+
+// Every key has a description and refuses keys that it does not know.
+void CheckDocumented(const Json& schema, const std::string& path) {
+  ASSERT_TRUE(schema.contains("description")) << path;
+  EXPECT_TRUE(schema.contains("type")) << path;
+  EXPECT_LE(schema["description"].get_ref<const std::string&>().size(), 100u) << path;
+  if (schema.contains("items")) {
+    CheckDocumented(ResolveRef(ConfigSchema(), schema["items"]), path + "[]");
+  }
+  if (!schema.contains("properties")) return;
+  ASSERT_TRUE(schema.contains("additionalProperties")) << path;
+  EXPECT_EQ(schema["additionalProperties"], false) << path;
+  for (const auto& [key, part] : schema["properties"].items()) {
+    CheckDocumented(ResolveRef(ConfigSchema(), part), JoinKey(path, key));
+  }
+}
+
+TEST(ConfigSchema, EveryKeyIsDocumented) { CheckDocumented(ConfigSchema(), ""); }
+
+TEST(ConfigSchema, IsTheInstalledFile) {
+  std::ifstream file(std::string(HOWL_SOURCE_DIR) + "/io/config_schema.json");
+  EXPECT_EQ(Json::parse(file), ConfigSchema());
+}
+
+TEST(ConfigSchema, OperatingParameterReplacesPhi) {
+  const Json schema = ConfigSchemaFor("air_slpm");
+  const Json& experiment = schema["definitions"]["experiment"];
+  EXPECT_TRUE(experiment["properties"].contains("air_slpm"));
+  EXPECT_FALSE(experiment["properties"].contains("phi"));
+  EXPECT_EQ(experiment["required"], Json({"name", "air_slpm"}));
+  EXPECT_EQ(ConfigSchemaFor("phi"), ConfigSchema());
+}
+
+TEST(NearestKey, FindsSlipsUnitsAndShortForms) {
+  const std::vector<std::string> keys = {
+      "frequency_hz", "frequency_std_hz", "gain", "gain_std", "phase_deg", "tau_s", "xi", "N"};
+  EXPECT_EQ(NearestKey("fequency_hz", keys), "frequency_hz");           // a letter lost
+  EXPECT_EQ(NearestKey("frequencyy_hz", keys), "frequency_hz");         // a letter too many
+  EXPECT_EQ(NearestKey("frequency_std_zh", keys), "frequency_std_hz");  // two exchanged
+  EXPECT_EQ(NearestKey("gian", keys), "gain");
+  EXPECT_EQ(NearestKey("phase_rad", keys), "phase_deg");
+  EXPECT_EQ(NearestKey("tau_ms", keys), "tau_s");
+  EXPECT_EQ(NearestKey("freq", keys), "frequency_hz");
+  EXPECT_EQ(NearestKey("XI", keys), "xi");
+  EXPECT_EQ(NearestKey("n", keys), "N");
+  EXPECT_EQ(NearestKey("colour", keys), std::nullopt);
+  EXPECT_EQ(NearestKey("", keys), std::nullopt);
+  EXPECT_EQ(NearestKey(std::string(100000, 'x'), keys), std::nullopt);
+}
+
+}  // namespace
+}  // namespace howl
