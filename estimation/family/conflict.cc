@@ -1,0 +1,148 @@
+#include "estimation/family/conflict.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "estimation/family/feasible.h"
+#include "estimation/family/parallel.h"
+
+namespace howl {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double* Tolerance(MembershipTest& test, Condition condition) {
+  switch (condition) {
+    case Condition::kGain:
+      return &test.gain_tolerance;
+    case Condition::kPhase:
+      return &test.phase_tolerance_deg;
+    case Condition::kLoopPhase:
+      return &test.loop_phase_tolerance_deg;
+    case Condition::kLoopGain:
+      return &test.loop_gain_min;
+    case Condition::kSecondCrossing:
+      return &test.second_crossing_tolerance_deg;
+    case Condition::kOmegaSpread:
+      return &test.omega_spread_max;
+    case Condition::kXiMax:
+      return &test.xi_max;
+    case Condition::kXiIncreasing:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+void SwitchOff(MembershipTest& test, Condition condition) {
+  if (double* const value = Tolerance(test, condition)) {
+    *value = condition == Condition::kLoopGain ? 0.0 : kInfinity;
+  } else {
+    test.xi_increasing = false;
+  }
+}
+
+Feasibility DecideWith(FamilyProblem problem, unsigned kept) {
+  for (std::size_t k = 0; k < kNumConditions; ++k) {
+    if (!((kept >> k) & 1u)) SwitchOff(problem.test, kConditions[k]);
+  }
+  return DecideFeasible(problem);
+}
+
+Relaxation Relax(const FamilyProblem& problem, Condition condition, bool searching) {
+  Relaxation relaxation{.condition = condition, .value = 1.0, .needed = std::nullopt};
+  FamilyProblem at = problem;
+  double* const value = Tolerance(at.test, condition);
+  if (value != nullptr) relaxation.value = *value;
+  SwitchOff(at.test, condition);
+  relaxation.suffices = DecideFeasible(at) == Feasibility::kMember;
+  if (value == nullptr) return relaxation;
+  if (!relaxation.suffices) return relaxation;
+  // The family only grows with a tolerance: bisection between too tight and wide enough.
+  double tight = relaxation.value;
+  double wide = condition == Condition::kLoopGain ? 0.0 : std::max(tight, 1e-3) * 2.0;
+  for (int doubling = 0; condition != Condition::kLoopGain && doubling < 40; ++doubling) {
+    *value = wide;
+    if (DecideFeasible(at) == Feasibility::kMember) break;
+    tight = wide;
+    wide *= 2.0;
+  }
+  const double precision = searching ? 1e-3 : 1e-12;
+  while (std::abs(wide - tight) > precision * std::max(std::abs(wide), std::abs(tight))) {
+    const double middle = 0.5 * (tight + wide);
+    *value = middle;
+    (DecideFeasible(at) == Feasibility::kMember ? wide : tight) = middle;
+  }
+  relaxation.needed = wide;
+  return relaxation;
+}
+
+}  // namespace
+
+MembershipTest KeepConditions(const MembershipTest& test, const ConditionSet& kept) {
+  MembershipTest result = test;
+  for (const Condition condition : kConditions) {
+    if (!kept.Contains(condition)) SwitchOff(result, condition);
+  }
+  return result;
+}
+
+Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
+  Conflict conflict;
+  const Feasibility whole = DecideFeasible(problem);
+  conflict.is_empty = whole != Feasibility::kMember;
+  conflict.proved = whole == Feasibility::kEmpty;
+  if (!conflict.is_empty) return conflict;
+
+  std::vector<unsigned> minimal;
+  for (int size = 0; size <= static_cast<int>(kNumConditions); ++size) {
+    std::vector<unsigned> candidates;
+    for (unsigned set = 0; set < (1u << kNumConditions); ++set) {
+      if (std::popcount(set) != size) continue;
+      const bool contains_smaller = std::any_of(
+          minimal.begin(), minimal.end(), [&](unsigned smaller) { return (set & smaller) == smaller; });
+      if (!contains_smaller) candidates.push_back(set);
+    }
+    std::vector<Feasibility> answers(candidates.size());
+    RunUnits(candidates.size(), threads,
+             [&](std::size_t k) { answers[k] = DecideWith(problem, candidates[k]); });
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (answers[k] == Feasibility::kMember) continue;
+      conflict.proved &= answers[k] == Feasibility::kEmpty;
+      minimal.push_back(candidates[k]);
+    }
+  }
+  unsigned in_all = ~0u;
+  for (const unsigned set : minimal) {
+    in_all &= set;
+    std::vector<Condition> names;
+    for (std::size_t k = 0; k < kNumConditions; ++k) {
+      if ((set >> k) & 1u) names.push_back(kConditions[k]);
+    }
+    conflict.minimal_sets.push_back(std::move(names));
+  }
+  for (std::size_t k = 0; k < kNumConditions && !minimal.empty(); ++k) {
+    if ((in_all >> k) & 1u) {
+      conflict.relaxations.push_back(
+          Relax(problem, kConditions[k], whole == Feasibility::kNotFound));
+    }
+  }
+  return conflict;
+}
+
+std::vector<std::string_view> ConflictNames(const Conflict& conflict) {
+  std::vector<std::string_view> names;
+  for (const Condition condition : kConditions) {
+    for (const std::vector<Condition>& set : conflict.minimal_sets) {
+      if (std::find(set.begin(), set.end(), condition) != set.end()) {
+        names.push_back(ConditionName(condition));
+        break;
+      }
+    }
+  }
+  return names;
+}
+
+}  // namespace howl

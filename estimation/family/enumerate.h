@@ -1,0 +1,64 @@
+// Members of the family, spread over the whole set.
+//
+// Each member is built rather than guessed: the window that omega_spread_max allows is placed
+// first, then the shared parameters, then xi in random order within the interval that window,
+// phase tolerance and the chain of xi leave to it (exact for one mode), then phase, gain and loop
+// phase error within their tolerances. The closed form (one mode) or the root of the two-mode
+// equation gives the parameters, and the falsification test has the last word. The density is broad, not
+// uniform: see estimation/family/sample.h for uniform members.
+#ifndef HOWL_ESTIMATION_FAMILY_ENUMERATE_H_
+#define HOWL_ESTIMATION_FAMILY_ENUMERATE_H_
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "estimation/family/problem.h"
+#include "estimation/family/random.h"
+
+namespace howl {
+
+struct EnumerationCounts {
+  std::size_t requested = 0;
+  std::size_t drawn = 0;     // attempts
+  std::size_t complete = 0;  // attempts that reached a full set of parameters and were tested
+  std::size_t members = 0;   // of these, the ones that passed
+};
+
+struct Enumeration {
+  std::vector<Member> members;
+  EnumerationCounts counts;
+};
+
+// Draws one candidate member at a time. Immutable after construction: one object serves all
+// threads.
+class MemberDrawer {
+ public:
+  explicit MemberDrawer(const FamilyProblem& problem);
+  ~MemberDrawer();
+  MemberDrawer(const MemberDrawer&) = delete;
+  MemberDrawer& operator=(const MemberDrawer&) = delete;
+
+  // False when a pilot search found no place where a member may be.
+  bool HasSupport() const;
+  // One attempt; true when `models` (one for each experiment) is a member. `complete` tells
+  // whether the attempt reached the test at all.
+  bool Draw(UnitRandom& random, Member& models, bool& complete) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Up to `count` members: fewer where attempts run out, none where the family is (or seems) empty.
+// The same for a seed whatever the number of threads (0: all cores).
+Enumeration EnumerateMembers(const FamilyProblem& problem, std::size_t count, std::uint64_t seed,
+                             int threads = 1);
+
+Enumeration EnumerateMembers(const std::vector<Experiment>& experiments, const ModelSpec& model,
+                             const MembershipTest& test, std::size_t count, std::uint64_t seed,
+                             int threads = 1);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_FAMILY_ENUMERATE_H_

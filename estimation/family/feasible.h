@@ -1,0 +1,24 @@
+// Whether a family has a member at all.
+#ifndef HOWL_ESTIMATION_FAMILY_FEASIBLE_H_
+#define HOWL_ESTIMATION_FAMILY_FEASIBLE_H_
+
+#include "estimation/family/problem.h"
+
+namespace howl {
+
+enum class Feasibility {
+  kMember,    // a member exists
+  kEmpty,     // proved that none does
+  kNotFound,  // a search found none, without proof
+};
+
+// One mode without a shared N or tau and without bounds on N, tau or omega: the windows of
+// estimation/family/window.h decide, exactly and in microseconds.
+bool HasExactWindows(const FamilyProblem& problem);
+
+// kEmpty and kMember up to rounding (1e-9 of a tolerance).
+Feasibility DecideFeasible(const FamilyProblem& problem);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_FAMILY_FEASIBLE_H_
