@@ -6,12 +6,17 @@
 
 #include "app/options.h"
 #include "estimation/experiment.h"
+#include "estimation/family/problem.h"
 #include "io/config.h"
 
 namespace howl {
 
 // Published numbers as they are.
 std::vector<Experiment> LoadExperiments(const Config& config, const Options& options);
+
+// The family's problem. Only bounds that the config gives limit it: the guard rails of a fit do not
+// belong to the falsification test.
+FamilyProblem MakeFamilyProblem(const Config& config, std::vector<Experiment> experiments);
 
 }  // namespace howl
 

@@ -1,0 +1,66 @@
+#include "io/results/family_json.h"
+
+#include "io/results/solution_json.h"
+
+namespace howl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json TestJson(const MembershipTest& test) {
+  return {{"gain_tolerance", NumberOrNull(test.gain_tolerance)},
+          {"phase_tolerance_deg", NumberOrNull(test.phase_tolerance_deg)},
+          {"loop_phase_tolerance_deg", NumberOrNull(test.loop_phase_tolerance_deg)},
+          {"loop_gain_min", NumberOrNull(test.loop_gain_min)},
+          {"second_crossing_tolerance_deg", NumberOrNull(test.second_crossing_tolerance_deg)},
+          {"omega_spread_max", NumberOrNull(test.omega_spread_max)},
+          {"xi_max", NumberOrNull(test.xi_max)},
+          {"xi_increasing", test.xi_increasing}};
+}
+
+Json ConflictJson(const Conflict& conflict) {
+  Json sets = Json::array();
+  for (const std::vector<Condition>& set : conflict.minimal_sets) {
+    Json names = Json::array();
+    for (const Condition condition : set) names.push_back(ConditionName(condition));
+    sets.push_back(std::move(names));
+  }
+  Json relaxations = Json::array();
+  for (const Relaxation& relaxation : conflict.relaxations) {
+    relaxations.push_back(
+        {{"condition", ConditionName(relaxation.condition)},
+         {"suffices", relaxation.suffices},
+         {"value", NumberOrNull(relaxation.value)},
+         {"needed", relaxation.needed ? NumberOrNull(*relaxation.needed) : Json(nullptr)}});
+  }
+  return {{"proved", conflict.proved}, {"minimal_sets", sets}, {"relaxations", relaxations}};
+}
+
+}  // namespace
+
+Json FamilyJson(const FamilyProblem& problem, const Enumeration& enumeration,
+                const Conflict& conflict) {
+  Json empty_because = Json::array();
+  for (const std::string_view name : ConflictNames(conflict)) empty_because.push_back(name);
+  Json json = {{"schema", "howl.family/1"},
+               {"test", TestJson(problem.test)},
+               {"counts",
+                {{"members", enumeration.counts.members},
+                 {"requested", enumeration.counts.requested},
+                 {"drawn", enumeration.counts.drawn},
+                 {"tested", enumeration.counts.complete}}},
+               {"empty_because", empty_because}};
+  if (conflict.is_empty) json["conflict"] = ConflictJson(conflict);
+  return json;
+}
+
+std::string TradeoffCsv(std::span<const TradeoffPoint> points) {
+  std::string text = "omega_spread,xi_max\n";
+  for (const TradeoffPoint& point : points) {
+    if (!point.xi_max) continue;
+    text += Json(point.omega_spread).dump() + "," + Json(*point.xi_max).dump() + "\n";
+  }
+  return text;
+}
+
+}  // namespace howl
