@@ -75,7 +75,7 @@ std::string DescribeExpected(const Json& schema) {
 
 std::string DescribeValue(const LocatedNode& node) {
   constexpr std::size_t kLongest = 40;
-  const std::string text =
+  std::string text =
       node.text.size() > kLongest ? node.text.substr(0, kLongest) + "..." : node.text;
   switch (node.kind) {
     case LocatedNode::Kind::kNull:

@@ -25,6 +25,9 @@ std::string ParseExpectation(const std::string& message) {
   if (says("end of map") || says("end of sequence")) {
     return "the keys of one mapping, or the dashes of one list, in the same column";
   }
+  if (says("alias") || says("block scalar")) return "quotes around text that starts with * | or >";
+  if (says("unknown token")) return "quotes around text that starts with % @ or a backtick";
+  if (says("block entry")) return "a list's dashes on lines of their own, below its key";
   if (says("anchor")) return "an anchor (&name) above its alias (*name)";
   if (says("EOF in scalar")) return "a closing quote";
   if (says("escape")) return "single quotes around text that has a backslash";
