@@ -6,7 +6,7 @@
 #include "estimation/family/conflict.h"
 #include "estimation/family/enumerate.h"
 #include "estimation/family/tradeoff.h"
-#include "io/config.h"
+#include "io/config/config.h"
 #include "io/results/family_csv.h"
 #include "io/results/family_json.h"
 #include "io/results/whole_file.h"

@@ -8,7 +8,7 @@
 
 #include "app/command.h"
 #include "app/text_table.h"
-#include "io/config.h"
+#include "io/config/config.h"
 #include "io/results/family_csv.h"
 
 namespace howl {

@@ -7,7 +7,7 @@
 #include "app/options.h"
 #include "estimation/experiment.h"
 #include "estimation/family/problem.h"
-#include "io/config.h"
+#include "io/config/config.h"
 
 namespace howl {
 

@@ -11,7 +11,7 @@
 #include "app/text_table.h"
 #include "estimation/family/tradeoff.h"
 #include "estimation/joint_fit.h"
-#include "io/config.h"
+#include "io/config/config.h"
 #include "io/results/family_json.h"
 #include "io/results/solution_json.h"
 #include "io/results/whole_file.h"

@@ -93,13 +93,17 @@ void ExpectMembersFulfilTheSeedsEquations(const std::string& config, bool one_mo
                 0.5 + 1e-9);
       const std::complex<double> L = s * G * std::exp(-row.tau_s * s);
       EXPECT_LE(std::abs(AngleDeg(-L)), 1.0 + 1e-9);
-      if (measured.reliable) EXPECT_GE(std::abs(L * measured.flame_slope), 1.0 - 1e-9);
+      if (measured.reliable) {
+        EXPECT_GE(std::abs(L * measured.flame_slope), 1.0 - 1e-9);
+      }
       EXPECT_GT(row.xi, 0.0);
       EXPECT_LE(row.xi, xi_max);
       EXPECT_GE(row.xi, last_xi);
       last_xi = row.xi;
       // p lags q at every operating point, so that omega lies below the limit cycle's frequency.
-      if (one_mode) EXPECT_LT(row.omega_hz, measured.frequency_hz);
+      if (one_mode) {
+        EXPECT_LT(row.omega_hz, measured.frequency_hz);
+      }
       omega_min = std::min(omega_min, row.omega_hz);
       omega_max = std::max(omega_max, row.omega_hz);
     }
@@ -229,11 +233,11 @@ TEST(Regress, StoredResultsAreReproducedAndAMovedValueIsNamed) {
 
 TEST(CommandLine, MistakesAreOneLineAndStatusTwo) {
   const std::string config = Config("r228");
-  for (const std::string arguments :
-       {std::string("nonsense"), std::string("fit"), "fit " + config + " --threads 0",
-        "fit " + config + " --threads", "fit " + config + " --seed -3",
-        "fit " + config + " --nonsense", "fit " + config + " " + config, "fit /nowhere/a.yaml",
-        "fit " + config + " --out /proc/nowhere", "fit " + config + " --quiet=3"}) {
+  for (const std::string& arguments : std::vector<std::string>{
+           "nonsense", "fit", "fit " + config + " --threads 0", "fit " + config + " --threads",
+           "fit " + config + " --seed -3", "fit " + config + " --nonsense",
+           "fit " + config + " " + config, "fit /nowhere/a.yaml",
+           "fit " + config + " --out /proc/nowhere", "fit " + config + " --quiet=3"}) {
     const ProgramResult run = RunHowl(arguments);
     EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << arguments << "\n" << run.err;

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "io/config_schema.h"
-#include "io/config_sections.h"
-#include "io/nearest_key.h"
+#include "io/config/config_schema.h"
+#include "io/config/config_sections.h"
+#include "io/config/nearest_key.h"
 #include "tests/io/config_file.h"
 
 namespace howl {
@@ -79,6 +79,7 @@ Defaults StructDefaults() {
     defaults[key + ".weight"] = Dump(spec.weight);
     defaults[key + ".loss"] = Dump("none");
     defaults[key + ".loss_scale"] = Dump(spec.loss_scale);
+    if (kind == ResidualKind::kDampingPrior) defaults[key + ".xi_typical"] = Dump(spec.center);
     if (kind == ResidualKind::kGainEquality || kind == ResidualKind::kPhaseEquality) {
       defaults[key + ".form"] = Dump("auto");
     }
@@ -129,7 +130,7 @@ void CheckDocumented(const Json& schema, const std::string& path) {
 TEST(ConfigSchema, EveryKeyIsDocumented) { CheckDocumented(ConfigSchema(), ""); }
 
 TEST(ConfigSchema, IsTheInstalledFile) {
-  std::ifstream file(std::string(HOWL_SOURCE_DIR) + "/io/config_schema.json");
+  std::ifstream file(std::string(HOWL_SOURCE_DIR) + "/io/config/config_schema.json");
   EXPECT_EQ(Json::parse(file), ConfigSchema());
 }
 

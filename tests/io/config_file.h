@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "io/config.h"
+#include "io/config/config.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -1,5 +1,5 @@
 // Well-formed configs: every key ends where it should.
-#include "io/config.h"
+#include "io/config/config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

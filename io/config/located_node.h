@@ -1,6 +1,6 @@
 // A YAML document as a tree whose every node knows its line. Scalars keep the text as written.
-#ifndef HOWL_IO_LOCATED_NODE_H_
-#define HOWL_IO_LOCATED_NODE_H_
+#ifndef HOWL_IO_CONFIG_LOCATED_NODE_H_
+#define HOWL_IO_CONFIG_LOCATED_NODE_H_
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
@@ -46,4 +46,4 @@ std::string JoinKey(const std::string& parent, const std::string& key);
 
 }  // namespace howl
 
-#endif  // HOWL_IO_LOCATED_NODE_H_
+#endif  // HOWL_IO_CONFIG_LOCATED_NODE_H_

@@ -1,10 +1,10 @@
 // One reader for each section of a config that has passed the schema's check. Each states the rules
 // that a schema cannot, and throws UserError where one is broken.
-#ifndef HOWL_IO_CONFIG_SECTIONS_H_
-#define HOWL_IO_CONFIG_SECTIONS_H_
+#ifndef HOWL_IO_CONFIG_CONFIG_SECTIONS_H_
+#define HOWL_IO_CONFIG_CONFIG_SECTIONS_H_
 
-#include "io/config.h"
-#include "io/config_cursor.h"
+#include "io/config/config.h"
+#include "io/config/config_cursor.h"
 
 namespace howl {
 
@@ -27,4 +27,4 @@ const char* ResidualStdKey(ResidualKind kind);
 
 }  // namespace howl
 
-#endif  // HOWL_IO_CONFIG_SECTIONS_H_
+#endif  // HOWL_IO_CONFIG_CONFIG_SECTIONS_H_

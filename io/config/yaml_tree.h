@@ -1,11 +1,11 @@
 // YAML text to a LocatedNode, refusing what is legal YAML but never meant in a config: a key given
 // twice, aliases that loop or explode, endless nesting, keys that are not text, a second document.
-#ifndef HOWL_IO_YAML_TREE_H_
-#define HOWL_IO_YAML_TREE_H_
+#ifndef HOWL_IO_CONFIG_YAML_TREE_H_
+#define HOWL_IO_CONFIG_YAML_TREE_H_
 
 #include <string>
 
-#include "io/located_node.h"
+#include "io/config/located_node.h"
 
 namespace howl {
 
@@ -14,4 +14,4 @@ LocatedNode ParseYaml(const std::string& file, const std::string& text);
 
 }  // namespace howl
 
-#endif  // HOWL_IO_YAML_TREE_H_
+#endif  // HOWL_IO_CONFIG_YAML_TREE_H_

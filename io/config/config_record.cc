@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "io/config_sections.h"
+#include "io/config/config_sections.h"
 
 namespace howl {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/config_text.h"
+#include "io/config/config_text.h"
 
 #include <array>
 #include <cctype>

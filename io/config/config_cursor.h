@@ -1,13 +1,13 @@
 // A place in a config that has passed the schema's check: reads values into structs, and says where
 // it is when a rule beyond the schema is broken.
-#ifndef HOWL_IO_CONFIG_CURSOR_H_
-#define HOWL_IO_CONFIG_CURSOR_H_
+#ifndef HOWL_IO_CONFIG_CONFIG_CURSOR_H_
+#define HOWL_IO_CONFIG_CONFIG_CURSOR_H_
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "io/located_node.h"
+#include "io/config/located_node.h"
 
 namespace howl {
 
@@ -49,4 +49,4 @@ class ConfigCursor {
 
 }  // namespace howl
 
-#endif  // HOWL_IO_CONFIG_CURSOR_H_
+#endif  // HOWL_IO_CONFIG_CONFIG_CURSOR_H_

@@ -1,4 +1,4 @@
-#include "io/located_node.h"
+#include "io/config/located_node.h"
 
 #include <charconv>
 #include <cmath>

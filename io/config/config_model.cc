@@ -1,7 +1,7 @@
 #include <array>
 #include <cstdio>
 
-#include "io/config_sections.h"
+#include "io/config/config_sections.h"
 
 namespace howl {
 namespace {

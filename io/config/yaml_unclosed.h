@@ -1,7 +1,7 @@
 // Brackets and quotes that nothing closes. The YAML parser notices a missing bracket far below the
 // line to mend, or takes what it opens for a key, and it takes a missing quote for the file's end.
-#ifndef HOWL_IO_YAML_UNCLOSED_H_
-#define HOWL_IO_YAML_UNCLOSED_H_
+#ifndef HOWL_IO_CONFIG_YAML_UNCLOSED_H_
+#define HOWL_IO_CONFIG_YAML_UNCLOSED_H_
 
 #include <optional>
 #include <string>
@@ -22,4 +22,4 @@ bool IsUnclosedQuote(const std::string& text, int line, int column);
 
 }  // namespace howl
 
-#endif  // HOWL_IO_YAML_UNCLOSED_H_
+#endif  // HOWL_IO_CONFIG_YAML_UNCLOSED_H_

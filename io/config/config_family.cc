@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "io/config_sections.h"
+#include "io/config/config_sections.h"
 
 namespace howl {
 namespace {

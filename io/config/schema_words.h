@@ -1,13 +1,13 @@
 // The schema's rules and a config's values as words of a message.
-#ifndef HOWL_IO_SCHEMA_WORDS_H_
-#define HOWL_IO_SCHEMA_WORDS_H_
+#ifndef HOWL_IO_CONFIG_SCHEMA_WORDS_H_
+#define HOWL_IO_CONFIG_SCHEMA_WORDS_H_
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "io/located_node.h"
+#include "io/config/located_node.h"
 
 namespace howl {
 
@@ -34,4 +34,4 @@ std::optional<std::string> OnlyPlaceOf(const std::string& key, const nlohmann::j
 
 }  // namespace howl
 
-#endif  // HOWL_IO_SCHEMA_WORDS_H_
+#endif  // HOWL_IO_CONFIG_SCHEMA_WORDS_H_

@@ -1,4 +1,4 @@
-#include "io/config_cursor.h"
+#include "io/config/config_cursor.h"
 
 #include <glog/logging.h>
 

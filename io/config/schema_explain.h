@@ -1,12 +1,12 @@
 // A broken rule of the schema in words: what is wrong, what was expected.
-#ifndef HOWL_IO_SCHEMA_EXPLAIN_H_
-#define HOWL_IO_SCHEMA_EXPLAIN_H_
+#ifndef HOWL_IO_CONFIG_SCHEMA_EXPLAIN_H_
+#define HOWL_IO_CONFIG_SCHEMA_EXPLAIN_H_
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
-#include "io/located_node.h"
+#include "io/config/located_node.h"
 
 namespace howl {
 
@@ -24,4 +24,4 @@ std::optional<SchemaMistake> ExplainMistake(const LocatedNode& node, const std::
 
 }  // namespace howl
 
-#endif  // HOWL_IO_SCHEMA_EXPLAIN_H_
+#endif  // HOWL_IO_CONFIG_SCHEMA_EXPLAIN_H_

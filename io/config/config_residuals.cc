@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "io/config_sections.h"
-#include "io/schema_words.h"
+#include "io/config/config_sections.h"
+#include "io/config/schema_words.h"
 
 namespace howl {
 namespace {

@@ -1,6 +1,6 @@
 // A config's bytes, checked before any parser sees them.
-#ifndef HOWL_IO_CONFIG_TEXT_H_
-#define HOWL_IO_CONFIG_TEXT_H_
+#ifndef HOWL_IO_CONFIG_CONFIG_TEXT_H_
+#define HOWL_IO_CONFIG_CONFIG_TEXT_H_
 
 #include <cstddef>
 #include <filesystem>
@@ -22,4 +22,4 @@ std::string KeyNearLine(const std::string& text, int line);
 
 }  // namespace howl
 
-#endif  // HOWL_IO_CONFIG_TEXT_H_
+#endif  // HOWL_IO_CONFIG_CONFIG_TEXT_H_

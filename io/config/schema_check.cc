@@ -1,6 +1,6 @@
 // valijson decides whether and where the tree breaks the schema; what is said of the place comes
 // from io/schema_explain.
-#include "io/schema_check.h"
+#include "io/config/schema_check.h"
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,8 +10,8 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
-#include "io/config_schema.h"
-#include "io/schema_explain.h"
+#include "io/config/config_schema.h"
+#include "io/config/schema_explain.h"
 #include "io/user_error.h"
 
 namespace howl {

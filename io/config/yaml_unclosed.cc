@@ -1,4 +1,4 @@
-#include "io/yaml_unclosed.h"
+#include "io/config/yaml_unclosed.h"
 
 #include <cstddef>
 #include <string_view>

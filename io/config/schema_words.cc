@@ -1,12 +1,12 @@
-#include "io/schema_words.h"
+#include "io/config/schema_words.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "io/config_schema.h"
-#include "io/nearest_key.h"
+#include "io/config/config_schema.h"
+#include "io/config/nearest_key.h"
 
 namespace howl {
 namespace {

@@ -1,6 +1,6 @@
 // Turns the YAML parser's events into a LocatedNode.
-#ifndef HOWL_IO_TREE_BUILDER_H_
-#define HOWL_IO_TREE_BUILDER_H_
+#ifndef HOWL_IO_CONFIG_TREE_BUILDER_H_
+#define HOWL_IO_CONFIG_TREE_BUILDER_H_
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/mark.h>
@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/located_node.h"
+#include "io/config/located_node.h"
 
 namespace howl {
 
@@ -75,4 +75,4 @@ class TreeBuilder : public YAML::EventHandler {
 
 }  // namespace howl
 
-#endif  // HOWL_IO_TREE_BUILDER_H_
+#endif  // HOWL_IO_CONFIG_TREE_BUILDER_H_

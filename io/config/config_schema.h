@@ -1,6 +1,6 @@
 // The config's JSON schema (draft 7), from io/config_schema.json at build time.
-#ifndef HOWL_IO_CONFIG_SCHEMA_H_
-#define HOWL_IO_CONFIG_SCHEMA_H_
+#ifndef HOWL_IO_CONFIG_CONFIG_SCHEMA_H_
+#define HOWL_IO_CONFIG_CONFIG_SCHEMA_H_
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -17,4 +17,4 @@ const nlohmann::json& ResolveRef(const nlohmann::json& root, const nlohmann::jso
 
 }  // namespace howl
 
-#endif  // HOWL_IO_CONFIG_SCHEMA_H_
+#endif  // HOWL_IO_CONFIG_CONFIG_SCHEMA_H_

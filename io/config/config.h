@@ -1,8 +1,8 @@
 // The config: one YAML file that states a problem. Only `experiments` is needed; all else has the
 // defaults of the structs below, which the schema (io/config_schema.json) repeats. Keys carry their
 // unit; what the options of a command set (seed, threads, output folder) is not here.
-#ifndef HOWL_IO_CONFIG_H_
-#define HOWL_IO_CONFIG_H_
+#ifndef HOWL_IO_CONFIG_CONFIG_H_
+#define HOWL_IO_CONFIG_CONFIG_H_
 
 #include <filesystem>
 #include <optional>
@@ -44,4 +44,4 @@ Config LoadConfig(const std::filesystem::path& path);
 
 }  // namespace howl
 
-#endif  // HOWL_IO_CONFIG_H_
+#endif  // HOWL_IO_CONFIG_CONFIG_H_

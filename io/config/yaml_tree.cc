@@ -1,4 +1,4 @@
-#include "io/yaml_tree.h"
+#include "io/config/yaml_tree.h"
 
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -7,10 +7,10 @@
 #include <optional>
 #include <sstream>
 
-#include "io/config_text.h"
-#include "io/tree_builder.h"
+#include "io/config/config_text.h"
+#include "io/config/tree_builder.h"
+#include "io/config/yaml_unclosed.h"
 #include "io/user_error.h"
-#include "io/yaml_unclosed.h"
 
 namespace howl {
 namespace {

@@ -1,6 +1,6 @@
 #include <map>
 
-#include "io/config_sections.h"
+#include "io/config/config_sections.h"
 
 namespace howl {
 namespace {

@@ -1,12 +1,12 @@
-#include "io/schema_explain.h"
+#include "io/config/schema_explain.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "io/config_schema.h"
-#include "io/nearest_key.h"
-#include "io/schema_words.h"
+#include "io/config/config_schema.h"
+#include "io/config/nearest_key.h"
+#include "io/config/schema_words.h"
 
 namespace howl {
 namespace {

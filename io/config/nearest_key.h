@@ -1,6 +1,6 @@
 // What a mistyped word was probably meant to be.
-#ifndef HOWL_IO_NEAREST_KEY_H_
-#define HOWL_IO_NEAREST_KEY_H_
+#ifndef HOWL_IO_CONFIG_NEAREST_KEY_H_
+#define HOWL_IO_CONFIG_NEAREST_KEY_H_
 
 #include <optional>
 #include <string>
@@ -16,4 +16,4 @@ std::optional<std::string> NearestKey(const std::string& word,
 
 }  // namespace howl
 
-#endif  // HOWL_IO_NEAREST_KEY_H_
+#endif  // HOWL_IO_CONFIG_NEAREST_KEY_H_

@@ -1,4 +1,4 @@
-#include "io/nearest_key.h"
+#include "io/config/nearest_key.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "io/config_schema.h"
+#include "io/config/config_schema.h"
 
 #include <glog/logging.h>
 

@@ -1,11 +1,11 @@
 // A config's tree against the config's schema.
-#ifndef HOWL_IO_SCHEMA_CHECK_H_
-#define HOWL_IO_SCHEMA_CHECK_H_
+#ifndef HOWL_IO_CONFIG_SCHEMA_CHECK_H_
+#define HOWL_IO_CONFIG_SCHEMA_CHECK_H_
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "io/located_node.h"
+#include "io/config/located_node.h"
 
 namespace howl {
 
@@ -14,4 +14,4 @@ void CheckSchema(const std::string& file, const LocatedNode& root, const nlohman
 
 }  // namespace howl
 
-#endif  // HOWL_IO_SCHEMA_CHECK_H_
+#endif  // HOWL_IO_CONFIG_SCHEMA_CHECK_H_

@@ -1,4 +1,4 @@
-#include "io/tree_builder.h"
+#include "io/config/tree_builder.h"
 
 #include <algorithm>
 

@@ -1,15 +1,15 @@
-#include "io/config.h"
+#include "io/config/config.h"
 
 #include <nlohmann/json.hpp>
 
-#include "io/config_cursor.h"
-#include "io/config_schema.h"
-#include "io/config_sections.h"
-#include "io/config_text.h"
-#include "io/schema_check.h"
-#include "io/schema_words.h"
+#include "io/config/config_cursor.h"
+#include "io/config/config_schema.h"
+#include "io/config/config_sections.h"
+#include "io/config/config_text.h"
+#include "io/config/schema_check.h"
+#include "io/config/schema_words.h"
+#include "io/config/yaml_tree.h"
 #include "io/user_error.h"
-#include "io/yaml_tree.h"
 
 namespace howl {
 namespace {
