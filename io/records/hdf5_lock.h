@@ -1,4 +1,5 @@
 // HDF5 is built without thread safety on most systems, and matio uses it too: one reader at a time.
+// It prints its own stack of errors unless told not to.
 #ifndef HOWL_IO_RECORDS_HDF5_LOCK_H_
 #define HOWL_IO_RECORDS_HDF5_LOCK_H_
 
@@ -6,10 +7,14 @@
 
 namespace howl {
 
-inline std::mutex& Hdf5Mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
+// Held while the library is used, and the library silent.
+class Hdf5Lock {
+ public:
+  Hdf5Lock();
+
+ private:
+  std::lock_guard<std::mutex> lock_;
+};
 
 }  // namespace howl
 

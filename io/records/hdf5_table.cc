@@ -17,6 +17,11 @@
 namespace howl {
 namespace {
 
+std::mutex& Hdf5Mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -32,12 +37,6 @@ class Handle {
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
-
-// The library prints its own stack of errors unless told not to.
-hid_t OpenQuietly(const char* file) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  return H5Fopen(file, H5F_ACC_RDONLY, H5P_DEFAULT);
-}
 
 std::string Problem(hid_t dataset, int rank) {
   const Handle type(H5Dget_type(dataset), H5Tclose);
@@ -75,13 +74,13 @@ herr_t AddDataset(hid_t root, const char* name, const H5O_info_t* info, void* ar
 class Hdf5Table final : public TableSource {
  public:
   explicit Hdf5Table(const std::filesystem::path& file)
-      : file_(file.string()), root_(OpenQuietly(file_.c_str()), H5Fclose) {
+      : file_(file.string()), root_(H5Fopen(file_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
     if (!root_.ok()) throw UserError(file_, 0, "", "truncated or damaged, expected an HDF5 file");
     H5Ovisit2(root_.get(), H5_INDEX_NAME, H5_ITER_INC, AddDataset, &arrays_, H5O_INFO_BASIC);
   }
 
   Columns Read(const std::vector<ColumnName>& names) override {
-    const std::lock_guard lock(Hdf5Mutex());
+    const Hdf5Lock lock;
     Columns columns;
     for (const ArrayChannel& channel : FindChannels(file_, arrays_, names)) {
       columns.push_back(ReadChannel(arrays_[channel.array], channel.channel));
@@ -127,7 +126,7 @@ class LockedHdf5Table final : public TableSource {
   explicit LockedHdf5Table(const std::filesystem::path& file)
       : table_(std::make_unique<Hdf5Table>(file)) {}
   ~LockedHdf5Table() override {
-    const std::lock_guard lock(Hdf5Mutex());
+    const Hdf5Lock lock;
     table_.reset();
   }
   Columns Read(const std::vector<ColumnName>& names) override { return table_->Read(names); }
@@ -138,8 +137,10 @@ class LockedHdf5Table final : public TableSource {
 
 }  // namespace
 
+Hdf5Lock::Hdf5Lock() : lock_(Hdf5Mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
 std::unique_ptr<TableSource> OpenHdf5Table(const std::filesystem::path& file) {
-  const std::lock_guard lock(Hdf5Mutex());
+  const Hdf5Lock lock;
   return std::make_unique<LockedHdf5Table>(file);
 }
 

@@ -2,6 +2,7 @@
 
 #include <matio.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -66,15 +67,17 @@ class MatTable final : public TableSource {
       }
       arrays_.push_back(array);
     }
+    std::sort(arrays_.begin(), arrays_.end(),
+              [](const ArrayInfo& a, const ArrayInfo& b) { return a.name < b.name; });
   }
 
   ~MatTable() override {
-    const std::lock_guard lock(Hdf5Mutex());
+    const Hdf5Lock lock;
     mat_.reset();
   }
 
   Columns Read(const std::vector<ColumnName>& names) override {
-    const std::lock_guard lock(Hdf5Mutex());
+    const Hdf5Lock lock;
     Columns columns;
     for (const ArrayChannel& channel : FindChannels(file_, arrays_, names)) {
       columns.push_back(ReadChannel(arrays_[channel.array], channel.channel));
@@ -152,7 +155,7 @@ class MatTable final : public TableSource {
 }  // namespace
 
 std::unique_ptr<TableSource> OpenMatTable(const std::filesystem::path& file) {
-  const std::lock_guard lock(Hdf5Mutex());
+  const Hdf5Lock lock;
   return std::make_unique<MatTable>(file);
 }
 

@@ -22,15 +22,14 @@ char FindSeparator(std::string_view line) {
 bool IsNumber(std::string_view field) { return ParseField(field).has_value(); }
 bool IsEmpty(std::string_view field) { return Trim(field).empty(); }
 
-// A line with numbers is a row, unless words stand beside plain integers: channels may be named by
-// number ("time,1,2"), while a typing error in a first row ("abc,0.31") must not pass as names.
+// A line with numbers is a row, unless a word stands before plain integers: channels may be named
+// by number ("time,1,2"), while a typing error in a first row ("1,abc") must not pass as names.
 bool IsHeader(const std::vector<std::string_view>& fields) {
   const auto is_name = [](std::string_view field) {
     return !IsNumber(field) || ColumnNumber(std::string(Unquote(field))) > 0;
   };
-  const auto is_word = [](std::string_view field) { return !IsEmpty(field) && !IsNumber(field); };
-  return std::all_of(fields.begin(), fields.end(), is_name) &&
-         std::any_of(fields.begin(), fields.end(), is_word);
+  return !IsEmpty(fields.front()) && !IsNumber(fields.front()) &&
+         std::all_of(fields.begin(), fields.end(), is_name);
 }
 
 bool IsUnitsLine(const std::vector<std::string_view>& fields) {

@@ -12,20 +12,39 @@ namespace {
 
 constexpr double kJitter = 0.1;  // of a step
 constexpr double kGap = 0.5;     // beyond a step, of a step: half a sample is missing
+constexpr double kFewSteps = 1e-3;
 constexpr std::size_t kLooked = 1000;
 
-// The coarsest 10^-k s on which the times lie, found to lie there within their own rounding.
+// The coarsest 10^-k s on which the times lie, found to lie there within their own rounding; 0
+// where that is too coarse to tell, and BinaryResolution the larger.
 double DecimalResolution(std::span<const double> times) {
   for (int decimals = 0; decimals <= 15; ++decimals) {
     const double per_second = std::pow(10.0, decimals);
     const bool on_grid = std::all_of(times.begin(), times.end(), [&](double time) {
       const double scaled = time * per_second;
-      const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(scaled);
-      return rounding < 0.1 && std::abs(scaled - std::round(scaled)) <= rounding;
+      const double rounding = std::numeric_limits<double>::epsilon() * std::abs(scaled);
+      return rounding < 0.5 && std::abs(scaled - std::round(scaled)) <= rounding;
     });
     if (on_grid) return 1.0 / per_second;
   }
   return 0.0;
+}
+
+// Times whose steps are one multiple of the grid, but for a few, were not rounded to it: the
+// sampling period is a decimal number itself, and the few are faults.
+bool IsSamplingGrid(std::span<const double> times, double grid_s) {
+  std::vector<double> some;
+  const std::size_t stride = std::max<std::size_t>(1, times.size() / kLooked);
+  for (std::size_t i = 1; i < times.size(); i += stride) some.push_back(times[i] - times[i - 1]);
+  if (some.empty()) return true;
+  const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+  std::nth_element(some.begin(), middle, some.end());
+  const double typical = std::round(*middle / grid_s);
+  std::size_t others = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    others += std::abs((times[i] - times[i - 1]) / grid_s - typical) > 0.5 ? 1 : 0;
+  }
+  return static_cast<double>(others) < kFewSteps * static_cast<double>(times.size());
 }
 
 double BinaryResolution(std::span<const double> times) {
@@ -36,29 +55,31 @@ double BinaryResolution(std::span<const double> times) {
     single_precision = single_precision && static_cast<double>(static_cast<float>(time)) == time;
   }
   return largest * (single_precision ? std::numeric_limits<float>::epsilon()
-                                     : std::numeric_limits<double>::epsilon());
+                                     : 2.0 * std::numeric_limits<double>::epsilon());
 }
 
 std::string Describe(const char* what, double step_s, double expected_s) {
-  return std::string(what) + " of " + NumberText(step_s, 6) + " s, expected even steps of " +
-         NumberText(expected_s, 6) + " s";
+  return std::string(what) + " of " + NumberText(step_s, 3) + " s, expected even steps of " +
+         NumberText(expected_s, 3) + " s";
 }
 
 }  // namespace
 
 double TimeResolution(std::span<const double> time_s) {
   const std::size_t looked = std::min(kLooked, time_s.size());
-  double resolution = 0.0;
+  double binary = 0.0;
+  double decimal = 0.0;
   // Numbers printed to a fixed count of digits have fewer decimals where they are large.
   for (const auto& part : {time_s.first(looked), time_s.last(looked)}) {
-    resolution = std::max({resolution, DecimalResolution(part), BinaryResolution(part)});
+    binary = std::max(binary, BinaryResolution(part));
+    decimal = std::max(decimal, DecimalResolution(part));
   }
-  return resolution;
+  return decimal > binary && !IsSamplingGrid(time_s, decimal) ? decimal : binary;
 }
 
 double TypicalStep(std::span<const double> time_s, double resolution_s) {
   const std::size_t n = time_s.size();
-  // Over enough samples that the resolution is a twentieth of the time between them.
+  // Over enough samples that the resolution is a hundredth of the time between them.
   for (std::size_t lag = 1; lag < n; lag *= 2) {
     std::vector<double> steps;
     const std::size_t stride = std::max<std::size_t>(1, (n - lag) / kLooked);
@@ -67,7 +88,7 @@ double TypicalStep(std::span<const double> time_s, double resolution_s) {
     }
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
-    if (*middle >= 20.0 * resolution_s || 4 * lag >= n) {
+    if (*middle >= 100.0 * resolution_s || 4 * lag >= n) {
       return std::max(0.0, *middle / static_cast<double>(lag));
     }
   }

@@ -27,12 +27,16 @@ std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 void ExpectAsStrtod(const std::string& text) {
   const double expected = std::strtod(text.c_str(), nullptr);
   const std::optional<double> fast = Fast(text);
-  if (fast) ASSERT_EQ(Bits(*fast), Bits(expected)) << text;
+  if (fast) {
+    ASSERT_EQ(Bits(*fast), Bits(expected)) << text;
+  }
   const std::optional<double> field = ParseField(text);
   ASSERT_TRUE(field) << text;
   ASSERT_EQ(Bits(*field), Bits(expected)) << text;
   // Only what a double cannot hold may leave the fast path.
-  if (std::isnormal(expected)) ASSERT_TRUE(fast) << text;
+  if (std::isnormal(expected)) {
+    ASSERT_TRUE(fast) << text;
+  }
 }
 
 std::string Digits(std::mt19937_64& random, int count) {
