@@ -36,8 +36,10 @@ void TextRows::MakeRoom(std::size_t bytes, double fraction) {
     if (most <= column.capacity()) continue;
     std::size_t room = std::max(most, column.capacity() + column.capacity() / 2);
     if (fraction > 0.0 && !column.empty()) {
+      // A start that is not like the rest (zeros in gzip) must not ask for the impossible.
       const double expected = 1.05 * static_cast<double>(column.size()) / fraction;
-      room = std::max(room, most + static_cast<std::size_t>(std::min(expected, 1e10)));
+      const double trusted = std::min(expected, 16.0 * static_cast<double>(most));
+      room = std::max(room, most + static_cast<std::size_t>(trusted));
     }
     column.reserve(room);
   }

@@ -84,6 +84,10 @@ void TextTable::ReadLayout() {
     while (at_ < blocks_->end()) {
       const auto* stop = static_cast<const char*>(
           std::memchr(at_, '\n', static_cast<std::size_t>(blocks_->end() - at_)));
+      if (const void* cr = std::memchr(at_, '\r', static_cast<std::size_t>(stop - at_));
+          cr != nullptr && cr != stop - 1) {
+        Fail(line_, "", "a carriage return inside a line, expected lines that end in LF or CRLF");
+      }
       const bool had_names = !layout_.names.empty();
       if (layout_.TakeLine(std::string_view(at_, static_cast<std::size_t>(stop - at_)))) return;
       if (!had_names && !layout_.names.empty()) header_line_ = line_;

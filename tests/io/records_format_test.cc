@@ -185,7 +185,24 @@ TEST_F(Formats, MatIntegersAndSinglePrecision) {
     variable = Mat_VarCreate("q", MAT_C_SINGLE, MAT_T_SINGLE, 2, sizes, volts.data(), 0);
     Mat_VarWrite(mat, variable, MAT_COMPRESSION_NONE);
     Mat_VarFree(variable);
+    // MATLAB 5 files hold doubles that are whole numbers as integers.
+    const bool packed = version == MAT_FT_MAT5;
+    variable = Mat_VarCreate("packed", MAT_C_DOUBLE, packed ? MAT_T_INT16 : MAT_T_DOUBLE, 2, sizes,
+                             nullptr, 0);
+    std::vector<double> doubles(counts.begin(), counts.end());
+    variable->data = packed ? static_cast<void*>(counts.data()) : doubles.data();
+    variable->data_size = packed ? 2 : 8;
+    variable->nbytes = kSamples * static_cast<std::size_t>(variable->data_size);
+    variable->mem_conserve = 1;
+    Mat_VarWrite(mat, variable, MAT_COMPRESSION_ZLIB);
+    variable->data = nullptr;
+    Mat_VarFree(variable);
     Mat_Close(mat);
+    for (const char* name : {"p", "packed"}) {
+      const RecordSpec spec{.file = folder_ / "a.mat", .pressure = name, .sampling_hz = 1.0};
+      ASSERT_EQ(LoadRecord(spec, "rig.yaml", 7).pressure,
+                std::vector<double>(counts.begin(), counts.end()));
+    }
     const Record record = LoadRecord({.file = folder_ / "a.mat",
                                       .pressure = "p",
                                       .heat_release = "q",
