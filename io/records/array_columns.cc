@@ -13,11 +13,12 @@ std::string Size(const ArrayInfo& array) {
 
 std::string ListArrays(const std::vector<ArrayInfo>& arrays) {
   std::vector<std::string> names;
+  names.reserve(arrays.size());
   for (const ArrayInfo& array : arrays) {
     names.push_back(array.name + " (" + (array.problem.empty() ? Size(array) : array.problem) +
                     ")");
   }
-  return names.empty() ? "nothing: the file is empty" : ListNames(names);
+  return ListNames(names);
 }
 
 class Finder {
@@ -93,6 +94,9 @@ class Finder {
 std::vector<ArrayChannel> FindChannels(const std::string& file,
                                        const std::vector<ArrayInfo>& arrays,
                                        const std::vector<ColumnName>& names) {
+  if (arrays.empty()) {
+    throw UserError(file, 0, "", "no variables, expected some: an empty or a truncated file");
+  }
   const Finder finder(file, arrays);
   std::vector<ArrayChannel> found;
   for (const ColumnName& name : names) {

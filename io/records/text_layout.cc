@@ -44,6 +44,7 @@ void DropTrailingEmpty(std::vector<std::string_view>& fields) {
 std::vector<std::string> Names(std::vector<std::string_view> fields) {
   DropTrailingEmpty(fields);
   std::vector<std::string> names;
+  names.reserve(fields.size());
   for (const std::string_view field : fields) names.emplace_back(Unquote(field));
   return names;
 }

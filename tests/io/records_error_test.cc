@@ -294,8 +294,10 @@ TEST_F(ArrayErrors, Mat) {
     const std::string bytes = ReadBytes(folder_ / "a.mat");
     folder_.Write("cut.mat", bytes.substr(0, 1500));
     for (const char* name : {"q", "m:2"}) {
-      EXPECT_THAT(Error("cut.mat", name), testing::StartsWith("cut.mat: "));
-      EXPECT_THAT(Error("cut.mat", name), testing::Not(testing::HasSubstr("constant")));
+      EXPECT_EQ(Error("cut.mat", name),
+                version == MAT_FT_MAT5
+                    ? "cut.mat: a truncated MATLAB file of 1500 bytes, expected 1832 or more"
+                    : "cut.mat: no variables, expected some: an empty or a truncated file");
     }
   }
 }
