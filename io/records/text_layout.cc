@@ -8,11 +8,23 @@
 namespace howl {
 namespace {
 
+std::string WithoutQuoted(std::string_view line) {
+  std::string bare;
+  bool inside = false;
+  for (const char c : line) {
+    inside = inside != (c == '"');
+    if (!inside) bare += c;
+  }
+  return bare;
+}
+
 // A tab counts when it parts fields that are there; else it only aligns them.
-char FindSeparator(std::string_view line) {
+char FindSeparator(std::string_view quoted_line) {
+  const std::string bare = WithoutQuoted(quoted_line);
+  const std::string_view line = bare;
   if (line.find(';') != std::string_view::npos) return ';';
   const std::string_view text = Trim(line);
-  if (line.front() != '\t' && text.find('\t') != std::string_view::npos &&
+  if (!line.starts_with('\t') && text.find('\t') != std::string_view::npos &&
       text.find("\t\t") == std::string_view::npos) {
     return '\t';
   }
@@ -35,6 +47,16 @@ bool IsHeader(const std::vector<std::string_view>& fields) {
 bool IsUnitsLine(const std::vector<std::string_view>& fields) {
   return std::none_of(fields.begin(), fields.end(),
                       [](std::string_view field) { return IsEmpty(field) || IsNumber(field); });
+}
+
+// A separator inside of quotes belongs to the field ("Pressure, Pa").
+std::size_t FieldEnd(std::string_view line, std::size_t begin, std::string_view separators) {
+  const std::size_t first = line.find_first_not_of(' ', begin);
+  if (first != std::string_view::npos && line[first] == '"') {
+    const std::size_t closing = line.find('"', first + 1);
+    if (closing != std::string_view::npos) begin = closing;
+  }
+  return line.find_first_of(separators, begin);
 }
 
 void DropTrailingEmpty(std::vector<std::string_view>& fields) {
@@ -60,14 +82,14 @@ std::vector<std::string_view> SplitFields(std::string_view line, char separator)
   std::vector<std::string_view> fields;
   if (separator == kWhiteSpace) {
     for (std::string_view rest = Trim(line); !rest.empty(); rest = Trim(rest)) {
-      const std::size_t length = std::min(rest.find_first_of(" \t"), rest.size());
+      const std::size_t length = std::min(FieldEnd(rest, 0, " \t"), rest.size());
       fields.push_back(rest.substr(0, length));
       rest.remove_prefix(length);
     }
     return fields;
   }
   for (std::size_t begin = 0;;) {
-    const std::size_t end = line.find(separator, begin);
+    const std::size_t end = FieldEnd(line, begin, std::string_view(&separator, 1));
     fields.push_back(line.substr(begin, end - begin));
     if (end == std::string_view::npos) return fields;
     begin = end + 1;

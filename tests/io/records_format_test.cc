@@ -93,6 +93,15 @@ TEST_F(Formats, NamesWithBlanksAndChannelsByNumber) {
                  .pressure = "Pressure, Pa",
                  .heat_release = "Heat release",
                  .time = "Time (s)"});
+  for (const std::string separator : {",", ";", "\t", " "}) {
+    const std::string header =
+        "\"Time, s\"" + separator + "\"Q; W\"" + separator + "\"n\"" + separator + "\"p in Pa\"\n";
+    folder_.Write("a.csv", header + Text(separator, "\n"));
+    ExpectSamples({.file = folder_ / "a.csv",
+                   .pressure = "p in Pa",
+                   .heat_release = "Q; W",
+                   .time = "Time, s"});
+  }
   ExpectByNumber(folder_.Write("daq.csv", "time,2,3,4\n" + Text(",", "\n")));
 }
 
