@@ -1,0 +1,127 @@
+#include "io/records/byte_source.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace howl {
+namespace {
+
+class PlainBytes final : public ByteSource {
+ public:
+  explicit PlainBytes(const std::filesystem::path& file)
+      : descriptor_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_ < 0) throw ByteError(std::string("cannot open: ") + strerror(errno));
+    std::error_code ignored;
+    const auto size = std::filesystem::file_size(file, ignored);
+    size_ = ignored ? 0.0 : static_cast<double>(size);
+  }
+  ~PlainBytes() override { close(descriptor_); }
+
+  std::size_t Read(char* to, std::size_t size) override {
+    std::size_t done = 0;
+    while (done < size) {
+      const ssize_t got = read(descriptor_, to + done, size - done);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) throw ByteError(std::string("cannot read: ") + strerror(errno));
+      if (got == 0) break;
+      done += static_cast<std::size_t>(got);
+    }
+    taken_ += static_cast<double>(done);
+    return done;
+  }
+
+  double FractionRead() const override { return size_ > 0.0 ? taken_ / size_ : 0.0; }
+
+ private:
+  int descriptor_;
+  double size_ = 0.0;
+  double taken_ = 0.0;
+};
+
+// inflate() itself and not gzread(), which passes what follows a damaged header on as plain text.
+class GzipBytes final : public ByteSource {
+ public:
+  explicit GzipBytes(std::unique_ptr<ByteSource> packed)
+      : packed_(std::move(packed)), input_(kInputBytes) {
+    if (inflateInit2(&stream_, kGzipOnly) != Z_OK) throw ByteError("zlib does not start");
+  }
+  ~GzipBytes() override { inflateEnd(&stream_); }
+
+  std::size_t Read(char* to, std::size_t size) override {
+    std::size_t done = 0;
+    while (done < size && !at_end_) {
+      if (stream_.avail_in == 0) Refill();
+      if (at_end_) break;
+      const std::size_t want = std::min<std::size_t>(size - done, kInputBytes * 16);
+      stream_.next_out = reinterpret_cast<Bytef*>(to + done);
+      stream_.avail_out = static_cast<uInt>(want);
+      const int status = inflate(&stream_, Z_NO_FLUSH);
+      done += want - stream_.avail_out;
+      inside_member_ = status != Z_STREAM_END;
+      if (status == Z_STREAM_END) {
+        StartNextMember();
+      } else if (status != Z_OK && status != Z_BUF_ERROR) {
+        throw ByteError(std::string("damaged gzip data") +
+                        (stream_.msg != nullptr ? std::string(" (") + stream_.msg + ")" : ""));
+      }
+    }
+    return done;
+  }
+
+  double FractionRead() const override { return packed_->FractionRead(); }
+
+ private:
+  static constexpr std::size_t kInputBytes = std::size_t{1} << 16;
+  static constexpr int kGzipOnly = 15 + 16;
+
+  void Refill() {
+    const std::size_t got = packed_->Read(reinterpret_cast<char*>(input_.data()), input_.size());
+    stream_.next_in = input_.data();
+    stream_.avail_in = static_cast<uInt>(got);
+    if (got > 0) return;
+    if (inside_member_) throw ByteError("truncated gzip, expected its end");
+    at_end_ = true;
+  }
+
+  // A gzip file may be several ones in a row; zeros after the last are padding.
+  void StartNextMember() {
+    if (stream_.avail_in == 0) Refill();
+    if (at_end_) return;
+    if (*stream_.next_in == 0) {
+      at_end_ = true;
+      return;
+    }
+    inflateReset(&stream_);
+    inside_member_ = true;
+  }
+
+  std::unique_ptr<ByteSource> packed_;
+  std::vector<Bytef> input_;
+  z_stream stream_{};
+  bool inside_member_ = true;
+  bool at_end_ = false;
+};
+
+bool IsGzip(const std::filesystem::path& file) {
+  unsigned char magic[2] = {};
+  return PlainBytes(file).Read(reinterpret_cast<char*>(magic), 2) == 2 && magic[0] == 0x1f &&
+         magic[1] == 0x8b;
+}
+
+}  // namespace
+
+std::unique_ptr<ByteSource> OpenBytes(const std::filesystem::path& file) {
+  auto plain = std::make_unique<PlainBytes>(file);
+  if (!IsGzip(file)) return plain;
+  return std::make_unique<GzipBytes>(std::move(plain));
+}
+
+}  // namespace howl

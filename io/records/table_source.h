@@ -1,0 +1,47 @@
+// A file as a table of columns. One format a file: text_table, mat_table, hdf5_table; the next
+// format is one more subclass and one more line in OpenTable (table_source.cc).
+#ifndef HOWL_IO_RECORDS_TABLE_SOURCE_H_
+#define HOWL_IO_RECORDS_TABLE_SOURCE_H_
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/record_spec.h"
+
+namespace howl {
+
+using Columns = std::vector<std::vector<double>>;
+
+class TableSource {
+ public:
+  TableSource() = default;
+  TableSource(const TableSource&) = delete;
+  TableSource& operator=(const TableSource&) = delete;
+  virtual ~TableSource() = default;
+
+  // The columns in the order asked for, all of one length; called once. nan and inf are let
+  // through: the caller knows which rows matter. Throws UserError for everything else.
+  virtual Columns Read(const std::vector<ColumnName>& names) = 0;
+
+  // The line of a row (both from 0 and 1 respectively), or 0 where the format has no lines.
+  virtual int LineOf(std::size_t /*row*/) const { return 0; }
+};
+
+// Recognises the format by the file's content. Throws UserError when it cannot be read.
+std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file);
+
+// "column 2" for a number, the name itself otherwise: the key of an error.
+std::string DisplayName(const ColumnName& name);
+
+// K of a column given as a number, or 0.
+std::size_t ColumnNumber(const std::string& name);
+
+// "a, b, c, ..." : the names that there are, cut when they are many.
+std::string ListNames(const std::vector<std::string>& names);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_RECORDS_TABLE_SOURCE_H_
