@@ -49,8 +49,7 @@ void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions
               Analysis* analysis) {
   const Characteristics& c = analysis->characteristics;
   analysis->tau_s = tau_s;
-  FlameCurve curve = EstimateFlameCurve(record, c.frequency_hz.value, tau_s.value, c.p_amplitude,
-                                        options.flame_curve);
+  FlameCurve curve = EstimateFlameCurve(record, c, tau_s.value, options.flame_curve);
   if (std::isfinite(curve.slope.value)) {
     analysis->loop_gain = LoopGainFromSlope(c.gain, c.frequency_hz, curve.slope);
   }

@@ -122,10 +122,9 @@ void EstimateRatio(const Complexes& p, const Complexes& q, Characteristics* resu
 
 // Envelope statistics, with the noise floor's share of the blocks' power taken out:
 // E|s+n|^4 = E|s|^4 + 4 E|s|^2 v + 2 v^2 for circular noise of power v.
-void EstimateEnvelope(const Complexes& p, double noise_power, double hop_s,
-                      Characteristics* result) {
+void EstimateEnvelope(const Complexes& p, double hop_s, Characteristics* result) {
   const double m2 = MeanSquare(p);
-  const double v = std::min(noise_power, 0.5 * m2);
+  const double v = std::min(result->block_noise_power, 0.5 * m2);
   const double signal = m2 - v;
   std::vector<double> scores;
   double m4 = 0.0, low = 0.0, mean_amplitude = 0.0;
@@ -275,8 +274,8 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
   result.frequency_hz = {frequency + line.offset_hz.value, line.offset_hz.std};
   result.frequency_drift_hz_per_s = line.drift_hz_per_s;
   result.line_width_hz = line.diffusion_rad2_per_s / kRadPerSPerHz;
-  EstimateEnvelope(p_blocks.amplitude, 3.0 * peak.noise_psd / p_blocks.length_s, p_blocks.hop_s,
-                   &result);
+  result.block_noise_power = 3.0 * peak.noise_psd / p_blocks.length_s;
+  EstimateEnvelope(p_blocks.amplitude, p_blocks.hop_s, &result);
   Classify(options, duration_s, &result);
 
   if (options.method == CharacteristicsMethod::kSeed && !q.empty()) {

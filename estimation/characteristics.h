@@ -63,7 +63,8 @@ struct Characteristics {
   bool stationary = false;
 
   int block_samples = 0;
-  std::vector<double> envelope;  // of p, one a block
+  double block_noise_power = 0.0;  // of the noise floor in |P_b|^2
+  std::vector<double> envelope;    // of p, one a block
 };
 
 // Needs at least eight periods of the cycle; a record without a significant peak gives

@@ -10,9 +10,8 @@ namespace howl {
 Estimate DelayOnBranch(const DelayInput& input, int branch) {
   const double f = input.frequency_hz.value;
   const double tau_s = (270.0 + WrapDeg(input.phase_deg.value) + 360.0 * branch) / (360.0 * f);
-  const auto known = [](double std) { return std::isfinite(std) ? std : 0.0; };
-  return {tau_s, std::hypot(known(input.phase_deg.std) / (360.0 * f),
-                            tau_s * known(input.frequency_hz.std) / f)};
+  const double phase_std = std::isfinite(input.phase_deg.std) ? input.phase_deg.std : 0.0;
+  return {tau_s, phase_std / (360.0 * f)};
 }
 
 DelayChoice EstimateDelays(std::span<const DelayInput> inputs, std::optional<int> branch,

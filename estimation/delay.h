@@ -23,7 +23,8 @@ struct DelayInput {
   Estimate phase_deg;
 };
 
-// Unknown (NaN) standard deviations count as zero.
+// The error is the phase's alone (an unknown one, NaN, counts as zero): where a record's frequency
+// wanders, its phase wanders with it by 360 tau, and tau stays.
 Estimate DelayOnBranch(const DelayInput& input, int branch);
 
 struct DelayBranch {

@@ -3,11 +3,14 @@
 //
 //   x(t) = 2 pi f p(t - tau + 1 / (4 f))                       (units of p per second)
 //
+// p here is its fundamental alone, joined from its blocks (spectrum.h): (4) is right for nothing
+// else, and harmonics, other lines and noise of p would be errors in the regressor.
+//
 // Phi is seen as means of q in bins of x, the seed's method, and as a polynomial of degree 5 over
 // |x| <= 0.9 X, X = 2 pi f |p|, whose derivative at zero is Phi'(0). The error comes from the
-// long-run variance of its influence function over blocks. What p holds beside its fundamental, of
-// variance s^2 in x, is an error in the regressor; to first order (Tweedie's formula for an x of
-// arcsine density, and the smoothing of Phi) it changes the slope at zero to
+// long-run variance of its influence function over blocks. Noise left in x, of variance s^2,
+// changes the slope at zero to first order (Tweedie's formula for an x of arcsine density, and
+// smoothing of Phi) to
 //
 //   (1 + s^2 / X^2) Phi'(0) + (s^2 / 2) Phi'''(0)
 //
@@ -17,6 +20,7 @@
 
 #include <vector>
 
+#include "estimation/characteristics.h"
 #include "estimation/record.h"
 #include "estimation/statistics.h"
 
@@ -46,9 +50,9 @@ struct FlameCurveOptions {
   double fit_range = 0.9;  // of X
 };
 
-// p_amplitude: of the fundamental. The record has both channels.
-FlameCurve EstimateFlameCurve(const Record& record, double frequency_hz, double tau_s,
-                              double p_amplitude, const FlameCurveOptions& options = {});
+// The record has both channels, and `cycle` is its limit cycle.
+FlameCurve EstimateFlameCurve(const Record& record, const Characteristics& cycle, double tau_s,
+                              const FlameCurveOptions& options = {});
 
 // |L Phi'(0)| at the limit cycle with |G| = gain (1b): gain 2 pi f |Phi'(0)|. Independent errors.
 Estimate LoopGainFromSlope(const Estimate& gain, const Estimate& frequency_hz,

@@ -34,7 +34,7 @@ Growth EstimateGrowth(std::span<const double> p, double sampling_hz, double freq
 
   std::vector<double> log_envelope;
   for (auto it = start; it <= end; ++it) log_envelope.push_back(std::log(*it));
-  const TrendFit trend = FitTrend(log_envelope, kHannOverlapCorrelation);
+  const TrendFit trend = FitTrend(log_envelope);
   growth.rate_per_s = {trend.slope.value / blocks.hop_s, trend.slope.std / blocks.hop_s};
   const auto first = static_cast<std::size_t>(start - envelope.begin());
   const auto count = static_cast<std::size_t>(end - start) + 1;

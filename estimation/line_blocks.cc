@@ -64,7 +64,7 @@ PhaseSeries UnwrapPhase(std::span<const std::complex<double>> blocks) {
 LineFrequency EstimateLineFrequency(std::span<const std::complex<double>> blocks,
                                     const PhaseSeries& phase, double hop_s) {
   if (!phase.reliable) return PulsePair(blocks, hop_s);
-  const TrendFit trend = FitTrend(phase.phase_rad, kHannOverlapCorrelation);
+  const TrendFit trend = FitTrend(phase.phase_rad);
   const double to_hz = 1.0 / (kRadPerSPerHz * hop_s);
   LineFrequency line;
   line.offset_hz = {trend.slope.value * to_hz, trend.slope.std * to_hz};

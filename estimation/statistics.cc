@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
@@ -19,6 +20,29 @@ double OverlapCorrection(int n, int count, double c) {
   double mean = 0.0;
   for (int j = 1; j <= count; ++j) mean += (1.0 + 2.0 * c * std::cos(kPi * j / n)) / count;
   return (1.0 + 2.0 * c) / mean;
+}
+
+// Covariance at lags 0, 1, 2 of the increments, between half-overlapping Hann averages, of a walk
+// with unit variance a hop: autocorrelation of the kernel C(t) - C(t - 1/2), C being Hann's
+// integral.
+std::array<double, 3> SmoothedWalkCovariance() {
+  constexpr int kPerHop = 500;
+  const auto integral = [](double u) {
+    u = std::clamp(u, 0.0, 1.0);
+    return u - std::sin(2.0 * kPi * u) / (2.0 * kPi);
+  };
+  std::array<double, 3 * kPerHop> kernel;
+  for (int i = 0; i < 3 * kPerHop; ++i) {
+    const double u = 0.5 * (i + 0.5) / kPerHop;
+    kernel[static_cast<std::size_t>(i)] = integral(u) - integral(u - 0.5);
+  }
+  std::array<double, 3> covariance{};
+  for (std::size_t lag = 0; lag < 3; ++lag) {
+    for (std::size_t i = 0; i + lag * kPerHop < kernel.size(); ++i) {
+      covariance[lag] += kernel[i] * kernel[i + lag * kPerHop] / kPerHop;
+    }
+  }
+  return covariance;
 }
 
 }  // namespace
@@ -53,7 +77,7 @@ MeanError ErrorOfMean(std::span<const double> values, double lag_one_correlation
   return ErrorOfMean(complex_values, lag_one_correlation);
 }
 
-TrendFit FitTrend(std::span<const double> series, double lag_one_correlation) {
+TrendFit FitTrend(std::span<const double> series) {
   const int n = static_cast<int>(series.size()) - 1;  // increments
   TrendFit fit;
   if (n < 4) return fit;
@@ -73,52 +97,56 @@ TrendFit FitTrend(std::span<const double> series, double lag_one_correlation) {
   }
   const Eigen::VectorXd y = basis.transpose() * increments;
   const Eigen::MatrixXd x = basis.transpose() * design;
-  Eigen::VectorXd noise(n);
+  static const std::array<double, 3> v = SmoothedWalkCovariance();
+  Eigen::VectorXd noise(n), walk(n);
   for (int j = 0; j < n; ++j) {
     const double c = std::cos(kPi * (j + 1) / (n + 1));
-    noise(j) = (2.0 - 2.0 * c) * (1.0 + 2.0 * lag_one_correlation * c);
+    noise(j) = (2.0 - 2.0 * c) * (1.0 + c / 3.0);
+    walk(j) = v[0] + 2.0 * v[1] * c + 2.0 * v[2] * (2.0 * c * c - 1.0);
   }
 
-  // Ratio of walk to noise on a logarithmic grid. Below 1/n^2 a walk is invisible and harmless.
+  // Ratio of walk to noise: zero, or one of a logarithmic grid. Below 1/n^2 a walk is harmless.
   constexpr int kGrid = 33;
-  const double low = std::log(0.1 / (static_cast<double>(n) * n));
+  const double low = std::log(1.0 / (static_cast<double>(n) * n));
   const double high = std::log(30.0);
   struct Point {
-    double log_likelihood, ratio, slope, variance, scale;
+    double log_likelihood, ratio, slope, variance, scale, prior;
   };
   std::vector<Point> points;
-  const auto evaluate = [&](double ratio) {
-    const Eigen::VectorXd w = (noise.array() + ratio).inverse();
+  const auto evaluate = [&](double ratio, double prior) {
+    const Eigen::VectorXd w = (noise + ratio * walk).array().inverse();
     const double information = (w.array() * x.col(0).array().square()).sum();
     const double slope = (w.array() * x.col(0).array() * y.array()).sum() / information;
     const Eigen::VectorXd residual = y - slope * x.col(0);
     const double scale = (w.array() * residual.array().square()).sum() / (n - 1);
     const double log_likelihood = 0.5 * w.array().log().sum() - 0.5 * std::log(information) -
                                   0.5 * (n - 1) * std::log(std::max(scale, 1e-300));
-    return Point{log_likelihood, ratio, slope, scale / information, scale};
+    return Point{log_likelihood, ratio, slope, scale / information, scale, prior};
   };
   double best = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kGrid; ++i) {
-    points.push_back(evaluate(std::exp(low + (high - low) * i / (kGrid - 1))));
+  for (int i = -1; i < kGrid; ++i) {
+    points.push_back(i < 0 ? evaluate(0.0, kNoWalkPrior)
+                           : evaluate(std::exp(low + (high - low) * i / (kGrid - 1)),
+                                      (1.0 - kNoWalkPrior) / kGrid));
     best = std::max(best, points.back().log_likelihood);
   }
-  double total = 0, slope = 0, second = 0, walk = 0, white = 0, ratio = 0;
+  double total = 0, slope = 0, second = 0, walk_sum = 0, white = 0;
   for (const Point& p : points) {
-    const double weight = std::exp(p.log_likelihood - best);
+    const double weight = p.prior * std::exp(p.log_likelihood - best);
     total += weight;
     slope += weight * p.slope;
     second += weight * (p.variance + p.slope * p.slope);
-    walk += weight * p.ratio * p.scale;
+    walk_sum += weight * p.ratio * p.scale;
     white += weight * p.scale;
-    ratio += weight * std::log(p.ratio);
   }
   slope /= total;
   const double variance = std::max(second / total - slope * slope, 0.0);
-  fit.walk_variance = walk / total;
+  fit.walk_variance = walk_sum / total;
   fit.noise_variance = white / total;
   fit.slope = {slope, std::sqrt(variance) * StudentInflation(n - 1)};
 
-  const Eigen::VectorXd w = (noise.array() + std::exp(ratio / total)).inverse();
+  const double walk_share = fit.walk_variance / fit.noise_variance;
+  const Eigen::VectorXd w = (noise + walk_share * walk).array().inverse();
   const Eigen::Matrix2d normal = x.transpose() * w.asDiagonal() * x;
   const Eigen::Vector2d rhs = x.transpose() * (w.asDiagonal() * y);
   const Eigen::Vector2d both = normal.ldlt().solve(rhs);

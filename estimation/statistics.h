@@ -44,18 +44,24 @@ MeanError ErrorOfMean(std::span<const std::complex<double>> values, double lag_o
 // The same for real values: variance of the mean in covariance(0, 0).
 MeanError ErrorOfMean(std::span<const double> values, double lag_one_correlation);
 
-// Slope of a series y_t = a + mu t + random walk + white noise (correlation c between neighbours
-// from overlap), the two strengths unknown: generalised least squares on the increments, whose
-// covariance d I + r (2 - 2 cos)(1 + 2 c cos) the sine transform diagonalises; averaged over the
-// ratio d / r by its restricted likelihood. White noise alone is the pure tone's phase, a random
-// walk that of a diffusing limit cycle; the error of the slope differs by orders between the two.
+// Slope of a series y_b = a + mu b + random walk + white noise, seen through half-overlapping Hann
+// blocks, with the strengths d and r of walk and noise unknown: generalised least squares on the
+// increments, whose covariance the sine transform diagonalises to
+//
+//   d (v_0 + 2 v_1 cos + 2 v_2 cos 2) + r (2 - 2 cos)(1 + cos / 3)
+//
+// (v: a walk's increments after Hann's average; 1/6: the overlap's correlation), averaged over d /
+// r by its restricted likelihood with probability `kNoWalkPrior` for d = 0. White noise alone is
+// the phase of a pure tone, a walk that of a diffusing limit cycle; the errors of the slope differ
+// by orders of magnitude.
+inline constexpr double kNoWalkPrior = 0.8;
 struct TrendFit {
   Estimate slope;             // per step
   double walk_variance = 0;   // d, per step
   double noise_variance = 0;  // r
   Estimate curvature;         // change of slope per step
 };
-TrendFit FitTrend(std::span<const double> series, double lag_one_correlation);
+TrendFit FitTrend(std::span<const double> series);
 
 double Median(std::span<const double> values);
 
