@@ -1,0 +1,127 @@
+#include "estimation/analyse.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace howl {
+namespace {
+
+bool HasCycle(const Analysis& analysis) {
+  return analysis.characteristics.state != CycleState::kNoLimitCycle;
+}
+
+bool HasPhase(const Analysis& analysis) {
+  return HasCycle(analysis) && std::isfinite(analysis.characteristics.phase_deg.value);
+}
+
+}  // namespace
+
+Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
+  Analysis analysis;
+  analysis.sampling_hz = record.sampling_hz;
+  analysis.duration_s = static_cast<double>(record.pressure.size()) / record.sampling_hz;
+  analysis.has_heat_release = !record.heat_release.empty();
+  const std::vector<double> p = RemoveMean(record.pressure);
+  const std::vector<double> q = RemoveMean(record.heat_release);
+  const CrossSpectrum spectrum = WelchSpectrum(p, q, record.sampling_hz);
+  analysis.characteristics = EstimateCharacteristics(record, spectrum, options.characteristics);
+  const Estimate& f = analysis.characteristics.frequency_hz;
+  analysis.lines =
+      FindLines(record, spectrum, HasCycle(analysis) && std::isfinite(f.value) ? f.value : 0.0,
+                options.lines);
+  if (analysis.has_heat_release) {
+    analysis.transfer = EstimateTransfer(spectrum, analysis.lines, options.transfer);
+    if (options.fit_transfer) {
+      TransferFit fit = FitTransfer(*analysis.transfer, options.transfer_fit);
+      if (fit.available) analysis.transfer_fit = std::move(fit);
+    }
+  } else if (std::isfinite(f.value)) {
+    const Growth growth = EstimateGrowth(p, record.sampling_hz, f.value);
+    if (growth.available) analysis.growth = growth;
+  }
+  return analysis;
+}
+
+void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions& options,
+              Analysis* analysis) {
+  const Characteristics& c = analysis->characteristics;
+  analysis->tau_s = tau_s;
+  FlameCurve curve = EstimateFlameCurve(record, c, tau_s.value, options.flame_curve);
+  if (std::isfinite(curve.slope.value)) {
+    analysis->loop_gain = LoopGainFromSlope(c.gain, c.frequency_hz, curve.slope);
+  }
+  analysis->flame_curve = std::move(curve);
+}
+
+AnalysisSet AnalyseRecords(std::span<const NamedRecord> records, const AnalysisOptions& options) {
+  AnalysisSet set;
+  set.analyses.resize(records.size());
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  const auto in_parallel = [&](const auto& body) {
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, records.size(), body); });
+  };
+  in_parallel([&](std::size_t i) {
+    set.analyses[i] = AnalyseRecord(records[i].record, options);
+    set.analyses[i].name = records[i].name;
+    set.analyses[i].phi = records[i].phi;
+  });
+
+  std::vector<DelayInput> inputs;
+  std::vector<std::size_t> position(records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (!HasPhase(set.analyses[i])) continue;
+    position[i] = inputs.size();
+    inputs.push_back(
+        {set.analyses[i].characteristics.frequency_hz, set.analyses[i].characteristics.phase_deg});
+  }
+  set.delay = EstimateDelays(inputs, options.delay_branch);
+  in_parallel([&](std::size_t i) {
+    Analysis& analysis = set.analyses[i];
+    if (HasPhase(analysis)) {
+      AddFlame(records[i].record, set.delay.tau_s[position[i]], options, &analysis);
+    }
+  });
+
+  std::vector<LoopGainPoint> points;
+  for (const Analysis& analysis : set.analyses) {
+    if (analysis.loop_gain && analysis.characteristics.stationary) {
+      points.push_back({analysis.phi, *analysis.loop_gain});
+    }
+  }
+  set.vanishing_phi = EstimateVanishingPhi(points);
+  return set;
+}
+
+std::optional<Experiment> ToExperiment(const Analysis& analysis) {
+  if (!HasPhase(analysis)) return std::nullopt;
+  const Characteristics& c = analysis.characteristics;
+  const auto known = [](double std) {
+    return std::isfinite(std) && std > 0.0 ? std::optional<double>(std) : std::nullopt;
+  };
+  Experiment experiment;
+  experiment.name = analysis.name;
+  experiment.phi = analysis.phi;
+  experiment.frequency_hz = c.frequency_hz.value;
+  experiment.phase_deg = c.phase_deg.value;
+  experiment.gain = c.gain.value;
+  experiment.frequency_std_hz = known(c.frequency_hz.std);
+  experiment.phase_std_deg = known(c.phase_deg.std);
+  experiment.gain_std = known(c.gain.std);
+  // The characteristic falls through zero; a slope that came out rising says nothing of it.
+  if (analysis.flame_curve && analysis.flame_curve->slope.value < 0.0) {
+    experiment.flame_slope = analysis.flame_curve->slope.value;
+    experiment.flame_slope_std = known(analysis.flame_curve->slope.std);
+  }
+  experiment.reliable = c.stationary;
+  for (const SpectralLine& line : analysis.lines) {
+    if (line.harmonic != 0 || !line.narrow || line.p_amplitude <= 0.0) continue;
+    const double std = std::isfinite(line.frequency_hz.std) ? line.frequency_hz.std : 0.0;
+    experiment.lines.push_back({line.frequency_hz.value, std});
+  }
+  return experiment;
+}
+
+}  // namespace howl

@@ -1,0 +1,53 @@
+#include "estimation/delay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/units.h"
+
+namespace howl {
+
+Estimate DelayOnBranch(const DelayInput& input, int branch) {
+  const double f = input.frequency_hz.value;
+  const double tau_s = (270.0 + WrapDeg(input.phase_deg.value) + 360.0 * branch) / (360.0 * f);
+  const double phase_std = std::isfinite(input.phase_deg.std) ? input.phase_deg.std : 0.0;
+  return {tau_s, phase_std / (360.0 * f)};
+}
+
+DelayChoice EstimateDelays(std::span<const DelayInput> inputs, std::optional<int> branch,
+                           int max_branch) {
+  DelayChoice choice;
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
+  for (const DelayInput& input : inputs) {
+    lowest = std::min(lowest, input.frequency_hz.value);
+    highest = std::max(highest, input.frequency_hz.value);
+  }
+  for (int k = -1; k <= max_branch && inputs.size() >= 3; ++k) {
+    double sum = 0.0, squares = 0.0;
+    bool positive = true;
+    for (const DelayInput& input : inputs) {
+      const double tau_s = DelayOnBranch(input, k).value;
+      positive = positive && tau_s > 0.0;
+      sum += tau_s;
+      squares += tau_s * tau_s;
+    }
+    const double n = static_cast<double>(inputs.size());
+    const double mean = sum / n;
+    const double variance = std::max(squares / n - mean * mean, 0.0) * n / (n - 1.0);
+    if (positive) choice.branches.push_back({k, mean, std::sqrt(variance) / mean});
+  }
+  std::sort(choice.branches.begin(), choice.branches.end(),
+            [](const DelayBranch& a, const DelayBranch& b) { return a.spread < b.spread; });
+  if (branch.has_value()) {
+    choice.branch = *branch;
+  } else if (!choice.branches.empty() && highest > 1.01 * lowest) {
+    choice.branch = choice.branches.front().branch;
+    choice.by_consistency = true;
+  }
+  for (const DelayInput& input : inputs) {
+    choice.tau_s.push_back(DelayOnBranch(input, choice.branch));
+  }
+  return choice;
+}
+
+}  // namespace howl

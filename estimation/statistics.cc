@@ -1,0 +1,167 @@
+#include "estimation/statistics.h"
+
+#include <glog/logging.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace howl {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Mean of 1 + 2 c cos(pi j / n) over the K cosines, against its value at zero frequency.
+double OverlapCorrection(int n, int count, double c) {
+  double mean = 0.0;
+  for (int j = 1; j <= count; ++j) mean += (1.0 + 2.0 * c * std::cos(kPi * j / n)) / count;
+  return (1.0 + 2.0 * c) / mean;
+}
+
+// Covariance at lags 0, 1, 2 of the increments, between half-overlapping Hann averages, of a walk
+// with unit variance a hop: autocorrelation of the kernel C(t) - C(t - 1/2), C being Hann's
+// integral.
+std::array<double, 3> SmoothedWalkCovariance() {
+  constexpr int kPerHop = 500;
+  const auto integral = [](double u) {
+    u = std::clamp(u, 0.0, 1.0);
+    return u - std::sin(2.0 * kPi * u) / (2.0 * kPi);
+  };
+  std::array<double, 3 * kPerHop> kernel;
+  for (int i = 0; i < 3 * kPerHop; ++i) {
+    const double u = 0.5 * (i + 0.5) / kPerHop;
+    kernel[static_cast<std::size_t>(i)] = integral(u) - integral(u - 0.5);
+  }
+  std::array<double, 3> covariance{};
+  for (std::size_t lag = 0; lag < 3; ++lag) {
+    for (std::size_t i = 0; i + lag * kPerHop < kernel.size(); ++i) {
+      covariance[lag] += kernel[i] * kernel[i + lag * kPerHop] / kPerHop;
+    }
+  }
+  return covariance;
+}
+
+}  // namespace
+
+double StudentInflation(double degrees_of_freedom) {
+  const boost::math::students_t distribution(std::max(degrees_of_freedom, 1.0));
+  return boost::math::quantile(distribution, 0.975) / kNormal95;
+}
+
+int CosineCount(int n) { return std::clamp(n / 3, 3, 20); }
+
+MeanError ErrorOfMean(std::span<const std::complex<double>> values, double lag_one_correlation) {
+  const int n = static_cast<int>(values.size());
+  MeanError error;
+  if (n < 5) return error;
+  const int count = CosineCount(n);
+  for (int j = 1; j <= count; ++j) {
+    std::complex<double> sum = 0.0;
+    for (int t = 0; t < n; ++t) {
+      sum += values[static_cast<std::size_t>(t)] * std::cos(kPi * j * (t + 0.5) / n);
+    }
+    const Eigen::Vector2d v(sum.real(), sum.imag());
+    error.covariance += v * v.transpose();
+  }
+  error.covariance *= 2.0 / n / count / n * OverlapCorrection(n, count, lag_one_correlation);
+  error.degrees_of_freedom = count;
+  return error;
+}
+
+MeanError ErrorOfMean(std::span<const double> values, double lag_one_correlation) {
+  std::vector<std::complex<double>> complex_values(values.begin(), values.end());
+  return ErrorOfMean(complex_values, lag_one_correlation);
+}
+
+TrendFit FitTrend(std::span<const double> series) {
+  const int n = static_cast<int>(series.size()) - 1;  // increments
+  TrendFit fit;
+  if (n < 4) return fit;
+  Eigen::MatrixXd basis(n, n);
+  for (int j = 0; j < n; ++j) {
+    for (int t = 0; t < n; ++t) {
+      basis(t, j) = std::sqrt(2.0 / (n + 1)) * std::sin(kPi * (j + 1) * (t + 1) / (n + 1));
+    }
+  }
+  Eigen::VectorXd increments(n);
+  Eigen::MatrixXd design(n, 2);  // constant, linear
+  for (int t = 0; t < n; ++t) {
+    const auto i = static_cast<std::size_t>(t);
+    increments(t) = series[i + 1] - series[i];
+    design(t, 0) = 1.0;
+    design(t, 1) = t - 0.5 * (n - 1);
+  }
+  const Eigen::VectorXd y = basis.transpose() * increments;
+  const Eigen::MatrixXd x = basis.transpose() * design;
+  static const std::array<double, 3> v = SmoothedWalkCovariance();
+  Eigen::VectorXd noise(n), walk(n);
+  for (int j = 0; j < n; ++j) {
+    const double c = std::cos(kPi * (j + 1) / (n + 1));
+    noise(j) = (2.0 - 2.0 * c) * (1.0 + c / 3.0);
+    walk(j) = v[0] + 2.0 * v[1] * c + 2.0 * v[2] * (2.0 * c * c - 1.0);
+  }
+
+  // Ratio of walk to noise: zero, or one of a logarithmic grid. Below 1/n^2 a walk is harmless.
+  constexpr int kGrid = 33;
+  const double low = std::log(1.0 / (static_cast<double>(n) * n));
+  const double high = std::log(30.0);
+  struct Point {
+    double log_likelihood, ratio, slope, variance, scale, prior;
+  };
+  std::vector<Point> points;
+  const auto evaluate = [&](double ratio, double prior) {
+    const Eigen::VectorXd w = (noise + ratio * walk).array().inverse();
+    const double information = (w.array() * x.col(0).array().square()).sum();
+    const double slope = (w.array() * x.col(0).array() * y.array()).sum() / information;
+    const Eigen::VectorXd residual = y - slope * x.col(0);
+    const double scale = (w.array() * residual.array().square()).sum() / (n - 1);
+    const double log_likelihood = 0.5 * w.array().log().sum() - 0.5 * std::log(information) -
+                                  0.5 * (n - 1) * std::log(std::max(scale, 1e-300));
+    return Point{log_likelihood, ratio, slope, scale / information, scale, prior};
+  };
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = -1; i < kGrid; ++i) {
+    points.push_back(i < 0 ? evaluate(0.0, kNoWalkPrior)
+                           : evaluate(std::exp(low + (high - low) * i / (kGrid - 1)),
+                                      (1.0 - kNoWalkPrior) / kGrid));
+    best = std::max(best, points.back().log_likelihood);
+  }
+  double total = 0, slope = 0, second = 0, walk_sum = 0, white = 0;
+  for (const Point& p : points) {
+    const double weight = p.prior * std::exp(p.log_likelihood - best);
+    total += weight;
+    slope += weight * p.slope;
+    second += weight * (p.variance + p.slope * p.slope);
+    walk_sum += weight * p.ratio * p.scale;
+    white += weight * p.scale;
+  }
+  slope /= total;
+  const double variance = std::max(second / total - slope * slope, 0.0);
+  fit.walk_variance = walk_sum / total;
+  fit.noise_variance = white / total;
+  fit.slope = {slope, std::sqrt(variance) * StudentInflation(n - 1)};
+
+  const double walk_share = fit.walk_variance / fit.noise_variance;
+  const Eigen::VectorXd w = (noise + walk_share * walk).array().inverse();
+  const Eigen::Matrix2d normal = x.transpose() * w.asDiagonal() * x;
+  const Eigen::Vector2d rhs = x.transpose() * (w.asDiagonal() * y);
+  const Eigen::Vector2d both = normal.ldlt().solve(rhs);
+  const Eigen::VectorXd residual = y - x * both;
+  const double scale = residual.dot(w.asDiagonal() * residual) / std::max(n - 2, 1);
+  fit.curvature = {both(1), std::sqrt(scale * normal.inverse()(1, 1)) * StudentInflation(n - 2)};
+  return fit;
+}
+
+double Median(std::span<const double> values) {
+  CHECK(!values.empty());
+  std::vector<double> copy(values.begin(), values.end());
+  const auto middle = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
+  std::nth_element(copy.begin(), middle, copy.end());
+  return *middle;
+}
+
+}  // namespace howl

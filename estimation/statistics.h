@@ -1,0 +1,70 @@
+// Errors of estimates from serially correlated data.
+//
+// Long-run variance of a mean by equally weighted cosines (Lazarus, Lewis, Stock 2018; a multitaper
+// estimate at zero frequency): with u_t, t = 0 .. n-1,
+//
+//   L_j = sqrt(2/n) sum_t u_t cos(pi j (t + 1/2) / n),   var(mean u) = sum_{j=1..K} L_j^2 / (K n)
+//
+// and (mean u) / sqrt(var) follows Student's t with K degrees of freedom: no block length has to
+// exceed the correlation time, only n / K has to.
+//
+// A reported standard deviation is the half width of the 95 % interval divided by 1.96, so that
+// value +- 1.96 std is that interval whatever the degrees of freedom.
+#ifndef HOWL_ESTIMATION_STATISTICS_H_
+#define HOWL_ESTIMATION_STATISTICS_H_
+
+#include <Eigen/Core>
+#include <complex>
+#include <limits>
+#include <span>
+
+namespace howl {
+
+inline constexpr double kNormal95 = 1.959963984540054;
+
+struct Estimate {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double std = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Student's 0.975 quantile over the normal's: what turns a standard error into a reported std.
+double StudentInflation(double degrees_of_freedom);
+
+// K for n values: about n / 3, at least 3, at most 20.
+int CosineCount(int n);
+
+// Covariance of the mean of complex values, as a 2x2 of real and imaginary parts, not inflated.
+// `lag_one_correlation` is the correlation that the blocks' overlap alone gives neighbours: it
+// corrects the low-pass that K cosines out of n apply.
+struct MeanError {
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  double degrees_of_freedom = 0.0;
+};
+MeanError ErrorOfMean(std::span<const std::complex<double>> values, double lag_one_correlation);
+// The same for real values: variance of the mean in covariance(0, 0).
+MeanError ErrorOfMean(std::span<const double> values, double lag_one_correlation);
+
+// Slope of a series y_b = a + mu b + random walk + white noise, seen through half-overlapping Hann
+// blocks, with the strengths d and r of walk and noise unknown: generalised least squares on the
+// increments, whose covariance the sine transform diagonalises to
+//
+//   d (v_0 + 2 v_1 cos + 2 v_2 cos 2) + r (2 - 2 cos)(1 + cos / 3)
+//
+// (v: a walk's increments after Hann's average; 1/6: the overlap's correlation), averaged over d /
+// r by its restricted likelihood with probability `kNoWalkPrior` for d = 0. White noise alone is
+// the phase of a pure tone, a walk that of a diffusing limit cycle; the errors of the slope differ
+// by orders of magnitude.
+inline constexpr double kNoWalkPrior = 0.8;
+struct TrendFit {
+  Estimate slope;             // per step
+  double walk_variance = 0;   // d, per step
+  double noise_variance = 0;  // r
+  Estimate curvature;         // change of slope per step
+};
+TrendFit FitTrend(std::span<const double> series);
+
+double Median(std::span<const double> values);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_STATISTICS_H_
