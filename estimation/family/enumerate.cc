@@ -18,7 +18,7 @@ constexpr std::size_t kAttemptsPer = 400;  // attempts a member before a unit gi
 constexpr int kRootCells = 12;
 constexpr int kMaxRoots = 4;
 constexpr double kXiCap = 10.0;  // stands for "no upper limit"
-constexpr double kTinyXi = 1e-6;
+constexpr double kTinyXi = 1e-9;
 constexpr double kThreeHalvesPi = 1.5 * std::numbers::pi;
 
 Range Intersection(const Range& a, const Range& b) {
@@ -81,16 +81,14 @@ struct MemberDrawer::Impl {
         const double y = xi.hi * std::tan(-target.phase_rad.lo);
         lowest = std::min(lowest, OmegaFromDetuning(target.frequency_hz, std::max(y, 0.0)) / ratio);
         const double y_lo = xi.hi * std::tan(-target.phase_rad.hi);
-        highest =
-            std::max(highest, OmegaFromDetuning(target.frequency_hz, std::min(y_lo, 0.0)));
+        highest = std::max(highest, OmegaFromDetuning(target.frequency_hz, std::min(y_lo, 0.0)));
         scale_lo = std::min(scale_lo, target.w_rad_s * target.gain.lo);
         scale_hi = std::max(scale_hi, target.w_rad_s * target.gain.hi);
       }
       window_support = Intersection({lowest, highest}, {omega.lo / window.factor, omega.hi});
-      second_support =
-          second_kind == ParameterKind::kM
-              ? Intersection({1e-3 * scale_lo, 10.0 * scale_hi}, second)
-              : Intersection({1e-3, 1e3}, second);
+      second_support = second_kind == ParameterKind::kM
+                           ? Intersection({1e-3 * scale_lo, 10.0 * scale_hi}, second)
+                           : Intersection({1e-3, 1e3}, second);
       N_support = Intersection({1e-3 * scale_lo, 10.0 * scale_hi}, N);
     } else {
       const std::optional<Range> windows = FeasibleWindows(window);
@@ -156,8 +154,8 @@ struct MemberDrawer::Impl {
   TwoModeEquation Equation(std::size_t i, double xi_i, double phase, double gain,
                            const Globals& globals) const {
     const bool relative = second_kind == ParameterKind::kMOverN || shared_N;
-    const double held = second_kind == ParameterKind::kM && shared_N ? globals.second / globals.N
-                                                                     : globals.second;
+    const double held =
+        second_kind == ParameterKind::kM && shared_N ? globals.second / globals.N : globals.second;
     return MakeTwoModeEquation(targets[i].frequency_hz, xi_i, ratio, phase, gain,
                                relative ? SecondMode::kMOverN : SecondMode::kM, held);
   }
@@ -171,8 +169,8 @@ struct MemberDrawer::Impl {
       for (int k = 0; k <= kOmegaPoints; ++k) {
         const double omega_hz =
             window_hz.lo * std::pow(window_hz.hi / window_hz.lo, double(k) / kOmegaPoints);
-        TwoModeEquation equation = Equation(
-            i, 0.0, theta, 0.5 * (targets[i].gain.lo + targets[i].gain.hi), globals);
+        TwoModeEquation equation =
+            Equation(i, 0.0, theta, 0.5 * (targets[i].gain.lo + targets[i].gain.hi), globals);
         const auto at = [&](double value) {
           equation.xi = value;
           return equation(omega_hz);
@@ -190,8 +188,8 @@ struct MemberDrawer::Impl {
   }
 
   // The interval of xi of each experiment, before the chain.
-  bool XiIntervals(const Globals& globals, const Range& window_hz,
-                   const std::vector<Range>& phases, std::vector<Range>& xis) const {
+  bool XiIntervals(const Globals& globals, const Range& window_hz, const std::vector<Range>& phases,
+                   std::vector<Range>& xis) const {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       ExperimentTarget target = targets[i];
       target.phase_rad = phases[i];
@@ -301,8 +299,8 @@ struct MemberDrawer::Impl {
     const double omega_1 = OmegaFromDetuning(f, xi_i * std::tan(-theta));
     if (!two_modes) {
       model.omega_hz = shared_omega ? window_hz.lo : omega_1;
-      model.N = shared_N ? globals.N
-                         : gain * 2.0 * xi_i * kRadPerSPerHz * omega_1 / std::cos(theta);
+      model.N =
+          shared_N ? globals.N : gain * 2.0 * xi_i * kRadPerSPerHz * omega_1 / std::cos(theta);
     } else {
       const Range wedge = Intersection({omega_1 / ratio, omega_1}, window_hz);
       if (IsEmpty(wedge)) return false;
@@ -371,8 +369,7 @@ struct MemberDrawer::Impl {
         return false;
       }
       if (two_modes) {
-        const double value =
-            second_kind == ParameterKind::kM ? model.M : model.M / model.N;
+        const double value = second_kind == ParameterKind::kM ? model.M : model.M / model.N;
         if (!(value > 0.0) || (!shared_second && !second.Contains(value))) return false;
       }
     }
@@ -390,8 +387,8 @@ struct MemberDrawer::Impl {
     if (std::isfinite(window.factor)) {
       window_hz = Intersection(omega, {globals.window, globals.window * window.factor});
     } else if (two_modes) {
-      window_hz = Intersection(omega, {1e-3 * targets[0].frequency_hz,
-                                       1e3 * targets[0].frequency_hz});
+      window_hz =
+          Intersection(omega, {1e-3 * targets[0].frequency_hz, 1e3 * targets[0].frequency_hz});
     }
     if (IsEmpty(window_hz)) return false;
     if (shared_second) globals.second = random.LogUniform(second_support);
@@ -412,8 +409,7 @@ struct MemberDrawer::Impl {
   }
 };
 
-MemberDrawer::MemberDrawer(const FamilyProblem& problem)
-    : impl_(std::make_unique<Impl>(problem)) {}
+MemberDrawer::MemberDrawer(const FamilyProblem& problem) : impl_(std::make_unique<Impl>(problem)) {}
 MemberDrawer::~MemberDrawer() = default;
 
 bool MemberDrawer::HasSupport() const { return impl_->supported; }

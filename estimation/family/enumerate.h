@@ -4,8 +4,8 @@
 // first, then the shared parameters, then xi in random order within the interval that window,
 // phase tolerance and the chain of xi leave to it (exact for one mode), then phase, gain and loop
 // phase error within their tolerances. The closed form (one mode) or the root of the two-mode
-// equation gives the parameters, and the falsification test has the last word. The density is broad, not
-// uniform: see estimation/family/sample.h for uniform members.
+// equation gives the parameters, and the falsification test has the last word. The density is
+// broad, not uniform: see estimation/family/sample.h for uniform members.
 #ifndef HOWL_ESTIMATION_FAMILY_ENUMERATE_H_
 #define HOWL_ESTIMATION_FAMILY_ENUMERATE_H_
 
