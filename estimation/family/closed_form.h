@@ -57,8 +57,8 @@ inline LoopModel ClosedFormMember(const Experiment& experiment, double xi,
   model.omega_hz = OmegaFromDetuning(experiment.frequency_hz, xi * std::tan(-phase_rad));
   model.N = gain * 2.0 * xi * kRadPerSPerHz * model.omega_hz / std::cos(phase_rad);
   model.M = 0.0;
-  model.tau_s = TauFromPhase(experiment.frequency_hz, phase_rad,
-                             errors.loop_phase_error_deg * kRadPerDeg);
+  model.tau_s =
+      TauFromPhase(experiment.frequency_hz, phase_rad, errors.loop_phase_error_deg * kRadPerDeg);
   return model;
 }
 

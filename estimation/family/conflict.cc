@@ -101,8 +101,9 @@ Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
     std::vector<unsigned> candidates;
     for (unsigned set = 0; set < (1u << kNumConditions); ++set) {
       if (std::popcount(set) != size) continue;
-      const bool contains_smaller = std::any_of(
-          minimal.begin(), minimal.end(), [&](unsigned smaller) { return (set & smaller) == smaller; });
+      const bool contains_smaller =
+          std::any_of(minimal.begin(), minimal.end(),
+                      [&](unsigned smaller) { return (set & smaller) == smaller; });
       if (!contains_smaller) candidates.push_back(set);
     }
     std::vector<Feasibility> answers(candidates.size());

@@ -13,9 +13,9 @@ namespace howl {
 
 struct Relaxation {
   Condition condition;
-  bool suffices = false;          // dropping this condition alone gives a member
-  double value = 0.0;             // what the test asks now (xi_increasing: 1)
-  std::optional<double> needed;   // the nearest value that gives one; none for xi_increasing
+  bool suffices = false;         // dropping this condition alone gives a member
+  double value = 0.0;            // what the test asks now (xi_increasing: 1)
+  std::optional<double> needed;  // the nearest value that gives one; none for xi_increasing
 };
 
 struct Conflict {

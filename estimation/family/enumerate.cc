@@ -18,7 +18,7 @@ constexpr std::size_t kAttemptsPer = 400;  // attempts a member before a unit gi
 constexpr int kRootCells = 12;
 constexpr int kMaxRoots = 4;
 constexpr double kXiCap = 10.0;  // stands for "no upper limit"
-constexpr double kTinyXi = 1e-6;
+constexpr double kTinyXi = 1e-9;
 constexpr double kThreeHalvesPi = 1.5 * std::numbers::pi;
 
 Range Intersection(const Range& a, const Range& b) {
@@ -27,13 +27,12 @@ Range Intersection(const Range& a, const Range& b) {
 
 bool IsEmpty(const Range& range) { return !(range.lo <= range.hi); }
 
-// What one attempt fixes for all experiments.
-struct Globals {
-  double window = 0.0;  // low end
-  double second = 0.0;  // shared M or M / N
-  double N = 0.0;       // shared N
-  double tau_s = 0.0;   // shared tau
-};
+// A draw from a range, or one of its ends.
+double Pick(UnitRandom& random, const Range& range, double end) {
+  if (end == 0.0) return range.lo;
+  if (end == 1.0) return range.hi;
+  return random.Uniform(range);
+}
 
 }  // namespace
 
@@ -81,16 +80,14 @@ struct MemberDrawer::Impl {
         const double y = xi.hi * std::tan(-target.phase_rad.lo);
         lowest = std::min(lowest, OmegaFromDetuning(target.frequency_hz, std::max(y, 0.0)) / ratio);
         const double y_lo = xi.hi * std::tan(-target.phase_rad.hi);
-        highest =
-            std::max(highest, OmegaFromDetuning(target.frequency_hz, std::min(y_lo, 0.0)));
+        highest = std::max(highest, OmegaFromDetuning(target.frequency_hz, std::min(y_lo, 0.0)));
         scale_lo = std::min(scale_lo, target.w_rad_s * target.gain.lo);
         scale_hi = std::max(scale_hi, target.w_rad_s * target.gain.hi);
       }
       window_support = Intersection({lowest, highest}, {omega.lo / window.factor, omega.hi});
-      second_support =
-          second_kind == ParameterKind::kM
-              ? Intersection({1e-3 * scale_lo, 10.0 * scale_hi}, second)
-              : Intersection({1e-3, 1e3}, second);
+      second_support = second_kind == ParameterKind::kM
+                           ? Intersection({1e-3 * scale_lo, 10.0 * scale_hi}, second)
+                           : Intersection({1e-3, 1e3}, second);
       N_support = Intersection({1e-3 * scale_lo, 10.0 * scale_hi}, N);
     } else {
       const std::optional<Range> windows = FeasibleWindows(window);
@@ -108,14 +105,14 @@ struct MemberDrawer::Impl {
       Member models(targets.size());
       int found = 0;
       for (int attempt = 0; attempt < tries && found < 200; ++attempt) {
-        Globals globals;
+        DrawGlobals globals;
         bool complete = false;
-        if (!Attempt(random, models, globals, complete)) continue;
+        if (!Attempt(random, nullptr, models, globals, complete)) continue;
         ++found;
         const auto widen = [](Range& range, double value) {
           range = {std::min(range.lo, value), std::max(range.hi, value)};
         };
-        widen(windows, globals.window);
+        widen(windows, globals.window_hz);
         widen(seconds, globals.second);
         widen(Ns, globals.N);
       }
@@ -133,8 +130,9 @@ struct MemberDrawer::Impl {
     }
   }
 
-  bool DrawTau(UnitRandom& random, Globals& globals, std::vector<Range>& phases) const {
-    Range allowed = tau;
+  bool DrawTau(UnitRandom& random, const Range& within, DrawGlobals& globals,
+               std::vector<Range>& phases) const {
+    Range allowed = within;
     const double turns = kThreeHalvesPi + 2.0 * std::numbers::pi * problem.domain.delay_periods;
     for (const ExperimentTarget& target : targets) {
       allowed = Intersection(
@@ -154,25 +152,25 @@ struct MemberDrawer::Impl {
   }
 
   TwoModeEquation Equation(std::size_t i, double xi_i, double phase, double gain,
-                           const Globals& globals) const {
+                           const DrawGlobals& globals) const {
     const bool relative = second_kind == ParameterKind::kMOverN || shared_N;
-    const double held = second_kind == ParameterKind::kM && shared_N ? globals.second / globals.N
-                                                                     : globals.second;
+    const double held =
+        second_kind == ParameterKind::kM && shared_N ? globals.second / globals.N : globals.second;
     return MakeTwoModeEquation(targets[i].frequency_hz, xi_i, ratio, phase, gain,
                                relative ? SecondMode::kMOverN : SecondMode::kM, held);
   }
 
   // Hull of the xi for which a grid of the window has a solution: a guide for the draw alone.
   Range TwoModeXi(std::size_t i, const Range& phase, const Range& window_hz, const Range& within,
-                  const Globals& globals) const {
+                  const DrawGlobals& globals) const {
     constexpr int kOmegaPoints = 8;
     Range hull{1e300, -1e300};
     for (const double theta : {phase.lo, phase.hi}) {
       for (int k = 0; k <= kOmegaPoints; ++k) {
         const double omega_hz =
             window_hz.lo * std::pow(window_hz.hi / window_hz.lo, double(k) / kOmegaPoints);
-        TwoModeEquation equation = Equation(
-            i, 0.0, theta, 0.5 * (targets[i].gain.lo + targets[i].gain.hi), globals);
+        TwoModeEquation equation =
+            Equation(i, 0.0, theta, 0.5 * (targets[i].gain.lo + targets[i].gain.hi), globals);
         const auto at = [&](double value) {
           equation.xi = value;
           return equation(omega_hz);
@@ -190,8 +188,8 @@ struct MemberDrawer::Impl {
   }
 
   // The interval of xi of each experiment, before the chain.
-  bool XiIntervals(const Globals& globals, const Range& window_hz,
-                   const std::vector<Range>& phases, std::vector<Range>& xis) const {
+  bool XiIntervals(const DrawGlobals& globals, const Range& window_hz, const std::vector<Range>& phases,
+                   std::vector<Range>& xis) const {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       ExperimentTarget target = targets[i];
       target.phase_rad = phases[i];
@@ -211,10 +209,9 @@ struct MemberDrawer::Impl {
   }
 
   // One mode with N shared: draws N, and narrows xi to where a gain within its range gives it.
-  bool DrawN(UnitRandom& random, Globals& globals, const std::vector<Range>& phases,
+  bool DrawN(UnitRandom& random, DrawGlobals& globals, const std::vector<Range>& phases,
              std::vector<Range>& xis) const {
     if (two_modes) {
-      globals.N = random.LogUniform(N_support);
       return true;
     }
     Range allowed = N_support;
@@ -251,17 +248,24 @@ struct MemberDrawer::Impl {
     return true;
   }
 
-  bool DrawXi(UnitRandom& random, std::vector<Range>& xis) const {
+  bool DrawXi(UnitRandom& random, const DrawFocus* focus, std::vector<Range>& xis) const {
     const std::size_t n = targets.size();
     if (shared_xi) {
       Range common = xis[0];
       for (const Range& range : xis) common = Intersection(common, range);
       if (IsEmpty(common)) return false;
-      const double value = random.Uniform(common);
+      const double value = Pick(random, common, focus ? focus->xi_end : 0.5);
       for (Range& range : xis) range = {value, value};
       return true;
     }
     if (!PropagateChain(targets, increasing, xis)) return false;
+    if (focus) {
+      const std::size_t i = focus->experiment;
+      const Range asked =
+          IsEmpty(focus->xi) ? xis[i] : Intersection(xis[i], focus->xi);
+      if (IsEmpty(asked)) return false;
+      FixInChain(targets, increasing, i, Pick(random, asked, focus->xi_end), xis);
+    }
     // Random order: every experiment is as often the one that is drawn from its full interval.
     const std::size_t start = random.Index(n);
     const bool up = random.Uniform() < 0.5;
@@ -273,14 +277,15 @@ struct MemberDrawer::Impl {
   }
 
   bool DrawExperiment(UnitRandom& random, std::size_t i, const Range& window_hz, const Range& phase,
-                      double xi_i, const Globals& globals, LoopModel& model) const {
+                      double xi_i, const DrawGlobals& globals, const DrawFocus& focus,
+                      LoopModel& model) const {
     const ExperimentTarget& target = targets[i];
     const double f = target.frequency_hz;
     model.xi = xi_i;
     model.harmonic_ratio = ratio;
     model.M = 0.0;
     if (two_modes && shared_omega && shared_second) {
-      return DrawAtOmega(random, i, window_hz.lo, globals, model);
+      return DrawAtOmega(random, i, window_hz.lo, globals, focus, model);
     }
     // Phases for which the window holds a solution at this xi.
     Range allowed = phase;
@@ -296,13 +301,13 @@ struct MemberDrawer::Impl {
       if (allowed.lo - allowed.hi > 1e-12) return false;
       std::swap(allowed.lo, allowed.hi);
     }
-    const double theta = random.Uniform(allowed);
-    double gain = random.Uniform(target.gain);
+    const double theta = Pick(random, allowed, focus.phase_end);
+    const double gain = Pick(random, target.gain, focus.gain_end);
     const double omega_1 = OmegaFromDetuning(f, xi_i * std::tan(-theta));
     if (!two_modes) {
       model.omega_hz = shared_omega ? window_hz.lo : omega_1;
-      model.N = shared_N ? globals.N
-                         : gain * 2.0 * xi_i * kRadPerSPerHz * omega_1 / std::cos(theta);
+      model.N =
+          shared_N ? globals.N : gain * 2.0 * xi_i * kRadPerSPerHz * omega_1 / std::cos(theta);
     } else {
       const Range wedge = Intersection({omega_1 / ratio, omega_1}, window_hz);
       if (IsEmpty(wedge)) return false;
@@ -313,7 +318,7 @@ struct MemberDrawer::Impl {
         if (count == 0) return false;
         model.omega_hz = roots[random.Index(static_cast<std::size_t>(count))];
       } else {
-        model.omega_hz = random.Uniform(wedge);
+        model.omega_hz = Pick(random, wedge, focus.omega_end);
       }
       if (shared_omega) model.omega_hz = window_hz.lo;
       const ModeCoefficients coefficients =
@@ -329,14 +334,14 @@ struct MemberDrawer::Impl {
       }
     }
     model.tau_s = shared_tau ? globals.tau_s
-                             : TauFromPhase(f, theta, random.Uniform(target.loop_phase_error_rad),
+                             : TauFromPhase(f, theta, Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
                                             problem.domain.delay_periods);
     return true;
   }
 
   // omega, xi and the second mode are all given: N follows from a gain, the phase from N.
-  bool DrawAtOmega(UnitRandom& random, std::size_t i, double omega_hz, const Globals& globals,
-                   LoopModel& model) const {
+  bool DrawAtOmega(UnitRandom& random, std::size_t i, double omega_hz, const DrawGlobals& globals,
+                   const DrawFocus& focus, LoopModel& model) const {
     const ExperimentTarget& target = targets[i];
     model.omega_hz = omega_hz;
     const auto mode = [&](double multiple) {
@@ -344,7 +349,7 @@ struct MemberDrawer::Impl {
     };
     const Complex<double> first = mode(1.0);
     const Complex<double> other = mode(ratio);
-    const double gain = random.Uniform(target.gain);
+    const double gain = Pick(random, target.gain, focus.gain_end);
     if (second_kind == ParameterKind::kMOverN) {
       model.N = shared_N ? globals.N : gain / Magnitude(first + globals.second * other);
       model.M = globals.second * model.N;
@@ -360,7 +365,7 @@ struct MemberDrawer::Impl {
     const double theta = Angle(model.N * first + model.M * other);
     model.tau_s = shared_tau ? globals.tau_s
                              : TauFromPhase(target.frequency_hz, theta,
-                                            random.Uniform(target.loop_phase_error_rad),
+                                            Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
                                             problem.domain.delay_periods);
     return true;
   }
@@ -371,38 +376,45 @@ struct MemberDrawer::Impl {
         return false;
       }
       if (two_modes) {
-        const double value =
-            second_kind == ParameterKind::kM ? model.M : model.M / model.N;
+        const double value = second_kind == ParameterKind::kM ? model.M : model.M / model.N;
         if (!(value > 0.0) || (!shared_second && !second.Contains(value))) return false;
       }
     }
     return true;
   }
 
-  bool Attempt(UnitRandom& random, Member& models, Globals& globals, bool& complete) const {
+  bool Attempt(UnitRandom& random, const DrawFocus* focus, Member& models, DrawGlobals& globals,
+               bool& complete) const {
+    static const DrawFocus kNoFocus;
+    const auto within = [](const Range& support, const Range& asked) {
+      return IsEmpty(asked) ? support : asked;
+    };
+    const DrawFocus& where = focus ? *focus : kNoFocus;
     thread_local std::vector<Range> phases, xis;
     phases.resize(targets.size());
     xis.resize(targets.size());
     for (std::size_t i = 0; i < targets.size(); ++i) phases[i] = targets[i].phase_rad;
-    if (shared_tau && !DrawTau(random, globals, phases)) return false;
-    globals.window = random.Uniform(window_support);
+    if (shared_tau && !DrawTau(random, Intersection(tau, within(tau, where.tau_s)), globals, phases)) return false;
+    globals.window_hz = random.Uniform(within(window_support, where.window_hz));
     Range window_hz = omega;
     if (std::isfinite(window.factor)) {
-      window_hz = Intersection(omega, {globals.window, globals.window * window.factor});
+      window_hz = Intersection(omega, {globals.window_hz, globals.window_hz * window.factor});
     } else if (two_modes) {
-      window_hz = Intersection(omega, {1e-3 * targets[0].frequency_hz,
-                                       1e3 * targets[0].frequency_hz});
+      window_hz =
+          Intersection(omega, {1e-3 * targets[0].frequency_hz, 1e3 * targets[0].frequency_hz});
     }
     if (IsEmpty(window_hz)) return false;
-    if (shared_second) globals.second = random.LogUniform(second_support);
-    if (shared_N && two_modes) globals.N = random.LogUniform(N_support);
+    if (shared_second) globals.second = random.LogUniform(within(second_support, where.second));
+    if (shared_N && two_modes) globals.N = random.LogUniform(within(N_support, where.N));
     if (!XiIntervals(globals, window_hz, phases, xis)) return false;
     if (shared_N && !two_modes && !DrawN(random, globals, phases, xis)) return false;
-    if (!DrawXi(random, xis)) return false;
+    if (!DrawXi(random, focus, xis)) return false;
     for (std::size_t i = 0; i < targets.size(); ++i) {
       bool found = false;
       for (int tries = two_modes ? 4 : 1; tries > 0 && !found; --tries) {
-        found = DrawExperiment(random, i, window_hz, phases[i], xis[i].lo, globals, models[i]);
+        const DrawFocus& here = i == where.experiment ? where : kNoFocus;
+        found =
+            DrawExperiment(random, i, window_hz, phases[i], xis[i].lo, globals, here, models[i]);
       }
       if (!found) return false;
     }
@@ -412,8 +424,7 @@ struct MemberDrawer::Impl {
   }
 };
 
-MemberDrawer::MemberDrawer(const FamilyProblem& problem)
-    : impl_(std::make_unique<Impl>(problem)) {}
+MemberDrawer::MemberDrawer(const FamilyProblem& problem) : impl_(std::make_unique<Impl>(problem)) {}
 MemberDrawer::~MemberDrawer() = default;
 
 bool MemberDrawer::HasSupport() const { return impl_->supported; }
@@ -421,8 +432,15 @@ bool MemberDrawer::HasSupport() const { return impl_->supported; }
 bool MemberDrawer::Draw(UnitRandom& random, Member& models, bool& complete) const {
   complete = false;
   models.resize(impl_->targets.size());
-  Globals globals;
-  return impl_->Attempt(random, models, globals, complete);
+  DrawGlobals globals;
+  return impl_->Attempt(random, nullptr, models, globals, complete);
+}
+
+bool MemberDrawer::DrawFocused(UnitRandom& random, const DrawFocus& focus, Member& models,
+                               DrawGlobals& globals) const {
+  bool complete = false;
+  models.resize(impl_->targets.size());
+  return impl_->Attempt(random, &focus, models, globals, complete);
 }
 
 Enumeration EnumerateMembers(const FamilyProblem& problem, std::size_t count, std::uint64_t seed,

@@ -4,8 +4,8 @@
 // first, then the shared parameters, then xi in random order within the interval that window,
 // phase tolerance and the chain of xi leave to it (exact for one mode), then phase, gain and loop
 // phase error within their tolerances. The closed form (one mode) or the root of the two-mode
-// equation gives the parameters, and the falsification test has the last word. The density is broad, not
-// uniform: see estimation/family/sample.h for uniform members.
+// equation gives the parameters, and the falsification test has the last word. The density is
+// broad, not uniform: see estimation/family/sample.h for uniform members.
 #ifndef HOWL_ESTIMATION_FAMILY_ENUMERATE_H_
 #define HOWL_ESTIMATION_FAMILY_ENUMERATE_H_
 
@@ -30,6 +30,32 @@ struct Enumeration {
   EnumerationCounts counts;
 };
 
+// What an attempt fixed for all experiments: the low end of the window of omega, and the shared
+// parameters.
+struct DrawGlobals {
+  double window_hz = 0.0;
+  double second = 0.0;  // M or M / N
+  double N = 0.0;
+  double tau_s = 0.0;
+};
+
+// Directs an attempt at the extremes of one experiment. An `end` is 0 or 1 for an end of its
+// interval, else the draw is uniform. Empty ranges (lo > hi) leave the pilot search's.
+struct DrawFocus {
+  static constexpr Range kUnset{1.0, 0.0};
+  std::size_t experiment = 0;
+  double xi_end = 0.5;
+  double phase_end = 0.5;
+  double gain_end = 0.5;
+  double loop_phase_end = 0.5;
+  double omega_end = 0.5;  // where omega is free (M per experiment)
+  Range xi = kUnset;  // of this experiment
+  Range window_hz = kUnset;
+  Range second = kUnset;
+  Range N = kUnset;
+  Range tau_s = kUnset;
+};
+
 // Draws one candidate member at a time. Immutable after construction: one object serves all
 // threads.
 class MemberDrawer {
@@ -44,6 +70,8 @@ class MemberDrawer {
   // One attempt; true when `models` (one for each experiment) is a member. `complete` tells
   // whether the attempt reached the test at all.
   bool Draw(UnitRandom& random, Member& models, bool& complete) const;
+  bool DrawFocused(UnitRandom& random, const DrawFocus& focus, Member& models,
+                   DrawGlobals& globals) const;
 
  private:
   struct Impl;

@@ -78,7 +78,8 @@ std::vector<double> DefaultSpreads(const FamilyProblem& problem, std::size_t cou
   const double end = std::isfinite(largest) ? largest : 1.2 * (highest / lowest - 1.0);
   std::vector<double> spreads(count);
   for (std::size_t k = 0; k < count; ++k) {
-    spreads[k] = end * static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(count, 2) - 1);
+    spreads[k] =
+        end * static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(count, 2) - 1);
   }
   return spreads;
 }

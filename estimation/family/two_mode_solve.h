@@ -36,8 +36,8 @@ inline ModeCoefficients CoefficientsFromResponse(double frequency_hz, double ome
   const double y = Detuning(frequency_hz, omega_hz);
   const double y_r = Detuning(frequency_hz, harmonic_ratio * omega_hz);
   const double across = xi * std::tan(-phase_rad);
-  const double scale = 2.0 * x * kRadPerSPerHz * frequency_hz * gain * std::cos(phase_rad) /
-                       (xi * (y - y_r));
+  const double scale =
+      2.0 * x * kRadPerSPerHz * frequency_hz * gain * std::cos(phase_rad) / (xi * (y - y_r));
   return {scale * (across - y_r) * (xi * xi + y * y),
           scale * harmonic_ratio * (y - across) * (xi * xi + y_r * y_r)};
 }
@@ -133,8 +133,8 @@ struct TwoModeResidual {
     const Acoustics<T> acoustics{exp(unknowns[0]), T(xi), N,
                                  held == SecondMode::kM ? T(second) : T(second) * N,
                                  T(harmonic_ratio)};
-    const Complex<T> ratio = AcousticResponse(acoustics, T(frequency_hz)) /
-                             Complex<T>{T(wanted.re), T(wanted.im)};
+    const Complex<T> ratio =
+        AcousticResponse(acoustics, T(frequency_hz)) / Complex<T>{T(wanted.re), T(wanted.im)};
     residuals[0] = ratio.re - T(1.0);
     residuals[1] = ratio.im;
     return true;
@@ -150,8 +150,8 @@ inline bool SolveTwoMode(const Experiment& experiment, double xi, double harmoni
   model.harmonic_ratio = harmonic_ratio;
   const double phase_rad = (experiment.phase_deg + errors.phase_error_deg) * kRadPerDeg;
   const double gain = experiment.gain * (1.0 + errors.gain_error);
-  const TwoModeResidual residual{gain * UnitPhasor(phase_rad), experiment.frequency_hz, xi,
-                                 harmonic_ratio, second, held};
+  const TwoModeResidual residual{
+      gain * UnitPhasor(phase_rad), experiment.frequency_hz, xi, harmonic_ratio, second, held};
   using Function = ceres::TinySolverAutoDiffFunction<TwoModeResidual, 2, 2>;
   const Function function(residual);
   ceres::TinySolver<Function> solver;

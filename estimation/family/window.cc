@@ -97,10 +97,10 @@ std::optional<Range> FeasibleWindows(const WindowProblem& problem) {
     const double y_max = std::max(xi_hi * t_hi, problem.xi.lo * t_hi);
     const double y_min = std::min(xi_hi * t_lo, problem.xi.lo * t_lo);
     // omega of this experiment lies in [lowest, highest], which the window must meet.
-    const double lowest = std::max(OmegaFromDetuning(target.frequency_hz, y_max),
-                                   problem.omega_hz.lo);
-    const double highest = std::min(OmegaFromDetuning(target.frequency_hz, y_min),
-                                    problem.omega_hz.hi);
+    const double lowest =
+        std::max(OmegaFromDetuning(target.frequency_hz, y_max), problem.omega_hz.lo);
+    const double highest =
+        std::min(OmegaFromDetuning(target.frequency_hz, y_min), problem.omega_hz.hi);
     if (!(lowest <= highest)) return std::nullopt;
     v.lo = std::max(v.lo, lowest / factor);
     v.hi = std::min(v.hi, highest);

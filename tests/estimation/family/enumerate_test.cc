@@ -29,9 +29,9 @@ TEST(ClosedFormTest, FulfilsReducedFormAtGivenErrors) {
                     1e-12 * experiment.gain);
         EXPECT_NEAR(double(reference::Deg(z)), experiment.phase_deg + errors.phase_error_deg,
                     1e-11);
-        EXPECT_NEAR(double(reference::Deg(
-                        -reference::L(reference::From(model), experiment.frequency_hz))),
-                    errors.loop_phase_error_deg, 1e-10);
+        EXPECT_NEAR(
+            double(reference::Deg(-reference::L(reference::From(model), experiment.frequency_hz))),
+            errors.loop_phase_error_deg, 1e-10);
         EXPECT_LT(model.omega_hz, experiment.frequency_hz);
       }
     }
@@ -116,8 +116,8 @@ TEST(EnumerateTest, NonHarmonicLineNarrowsMOverN) {
 }
 
 TEST(EnumerateTest, EveryParameterMayBeShared) {
-  for (const ParameterKind kind : {ParameterKind::kOmega, ParameterKind::kXi, ParameterKind::kN,
-                                   ParameterKind::kTau}) {
+  for (const ParameterKind kind :
+       {ParameterKind::kOmega, ParameterKind::kXi, ParameterKind::kN, ParameterKind::kTau}) {
     for (const int modes : {1, 2}) {
       FamilyProblem problem = Problem(R228Reliable(), modes);
       problem.experiments.resize(3);

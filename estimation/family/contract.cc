@@ -1,0 +1,341 @@
+#include "estimation/family/contract.h"
+
+#include <algorithm>
+
+#include "estimation/family/targets.h"
+#include "model/complex.h"
+
+namespace howl {
+
+namespace {
+
+constexpr int kPasses = 8;
+constexpr double kProgress = 0.02;  // a pass that narrows less than this ends the contraction
+constexpr int kSlices = 6;
+
+Interval Widened(double lo, double hi) { return {Below(lo), Above(hi)}; }
+
+// 1 / cos(theta) = sqrt(1 + t^2)
+Interval Secant(const Interval& tangent) { return sqrt(1.0 + square(tangent)); }
+
+// Both ends of y = a b with b >= 0.
+bool NarrowProduct(Interval& product, Interval& a, Interval& b) {
+  return Narrow(product, a * b) && Narrow(a, Quotient(product, b)) &&
+         Narrow(b, Quotient(product, a));
+}
+
+bool NarrowOmega(const ContractTarget& target, const Interval& detuning,
+                 ExperimentBox& box) {
+  return Narrow(box[kCellOmega], OmegaOf(target.frequency_hz, detuning));
+}
+
+}  // namespace
+
+bool ContractPhase(const ContractTarget& target, ExperimentBox& box) {
+  Interval y = DetuningOf(target.frequency_hz, box[kCellOmega]);
+  return NarrowProduct(y, box[kCellTangent], box[kCellXi]) && NarrowOmega(target, y, box);
+}
+
+bool ContractGain(const ContractTarget& target, ExperimentBox& box) {
+  const Interval secant = Secant(box[kCellTangent]);
+  // xi exp(-asinh(xi t)) rises with xi at every t.
+  const auto shape = [&](double xi, const Interval& tangent) {
+    const Interval x(xi);
+    const Interval across = x * tangent;
+    const auto at = [&](double v) {
+      const Interval value(v);
+      const Interval root = sqrt(1.0 + square(value));
+      return v > 0.0 ? 1.0 / (root + value) : root - value;
+    };
+    return x * Interval(at(across.upper()).lower(), at(across.lower()).upper());
+  };
+  const Interval& xi = box[kCellXi];
+  Interval product = box[kCellXi] * box[kCellOmega] * (target.w_rad_s / target.frequency_hz);
+  if (std::isfinite(xi.upper())) {
+    Narrow(product, target.w_rad_s * Interval(shape(xi.lower(), box[kCellTangent]).lower(),
+                                              shape(xi.upper(), box[kCellTangent]).upper()));
+  }
+  Interval scale = 2.0 * product * secant;
+  if (!NarrowProduct(box[kCellN], box[kCellGain], scale)) return false;
+  // Backward to xi and omega, through N and the gain.
+  const Interval rate = target.w_rad_s / target.frequency_hz;
+  Interval mode = Quotient(Quotient(scale, 2.0 * secant), rate);
+  return Narrow(box[kCellXi], Quotient(mode, box[kCellOmega])) &&
+         Narrow(box[kCellOmega], Quotient(mode, box[kCellXi]));
+}
+
+bool ContractTwoModes(const ContractTarget& target, ExperimentBox& box) {
+  const Interval& r = target.harmonic_ratio;
+  Interval& omega = box[kCellOmega];
+  Interval& xi = box[kCellXi];
+  Interval& tangent = box[kCellTangent];
+  Interval y = DetuningOf(target.frequency_hz, omega);
+  Interval y_r = DetuningOf(target.frequency_hz / r, omega);
+  // y_r <= xi t <= y, both modes' coefficients being positive.
+  Interval across = xi * tangent;
+  if (!NarrowLower(across, y_r.lower()) || !NarrowUpper(across, y.upper()) ||
+      !NarrowLower(y, across.lower()) || !NarrowUpper(y_r, across.upper())) {
+    return false;
+  }
+  Interval D = y - across;
+  Interval E = across - y_r;
+  if (!NarrowLower(D, 0.0) || !NarrowLower(E, 0.0)) return false;
+  const Interval x = omega / target.frequency_hz;
+  // B = 4 r x^2 w |G| cos(theta) / ((r - 1) (1 + r x^2)); x^2 / (1 + r x^2) = 1 / (1 / x^2 + r)
+  const Interval B = 4.0 * r * target.w_rad_s * box[kCellGain] /
+                     (Secant(tangent) * (r - 1.0) * (Quotient(Interval(1.0), square(x)) + r));
+  const Interval across_r = square(xi) + square(y_r);
+  const Interval across_1 = square(xi) + square(y);
+  // M xi = r B D (xi^2 + y_r^2),  N xi = B E (xi^2 + y^2)
+  const Interval scale_M = r * B * across_r;
+  const Interval scale_N = B * across_1;
+  if (!Narrow(box[kCellM], Quotient(scale_M * D, xi)) ||
+      !Narrow(D, Quotient(box[kCellM] * xi, scale_M)) ||
+      !Narrow(box[kCellN], Quotient(scale_N * E, xi)) ||
+      !Narrow(E, Quotient(box[kCellN] * xi, scale_N))) {
+    return false;
+  }
+  // M / N = r D (xi^2 + y_r^2) / (E (xi^2 + y^2))
+  if (!Narrow(box[kCellRelative], Quotient(r * D * across_r, E * across_1)) ||
+      !Narrow(box[kCellRelative], Quotient(box[kCellM], box[kCellN])) ||
+      !Narrow(box[kCellM], box[kCellRelative] * box[kCellN]) ||
+      !Narrow(box[kCellN], Quotient(box[kCellM], box[kCellRelative])) ||
+      !Narrow(D, Quotient(box[kCellRelative] * E * across_1, r * across_r)) ||
+      !Narrow(E, Quotient(r * D * across_r, box[kCellRelative] * across_1))) {
+    return false;
+  }
+  if (!Narrow(y, across + D) || !Narrow(y_r, across - E) || !Narrow(across, y - D) ||
+      !Narrow(across, y_r + E)) {
+    return false;
+  }
+  return Narrow(omega, OmegaOf(target.frequency_hz, y)) &&
+         Narrow(omega, OmegaOf(target.frequency_hz / r, y_r)) &&
+         NarrowProduct(across, tangent, xi);
+}
+
+bool ContractDelay(const ContractTarget& target, ExperimentBox& box) {
+  Interval phase = -Arctangent(box[kCellTangent]);
+  Interval turned = target.w_rad_s * box[kCellTau];
+  if (!Narrow(turned, target.turns + phase - box[kCellLoopPhase]) ||
+      !Narrow(box[kCellTau], turned / target.w_rad_s) ||
+      !Narrow(phase, turned - target.turns + box[kCellLoopPhase]) ||
+      !Narrow(box[kCellLoopPhase], target.turns + phase - turned)) {
+    return false;
+  }
+  return Narrow(box[kCellTangent], Tangent(-phase));
+}
+
+bool ContractLines(const ContractTarget& target, ExperimentBox& box) {
+  for (const Interval& line : target.lines_hz) {
+    const Interval w = target.w_rad_s / target.frequency_hz * line;
+    const Interval rate = target.w_rad_s / target.frequency_hz;
+    // The direction of G at the line, of U_1 + (M / N) U_r; a positive factor changes nothing.
+    const auto mode = [&](const Interval& omega_hz) {
+      const Interval omega = rate * omega_hz;
+      const Complex<Interval> d{2.0 * omega * box[kCellXi], w - square(omega) / w};
+      const Interval size = square(d.re) + square(d.im);
+      return Complex<Interval>{Quotient(d.re, size), -Quotient(d.im, size)};
+    };
+    const Complex<Interval> first = mode(box[kCellOmega]);
+    const Complex<Interval> other = mode(target.harmonic_ratio * box[kCellOmega]);
+    const Interval& m = box[kCellRelative];
+    Interval re = first.re;
+    Interval im = first.im;
+    if (m.upper() < kUnbounded) {
+      re = first.re + m * other.re;
+      im = first.im + m * other.im;
+    } else {
+      continue;
+    }
+    // Both modes are dissipative: re > 0.
+    if (!NarrowLower(re, 0.0)) return false;
+    if (!(re.lower() > 0.0) || !std::isfinite(re.upper())) continue;
+    const Interval angle = Arctangent(Quotient(im, re));
+    // w tau = angle - pi / 2 - error + 2 pi k
+    constexpr double kPi = 3.14159265358979323846;
+    const Interval turned = angle - Widened(kPi / 2, kPi / 2) - target.line_error_rad;
+    const Interval full_turn = Widened(2 * kPi, 2 * kPi);
+    const Interval k_range = (w * box[kCellTau] - turned) / full_turn;
+    if (Width(k_range) > 8.0 || !std::isfinite(k_range.upper())) continue;
+    double lo = kUnbounded;
+    double hi = -kUnbounded;
+    for (double k = std::ceil(k_range.lower()); k <= k_range.upper(); k += 1.0) {
+      Interval tau = box[kCellTau];
+      if (!Narrow(tau, (turned + full_turn * k) / w)) continue;
+      lo = std::min(lo, tau.lower());
+      hi = std::max(hi, tau.upper());
+    }
+    if (!(lo <= hi) || !Narrow(box[kCellTau], Interval(lo, hi))) return false;
+  }
+  return true;
+}
+
+CellContractor::CellContractor(const FamilyProblem& problem) {
+  const RoundingGuard guard;
+  two_modes_ = problem.model.modes == 2;
+  increasing_ = problem.test.xi_increasing;
+  has_window_ = std::isfinite(problem.test.omega_spread_max);
+  factor_ = 1.0 + Interval(problem.test.omega_spread_max);
+  // Tolerances widened by more than the rounding of the constants made from them.
+  const std::vector<ExperimentTarget> targets = MakeTargets(problem, -1e-13);
+  constexpr double kPi = 3.14159265358979323846;
+  const Interval pi = Widened(kPi, kPi);
+  const auto range_of = [&](ParameterKind kind) {
+    const Range range = problem.RangeOf(kind);
+    return Interval(range.lo, range.hi);
+  };
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Experiment& experiment = problem.experiments[i];
+    ContractTarget target;
+    target.frequency_hz = Interval(experiment.frequency_hz);
+    target.w_rad_s = 2.0 * pi * target.frequency_hz;
+    target.harmonic_ratio = Interval(problem.model.harmonic_ratio);
+    target.turns = pi * 1.5 + pi * (2.0 * problem.domain.delay_periods);
+    target.phi = experiment.phi;
+    const double line_tolerance = problem.test.second_crossing_tolerance_deg;
+    if (two_modes_ && line_tolerance < 180.0) {
+      for (const ObservedLine& line : experiment.lines) {
+        target.lines_hz.emplace_back(line.frequency_hz);
+      }
+      const double rad = Above(line_tolerance * kRadPerDeg);
+      target.line_error_rad = Interval(-rad, rad);
+    }
+    targets_.push_back(target);
+
+    const ExperimentTarget& bounds = targets[i];
+    ExperimentBox box;
+    box[kCellOmega] = range_of(ParameterKind::kOmega);
+    box[kCellXi] = range_of(ParameterKind::kXi);
+    empty_ |= bounds.IsEmpty() || !NarrowUpper(box[kCellXi], problem.test.xi_max);
+    if (empty_) return;
+    box[kCellTangent] = Tangent(-Widened(bounds.phase_rad.lo, bounds.phase_rad.hi));
+    box[kCellGain] = Widened(bounds.gain.lo, bounds.gain.hi);
+    // The caps of MakeTargets stand for "no limit".
+    if (bounds.gain.lo <= experiment.gain * 2e-4 || problem.test.gain_tolerance > 5e3) {
+      box[kCellGain] =
+          Interval(bounds.gain.lo <= experiment.gain * 2e-4 ? 0.0 : box[kCellGain].lower(),
+                   problem.test.gain_tolerance > 5e3 ? kUnbounded : box[kCellGain].upper());
+    }
+    box[kCellN] = range_of(ParameterKind::kN);
+    box[kCellM] = two_modes_ ? range_of(ParameterKind::kM) : Interval(0.0);
+    box[kCellRelative] = two_modes_ ? range_of(ParameterKind::kMOverN) : Interval(0.0);
+    box[kCellLoopPhase] = Widened(bounds.loop_phase_error_rad.lo, bounds.loop_phase_error_rad.hi);
+    box[kCellTau] = range_of(ParameterKind::kTau);
+    root_.push_back(box);
+  }
+  const std::array<std::pair<ParameterKind, CellVariable>, 6> kinds = {
+      {{ParameterKind::kOmega, kCellOmega},
+       {ParameterKind::kXi, kCellXi},
+       {ParameterKind::kN, kCellN},
+       {ParameterKind::kM, kCellM},
+       {ParameterKind::kMOverN, kCellRelative},
+       {ParameterKind::kTau, kCellTau}}};
+  for (const auto& [kind, variable] : kinds) {
+    if (problem.IsShared(kind)) shared_.push_back(variable);
+  }
+}
+
+Cell CellContractor::Root() const {
+  Cell cell;
+  cell.window_hz = Interval(0.0, kUnbounded);
+  cell.boxes = root_;
+  return cell;
+}
+
+bool CellContractor::ContractExperiment(std::size_t i, ExperimentBox& box) const {
+  const ContractTarget& target = targets_[i];
+  if (two_modes_) {
+    return ContractTwoModes(target, box) && ContractDelay(target, box) &&
+           ContractLines(target, box);
+  }
+  return ContractPhase(target, box) && ContractGain(target, box) && ContractDelay(target, box);
+}
+
+bool CellContractor::ContractSliced(std::size_t i, ExperimentBox& box) const {
+  const Interval xi = box[kCellXi];
+  const double step = Width(xi) / kSlices;
+  if (!std::isfinite(step) || step <= 1e-9) return ContractExperiment(i, box);
+  ExperimentBox hull{};
+  bool any = false;
+  for (int slice = 0; slice < kSlices; ++slice) {
+    ExperimentBox part = box;
+    const double lo = slice == 0 ? xi.lower() : xi.lower() + slice * step;
+    const double hi = slice + 1 == kSlices ? xi.upper() : xi.lower() + (slice + 1) * step;
+    part[kCellXi] = Interval(std::min(lo, xi.upper()), std::min(std::max(lo, hi), xi.upper()));
+    if (!ContractExperiment(i, part) || !ContractExperiment(i, part)) continue;
+    for (std::size_t v = 0; v < kNumCellVariables; ++v) {
+      hull[v] = any ? boost::numeric::hull(hull[v], part[v]) : part[v];
+    }
+    any = true;
+  }
+  if (any) box = hull;
+  return any;
+}
+
+bool CellContractor::ContractWindow(Cell& cell) const {
+  if (!has_window_) return true;
+  for (ExperimentBox& box : cell.boxes) {
+    Interval& omega = box[kCellOmega];
+    if (!NarrowLower(omega, cell.window_hz.lower()) ||
+        !NarrowUpper(omega, (Interval(cell.window_hz.upper()) * factor_).upper()) ||
+        !NarrowUpper(cell.window_hz, omega.upper()) ||
+        !NarrowLower(cell.window_hz, (Interval(omega.lower()) / factor_).lower())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool CellContractor::ContractChain(Cell& cell) const {
+  if (!increasing_) return true;
+  for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
+    for (std::size_t j = 0; j < cell.boxes.size(); ++j) {
+      if (!(targets_[j].phi < targets_[i].phi)) continue;
+      Interval& small = cell.boxes[j][kCellXi];
+      Interval& large = cell.boxes[i][kCellXi];
+      if (!NarrowLower(large, small.lower()) || !NarrowUpper(small, large.upper())) return false;
+    }
+  }
+  return true;
+}
+
+bool CellContractor::ContractShared(Cell& cell) const {
+  for (const CellVariable variable : shared_) {
+    Interval common = cell.boxes[0][variable];
+    for (const ExperimentBox& box : cell.boxes) {
+      if (!Narrow(common, box[variable])) return false;
+    }
+    for (ExperimentBox& box : cell.boxes) box[variable] = common;
+  }
+  return true;
+}
+
+bool CellContractor::Contract(Cell& cell) const {
+  if (empty_) return false;
+  const RoundingGuard guard;
+  const auto size = [&] {
+    double sum = 0.0;
+    for (const ExperimentBox& box : cell.boxes) {
+      for (const CellVariable v : {kCellOmega, kCellXi, kCellTangent}) {
+        const double root_width = Width(root_[0][v]);
+        sum += Width(box[v]) / (std::isfinite(root_width) ? root_width : box[v].upper());
+      }
+    }
+    return sum;
+  };
+  double before = size();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    if (!ContractShared(cell) || !ContractWindow(cell) || !ContractChain(cell)) return false;
+    for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
+      const bool left = two_modes_ && pass % 2 == 1 ? ContractSliced(i, cell.boxes[i])
+                                                    : ContractExperiment(i, cell.boxes[i]);
+      if (!left) return false;
+    }
+    const double after = size();
+    if (pass >= 1 && !(after < before * (1.0 - kProgress))) break;
+    before = after;
+  }
+  return ContractShared(cell) && ContractWindow(cell) && ContractChain(cell);
+}
+
+}  // namespace howl

@@ -1,0 +1,99 @@
+// Guaranteed bounds of every parameter over the family.
+//
+// For each bound (one end of one parameter of one experiment) a best-first search over cells
+// (estimation/family/cell.h): the cell that reaches farthest is split and contracted
+// (estimation/family/contract.h) until it reaches no farther than a member that was found, to within
+// half the stated width. So no member lies outside `outer`, and members were found at both ends of
+// `inner`.
+//
+// A cell ends in one of four states, never mixed: outside (no member), inside (members only),
+// undecided (it may hold members, and at the precision asked it cannot move a bound), pending (not
+// looked at within the budget, or before an interruption).
+//
+// Every bound is a unit of work of its own, so the result is the same whatever the number of
+// threads, and whether or not the run was interrupted, saved, loaded and resumed.
+#ifndef HOWL_ESTIMATION_FAMILY_ENCLOSE_H_
+#define HOWL_ESTIMATION_FAMILY_ENCLOSE_H_
+
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "estimation/family/problem.h"
+
+namespace howl {
+
+enum class FamilyParameter { kOmega, kXi, kN, kM, kTau, kLoopGain };
+
+inline constexpr std::array kFamilyParameters = {
+    FamilyParameter::kOmega, FamilyParameter::kXi,  FamilyParameter::kN,
+    FamilyParameter::kM,     FamilyParameter::kTau, FamilyParameter::kLoopGain};
+
+constexpr std::string_view FamilyParameterName(FamilyParameter parameter) {
+  constexpr std::array<std::string_view, kFamilyParameters.size()> kNames = {
+      "omega_hz", "xi", "N", "M", "tau_s", "loop_gain"};
+  return kNames[static_cast<std::size_t>(parameter)];
+}
+
+// Natural units; loop_gain is NaN where the experiment has no flame slope.
+double ParameterValue(const Experiment& experiment, const LoopModel& model,
+                      FamilyParameter parameter);
+
+struct EncloseOptions {
+  double width = 0.01;           // (outer - inner) / inner range of the parameter, both ends together
+  std::size_t max_cells = 4000;  // a bound
+  std::uint64_t seed = 0;
+  int threads = 1;
+};
+
+struct CellCounts {
+  std::size_t inside = 0;
+  std::size_t outside = 0;
+  std::size_t undecided = 0;
+  std::size_t pending = 0;
+};
+
+struct EnclosedBound {
+  Range outer;             // lo > hi: proved empty
+  Range inner{1.0, -1.0};  // lo > hi: no member was found
+  bool closed = false;     // outer and inner meet to the stated width
+  // (outer - inner) / inner range
+  double Excess() const;
+};
+
+class Enclosure {
+ public:
+  explicit Enclosure(const FamilyProblem& problem, const EncloseOptions& options = {});
+  ~Enclosure();
+  Enclosure(const Enclosure&) = delete;
+  Enclosure& operator=(const Enclosure&) = delete;
+
+  // Until every bound is closed or out of budget, or `interrupted` (asked between cells, possibly
+  // from several threads) says true. True when complete. Call again to go on.
+  bool Run(const std::function<bool()>& interrupted = nullptr);
+  bool IsComplete() const;
+
+  // The state of an interrupted run as text, exact. Load expects the same problem and options;
+  // false on anything else than what Save wrote.
+  void Save(std::ostream& out) const;
+  bool Load(std::istream& in);
+
+  EnclosedBound Bound(std::size_t experiment, FamilyParameter parameter) const;
+  bool IsBounded(std::size_t experiment, FamilyParameter parameter) const;  // has bounds at all
+  CellCounts Counts() const;
+  // Proved: the search left no cell.
+  bool IsProvedEmpty() const;
+  // The members that `inner` rests on.
+  std::vector<Member> Witnesses() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_FAMILY_ENCLOSE_H_
