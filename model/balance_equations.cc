@@ -85,8 +85,7 @@ BalanceState UnpackState(const Eigen::VectorXd& u, double rate_scale) {
   state.rate[1] = u(0) * rate_scale;
   state.frequency_hz = std::exp(u(1));
   for (Eigen::Index k = 2; k <= h; ++k) {
-    state.rate[static_cast<std::size_t>(k)] =
-        rate_scale * Complex64(u(2 * k - 2), u(2 * k - 1));
+    state.rate[static_cast<std::size_t>(k)] = rate_scale * Complex64(u(2 * k - 2), u(2 * k - 1));
   }
   return state;
 }

@@ -47,8 +47,7 @@ class Follower {
   Eigen::VectorXd Linearise(const Eigen::VectorXd& z, Eigen::MatrixXd* jacobian) const {
     const Eigen::Index n = z.size() - 1;
     Eigen::MatrixXd in_u;
-    const Eigen::VectorXd r =
-        internal::BalanceResiduals(path_(Parameter(z)), State(z), &in_u);
+    const Eigen::VectorXd r = internal::BalanceResiduals(path_(Parameter(z)), State(z), &in_u);
     jacobian->resize(n, n + 1);
     jacobian->leftCols(n) = in_u;
     constexpr double kDifference = 1e-6;
@@ -56,10 +55,9 @@ class Follower {
     Eigen::VectorXd down = z;
     up(n) += kDifference;
     down(n) -= kDifference;
-    jacobian->col(n) =
-        (internal::BalanceResiduals(path_(Parameter(up)), State(up), nullptr) -
-         internal::BalanceResiduals(path_(Parameter(down)), State(down), nullptr)) /
-        (2.0 * kDifference);
+    jacobian->col(n) = (internal::BalanceResiduals(path_(Parameter(up)), State(up), nullptr) -
+                        internal::BalanceResiduals(path_(Parameter(down)), State(down), nullptr)) /
+                       (2.0 * kDifference);
     return r;
   }
 
@@ -131,9 +129,8 @@ class Follower {
         return;
       }
       if (next->tangent(Last(next->tangent)) * from.tangent(Last(from.tangent)) < 0.0) {
-        const double at = Bisect(from, ds, [](const ArcPoint& p) {
-          return p.tangent(Last(p.tangent));
-        });
+        const double at =
+            Bisect(from, ds, [](const ArcPoint& p) { return p.tangent(Last(p.tangent)); });
         Add(BifurcationKind::kFold, from, at, branch);
       }
       BranchPoint point = Describe(next->z);
@@ -194,8 +191,7 @@ class Follower {
     int unused = 0;
     const double limit =
         from.tangent(Last(from.tangent)) > 0.0 ? options_.parameter_max : options_.parameter_min;
-    const double at =
-        Bisect(from, ds, [&](const ArcPoint& p) { return Parameter(p.z) - limit; });
+    const double at = Bisect(from, ds, [&](const ArcPoint& p) { return Parameter(p.z) - limit; });
     const std::optional<ArcPoint> point = Step(from, at, &unused);
     if (point) branch->points.push_back(Describe(point->z));
   }
@@ -203,9 +199,8 @@ class Follower {
   // Where the amplitude would vanish: there the crossing's gain is one.
   void AddHopf(const ArcPoint& from, double ds, Branch* branch) const {
     int unused = 0;
-    const double at = Bisect(from, ds, [&](const ArcPoint& p) {
-      return p.z(0) - options_.min_amplitude;
-    });
+    const double at =
+        Bisect(from, ds, [&](const ArcPoint& p) { return p.z(0) - options_.min_amplitude; });
     const std::optional<ArcPoint> point = Step(from, at, &unused);
     if (!point) return;
     const double near_hz = State(point->z).frequency_hz;
@@ -247,10 +242,10 @@ class Follower {
       if (multiplier.real() < 0.0) {
         kind = BifurcationKind::kPeriodDoubling;
       } else {
-        const bool fold = !branch->bifurcations.empty() &&
-                          branch->bifurcations.back().kind == BifurcationKind::kFold &&
-                          std::abs(branch->bifurcations.back().parameter -
-                                   Parameter(point->z)) < 1e-3 * range_;
+        const bool fold =
+            !branch->bifurcations.empty() &&
+            branch->bifurcations.back().kind == BifurcationKind::kFold &&
+            std::abs(branch->bifurcations.back().parameter - Parameter(point->z)) < 1e-3 * range_;
         if (fold) return;  // the same point, already listed
         kind = BifurcationKind::kBranchPoint;
       }

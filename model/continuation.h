@@ -32,7 +32,7 @@ struct ContinuationOptions {
   double first_step = 0.02;  // arc length; lengths are relative to the parameter's range
   double max_step = 0.05;
   double min_step = 1e-7;
-  int max_points = 400;  // in each direction
+  int max_points = 400;         // in each direction
   double min_amplitude = 1e-3;  // relative to saturation / |slope|: below it the branch ends (Hopf)
   bool stability = true;
   HarmonicBalanceOptions balance;

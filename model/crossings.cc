@@ -56,9 +56,7 @@ struct LoopPhase {
   double At(double w) const {
     return kPi + numerator.Phase(w) - first.Phase(w) - second.Phase(w) - tau * w;
   }
-  double Rate(double w) const {
-    return numerator.Rate(w) - first.Rate(w) - second.Rate(w) - tau;
-  }
+  double Rate(double w) const { return numerator.Rate(w) - first.Rate(w) - second.Rate(w) - tau; }
   Range Bounds(double a, double b) const {
     return {kPi + numerator.Phase(a) - first.Phase(b) - second.Phase(b) - tau * b,
             kPi + numerator.Phase(b) - first.Phase(a) - second.Phase(a) - tau * a};
@@ -127,7 +125,8 @@ void Search(const LoopPhase& phase, double a, double b, std::vector<Root>* roots
   const double middle = 0.5 * (a + b);
   if (b - a < 1e-10 * b) {  // the phase touches the axis here, without or barely crossing it
     const int turns = static_cast<int>(std::lround((kPi - phase.At(middle)) / kTwoPi));
-    if (std::abs(phase.At(middle) - kPi + kTwoPi * turns) < 1e-12) roots->push_back({middle, turns});
+    if (std::abs(phase.At(middle) - kPi + kTwoPi * turns) < 1e-12)
+      roots->push_back({middle, turns});
     return;
   }
   Search(phase, a, middle, roots);

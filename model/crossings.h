@@ -22,10 +22,10 @@ namespace howl {
 
 struct PhaseCrossing {
   double frequency_hz = 0.0;
-  double gain = 0.0;                    // |Phi'(0) L|: (1b) holds above one
-  double gain_margin_db = 0.0;          // -20 log10(gain)
-  double phase_rate_deg_per_hz = 0.0;   // of L; negative where the phase falls through 180
-  int turns = 0;                        // the loop's phase is 180 - 360 turns degrees, unwrapped
+  double gain = 0.0;                   // |Phi'(0) L|: (1b) holds above one
+  double gain_margin_db = 0.0;         // -20 log10(gain)
+  double phase_rate_deg_per_hz = 0.0;  // of L; negative where the phase falls through 180
+  int turns = 0;                       // the loop's phase is 180 - 360 turns degrees, unwrapped
 };
 
 struct GainCrossing {

@@ -15,9 +15,9 @@ namespace howl {
 namespace {
 
 constexpr int kOrder = 8;
-constexpr int kFirst = kFirstNode<kOrder>;       // -3
-constexpr int kLast = kFirst + kOrder - 1;       // 4
-constexpr int kMinDelaySteps = 2 * kLast;        // the scheme stays explicit
+constexpr int kFirst = kFirstNode<kOrder>;  // -3
+constexpr int kLast = kFirst + kOrder - 1;  // 4
+constexpr int kMinDelaySteps = 2 * kLast;   // the scheme stays explicit
 
 // Rows are linear functionals of the initial state (x_0: 4; p'_0, p'_-1, ...: past).
 class Monodromy {
@@ -108,19 +108,17 @@ class Monodromy {
 FloquetMultipliers CycleStability(const ClosedLoop& model, const LimitCycle& cycle,
                                   const FloquetOptions& options) {
   const double delay_periods = model.loop.tau_s * cycle.frequency_hz;
-  int steps = std::max(options.min_steps,
-                       static_cast<int>(std::ceil(kMinDelaySteps / delay_periods)));
+  int steps =
+      std::max(options.min_steps, static_cast<int>(std::ceil(kMinDelaySteps / delay_periods)));
   FloquetMultipliers result;
   for (;;) {
     const Monodromy monodromy(model, cycle, steps);
     const Eigen::VectorXcd eigenvalues = monodromy.Build().eigenvalues();
     result.multipliers.assign(eigenvalues.begin(), eigenvalues.end());
     result.steps = steps;
-    const auto trivial =
-        std::min_element(result.multipliers.begin(), result.multipliers.end(),
-                         [](const auto& l, const auto& r) {
-                           return std::abs(l - 1.0) < std::abs(r - 1.0);
-                         });
+    const auto trivial = std::min_element(
+        result.multipliers.begin(), result.multipliers.end(),
+        [](const auto& l, const auto& r) { return std::abs(l - 1.0) < std::abs(r - 1.0); });
     result.trivial_error = std::abs(*trivial - 1.0);
     result.multipliers.erase(trivial);
     std::sort(result.multipliers.begin(), result.multipliers.end(),

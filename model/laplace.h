@@ -31,7 +31,8 @@ inline ModeTransfer ModeRateTransfer(double omega_rad_s, double xi, double coeff
                                      std::complex<double> s) {
   const std::complex<double> d = s * s + 2.0 * omega_rad_s * xi * s + omega_rad_s * omega_rad_s;
   const std::complex<double> value = coefficient * s * s / d;
-  return {value, coefficient * (2.0 * s * d - s * s * (2.0 * s + 2.0 * omega_rad_s * xi)) / (d * d)};
+  return {value,
+          coefficient * (2.0 * s * d - s * s * (2.0 * s + 2.0 * omega_rad_s * xi)) / (d * d)};
 }
 
 // s G(s), from q to the rate of change of p.
