@@ -2,10 +2,12 @@
 
 #include <glog/logging.h>
 
-#include <array>
+#include <algorithm>
 #include <boost/math/special_functions/bessel.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "model/lane_loop.h"
 
 namespace howl {
 namespace {
@@ -45,17 +47,7 @@ void Decimator::Push(std::span<const double> input, std::vector<double>* output)
   const std::size_t length = taps_.size();
   std::size_t start = 0;
   while (start + length <= pending_.size()) {
-    // Several partial sums, in an order of its own: a single one waits for each addition.
-    std::array<double, 8> sums{};
-    std::size_t i = 0;
-    for (; i + sums.size() <= length; i += sums.size()) {
-      for (std::size_t k = 0; k < sums.size(); ++k) {
-        sums[k] += taps_[i + k] * pending_[start + i + k];
-      }
-    }
-    for (; i < length; ++i) sums[0] += taps_[i] * pending_[start + i];
-    output->push_back(((sums[0] + sums[1]) + (sums[2] + sums[3])) +
-                      ((sums[4] + sums[5]) + (sums[6] + sums[7])));
+    output->push_back(internal::DotProduct(taps_.data(), pending_.data() + start, length));
     start += static_cast<std::size_t>(ratio_);
   }
   pending_.erase(pending_.begin(),

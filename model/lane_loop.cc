@@ -7,8 +7,7 @@
 // One copy for each vector width; the machine takes the widest that it has. All give the same
 // bits: this file is compiled without fused products (see CMakeLists.txt).
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define HOWL_VECTOR_CLONES \
-  __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
+#define HOWL_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define HOWL_VECTOR_CLONES
 #endif
@@ -17,21 +16,53 @@
 namespace howl::internal {
 namespace {
 
+// A row of W lanes as one value. Vectors of the compiler's kind: each operation acts on each lane
+// by itself, on any machine.
 template <int W>
-HOWL_INLINE void InterpolateLanes(const LaneBlock<W>& block, int count, double* __restrict v) {
-  const double* __restrict x = block.window.data();
-  const auto& w = block.delay_weights;
+struct Row;
+template <>
+struct Row<1> {
+  using Type = double;
+};
+template <>
+struct Row<8> {
+  typedef double Type __attribute__((vector_size(64), aligned(8), may_alias));
+};
+template <int W>
+using RowOf = typename Row<W>::Type;
+
+template <int W>
+HOWL_INLINE const RowOf<W>* Rows(const double* p) {
+  return reinterpret_cast<const RowOf<W>*>(p);
+}
+template <int W>
+HOWL_INLINE RowOf<W>* Rows(double* p) {
+  return reinterpret_cast<RowOf<W>*>(p);
+}
+
+// out_i = sum_j w_j x_(i + j)
+template <int W>
+HOWL_INLINE void SlidingSum(
+    const std::array<std::array<double, static_cast<std::size_t>(W)>, kOrder>& weights, int count,
+    const double* x, double* out) {
+  using V = RowOf<W>;
+  const V* __restrict from = Rows<W>(x);
+  V* __restrict to = Rows<W>(out);
+  const V* w = Rows<W>(weights[0].data());
+  const V w0 = w[0];
+  const V w1 = w[1];
+  const V w2 = w[2];
+  const V w3 = w[3];
+  const V w4 = w[4];
+  const V w5 = w[5];
   for (int i = 0; i < count; ++i) {
-    for (int l = 0; l < W; ++l) {
-      const double* at = x + i * W + l;
-      double sum = w[0][l] * at[0];
-      sum += w[1][l] * at[W];
-      sum += w[2][l] * at[2 * W];
-      sum += w[3][l] * at[3 * W];
-      sum += w[4][l] * at[4 * W];
-      sum += w[5][l] * at[5 * W];
-      v[i * W + l] = sum;
-    }
+    V sum = w0 * from[i];
+    sum += w1 * from[i + 1];
+    sum += w2 * from[i + 2];
+    sum += w3 * from[i + 3];
+    sum += w4 * from[i + 4];
+    sum += w5 * from[i + 5];
+    to[i] = sum;
   }
 }
 
@@ -76,98 +107,80 @@ HOWL_INLINE void ApplyFlameLanes(const LaneBlock<W>& block, int count, double* v
 }
 
 template <int W>
-HOWL_INLINE void Force(const std::array<std::array<double, W>, kOrder>& w, int count,
-                       const double* __restrict q, double* __restrict out) {
-  for (int i = 0; i < count; ++i) {
-    for (int l = 0; l < W; ++l) {
-      const double* at = q + i * W + l;
-      double sum = w[0][l] * at[0];
-      sum += w[1][l] * at[W];
-      sum += w[2][l] * at[2 * W];
-      sum += w[3][l] * at[3 * W];
-      sum += w[4][l] * at[4 * W];
-      sum += w[5][l] * at[5 * W];
-      out[i * W + l] = sum;
-    }
-  }
-}
-
-template <int W>
-HOWL_INLINE void PropagateLanes(LaneBlock<W>* block, int count, const double* __restrict heat,
-                                double* __restrict pressure, double* __restrict rate) {
+HOWL_INLINE void PropagateLanes(LaneBlock<W>* block, int count, const double* heat,
+                                double* pressure, double* rate) {
+  using V = RowOf<W>;
   const int modes = block->modes;
   for (int k = 0; k < modes; ++k) {
-    double* __restrict path_y = block->path_y[k].data();
-    double* __restrict path_p = block->path_p[k].data();
-    Force<W>(block->weight_y[k], count, heat, path_y);
-    Force<W>(block->weight_p[k], count, heat, path_p);
+    SlidingSum<W>(block->weight_y[k], count, heat, block->path_y[k].data());
+    SlidingSum<W>(block->weight_p[k], count, heat, block->path_p[k].data());
   }
-  // Two modes at a time: each waits for its own last step alone.
+  // Two modes at a time, so that neither waits idly for its own last step.
   for (int k = 0; k < modes; k += 2) {
-    const int pair = k + 1 < modes ? k + 1 : k;
-    double* __restrict ya = block->path_y[k].data();
-    double* __restrict pa = block->path_p[k].data();
-    double* __restrict yb = block->path_y[pair].data();
-    double* __restrict pb = block->path_p[pair].data();
-    const auto ea = block->exponential[k];
-    const auto eb = block->exponential[pair];
-    auto sya = block->y[k];
-    auto spa = block->p[k];
-    auto syb = block->y[pair];
-    auto spb = block->p[pair];
-    if (pair != k) {
+    const int other = k + 1 < modes ? k + 1 : k;
+    V* __restrict ya = Rows<W>(block->path_y[k].data());
+    V* __restrict pa = Rows<W>(block->path_p[k].data());
+    const V* ea = Rows<W>(block->exponential[k][0].data());
+    const V a0 = ea[0];
+    const V a1 = ea[1];
+    const V a2 = ea[2];
+    const V a3 = ea[3];
+    V y = *Rows<W>(block->y[k].data());
+    V p = *Rows<W>(block->p[k].data());
+    if (other == k) {
       for (int i = 0; i < count; ++i) {
-        for (int l = 0; l < W; ++l) {
-          const double y = (ya[i * W + l] + ea[0][l] * sya[l]) + ea[1][l] * spa[l];
-          const double p = (pa[i * W + l] + ea[2][l] * sya[l]) + ea[3][l] * spa[l];
-          sya[l] = y;
-          spa[l] = p;
-          ya[i * W + l] = y;
-          pa[i * W + l] = p;
-        }
-        for (int l = 0; l < W; ++l) {
-          const double y = (yb[i * W + l] + eb[0][l] * syb[l]) + eb[1][l] * spb[l];
-          const double p = (pb[i * W + l] + eb[2][l] * syb[l]) + eb[3][l] * spb[l];
-          syb[l] = y;
-          spb[l] = p;
-          yb[i * W + l] = y;
-          pb[i * W + l] = p;
-        }
+        const V next = (ya[i] + a0 * y) + a1 * p;
+        p = (pa[i] + a2 * y) + a3 * p;
+        y = next;
+        ya[i] = y;
+        pa[i] = p;
       }
-      block->y[pair] = syb;
-      block->p[pair] = spb;
+    } else {
+      V* __restrict yb = Rows<W>(block->path_y[other].data());
+      V* __restrict pb = Rows<W>(block->path_p[other].data());
+      const V* eb = Rows<W>(block->exponential[other][0].data());
+      const V b0 = eb[0];
+      const V b1 = eb[1];
+      const V b2 = eb[2];
+      const V b3 = eb[3];
+      V z = *Rows<W>(block->y[other].data());
+      V r = *Rows<W>(block->p[other].data());
+      for (int i = 0; i < count; ++i) {
+        const V next_a = (ya[i] + a0 * y) + a1 * p;
+        const V next_b = (yb[i] + b0 * z) + b1 * r;
+        p = (pa[i] + a2 * y) + a3 * p;
+        r = (pb[i] + b2 * z) + b3 * r;
+        y = next_a;
+        z = next_b;
+        ya[i] = y;
+        pa[i] = p;
+        yb[i] = z;
+        pb[i] = r;
+      }
+      *Rows<W>(block->y[other].data()) = z;
+      *Rows<W>(block->p[other].data()) = r;
+    }
+    *Rows<W>(block->y[k].data()) = y;
+    *Rows<W>(block->p[k].data()) = p;
+  }
+  const V* __restrict q = Rows<W>(heat) + kBehind + 1;
+  V* __restrict out_p = Rows<W>(pressure);
+  V* __restrict out_rate = Rows<W>(rate);
+  const V direct = *Rows<W>(block->direct.data());
+  for (int k = 0; k < modes; ++k) {
+    const V* __restrict path_y = Rows<W>(block->path_y[k].data());
+    const V* __restrict path_p = Rows<W>(block->path_p[k].data());
+    const V omega = *Rows<W>(block->omega[k].data());
+    const V damping = *Rows<W>(block->damping[k].data());
+    if (k == 0) {
+      for (int i = 0; i < count; ++i) {
+        out_p[i] = path_p[i];
+        out_rate[i] = (direct * q[i] - omega * path_y[i]) - damping * path_p[i];
+      }
     } else {
       for (int i = 0; i < count; ++i) {
-        for (int l = 0; l < W; ++l) {
-          const double y = (ya[i * W + l] + ea[0][l] * sya[l]) + ea[1][l] * spa[l];
-          const double p = (pa[i * W + l] + ea[2][l] * sya[l]) + ea[3][l] * spa[l];
-          sya[l] = y;
-          spa[l] = p;
-          ya[i * W + l] = y;
-          pa[i * W + l] = p;
-        }
-      }
-    }
-    block->y[k] = sya;
-    block->p[k] = spa;
-  }
-  const double* __restrict q = heat + (kBehind + 1) * W;
-  for (int i = 0; i < count; ++i) {
-    for (int l = 0; l < W; ++l) {
-      pressure[i * W + l] = block->path_p[0][i * W + l];
-      rate[i * W + l] =
-          (block->direct[l] * q[i * W + l] - block->omega[0][l] * block->path_y[0][i * W + l]) -
-          block->damping[0][l] * block->path_p[0][i * W + l];
-    }
-  }
-  for (int k = 1; k < modes; ++k) {
-    const double* __restrict path_y = block->path_y[k].data();
-    const double* __restrict path_p = block->path_p[k].data();
-    for (int i = 0; i < count; ++i) {
-      for (int l = 0; l < W; ++l) {
-        pressure[i * W + l] += path_p[i * W + l];
-        rate[i * W + l] = (rate[i * W + l] - block->omega[k][l] * path_y[i * W + l]) -
-                          block->damping[k][l] * path_p[i * W + l];
+        out_p[i] += path_p[i];
+        out_rate[i] = (out_rate[i] - omega * path_y[i]) - damping * path_p[i];
       }
     }
   }
@@ -208,10 +221,10 @@ template struct LaneBlock<1>;
 template struct LaneBlock<8>;
 
 HOWL_VECTOR_CLONES void Interpolate(const LaneBlock<1>& block, int count, double* v) {
-  InterpolateLanes<1>(block, count, v);
+  SlidingSum<1>(block.delay_weights, count, block.window.data(), v);
 }
 HOWL_VECTOR_CLONES void Interpolate(const LaneBlock<8>& block, int count, double* v) {
-  InterpolateLanes<8>(block, count, v);
+  SlidingSum<8>(block.delay_weights, count, block.window.data(), v);
 }
 HOWL_VECTOR_CLONES void ApplyFlame(const LaneBlock<1>& block, int count, double* v) {
   ApplyFlameLanes<1>(block, count, v);
@@ -226,6 +239,17 @@ HOWL_VECTOR_CLONES void Propagate(LaneBlock<1>* block, int count, const double* 
 HOWL_VECTOR_CLONES void Propagate(LaneBlock<8>* block, int count, const double* heat,
                                   double* pressure, double* rate) {
   PropagateLanes<8>(block, count, heat, pressure, rate);
+}
+
+HOWL_VECTOR_CLONES double DotProduct(const double* a, const double* b, std::size_t n) {
+  // Eight partial sums, in an order of their own: a single one waits for each addition.
+  double sums[8] = {};
+  std::size_t i = 0;
+  for (; i + 8 <= n; i += 8) {
+    for (std::size_t k = 0; k < 8; ++k) sums[k] += a[i + k] * b[i + k];
+  }
+  for (; i < n; ++i) sums[0] += a[i] * b[i];
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
 }  // namespace howl::internal

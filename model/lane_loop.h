@@ -87,6 +87,9 @@ void ApplyFlame(const LaneBlock<8>& block, int count, double* v);
 void Propagate(LaneBlock<1>* block, int count, const double* heat, double* pressure, double* rate);
 void Propagate(LaneBlock<8>* block, int count, const double* heat, double* pressure, double* rate);
 
+// sum_i a_i b_i, for the anti-alias filter.
+double DotProduct(const double* a, const double* b, std::size_t n);
+
 }  // namespace howl::internal
 
 #endif  // HOWL_MODEL_LANE_LOOP_H_
