@@ -1,0 +1,57 @@
+#include "model/decimate.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <boost/math/special_functions/bessel.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "model/lane_loop.h"
+
+namespace howl {
+namespace {
+
+constexpr double kAttenuationDb = 85.0;
+constexpr double kPassBand = 0.4;  // of the record's rate
+constexpr double kStopBand = 0.6;
+
+}  // namespace
+
+Decimator::Decimator(int ratio) : ratio_(ratio), half_length_(0), taps_{1.0} {
+  CHECK_GE(ratio, 1);
+  if (ratio == 1) return;
+  constexpr double kPi = std::numbers::pi;
+  const double transition = 2.0 * kPi * (kStopBand - kPassBand) / ratio;  // rad a sample
+  half_length_ = static_cast<int>(std::ceil(0.5 * (kAttenuationDb - 7.95) / (2.285 * transition)));
+  const double beta = 0.1102 * (kAttenuationDb - 8.7);
+  const double cutoff = 0.5 * (kPassBand + kStopBand) / ratio;  // cycles a sample
+  taps_.resize(static_cast<std::size_t>(2 * half_length_ + 1));
+  double sum = 0.0;
+  for (int i = -half_length_; i <= half_length_; ++i) {
+    const double x = static_cast<double>(i) / half_length_;
+    const double sinc = i == 0 ? 2.0 * cutoff : std::sin(2.0 * kPi * cutoff * i) / (kPi * i);
+    const double window = boost::math::cyl_bessel_i(0, beta * std::sqrt(1.0 - x * x));
+    taps_[static_cast<std::size_t>(i + half_length_)] = sinc * window;
+    sum += sinc * window;
+  }
+  for (double& tap : taps_) tap /= sum;
+}
+
+void Decimator::Push(std::span<const double> input, std::vector<double>* output) {
+  if (ratio_ == 1) {
+    output->insert(output->end(), input.begin(), input.end());
+    return;
+  }
+  pending_.insert(pending_.end(), input.begin(), input.end());
+  const std::size_t length = taps_.size();
+  std::size_t start = 0;
+  while (start + length <= pending_.size()) {
+    output->push_back(internal::DotProduct(taps_.data(), pending_.data() + start, length));
+    start += static_cast<std::size_t>(ratio_);
+  }
+  pending_.erase(pending_.begin(),
+                 pending_.begin() + static_cast<std::ptrdiff_t>(std::min(start, pending_.size())));
+}
+
+}  // namespace howl

@@ -1,0 +1,48 @@
+// Poles of the loop closed by its linearised flame: the roots of the characteristic equation
+//
+//   1 = k L(s) = k s G(s) e^(-tau s),   k = Phi'(0)
+//
+// First the eigenvalues of the infinitesimal generator of the delay system, discretised at
+// Chebyshev points (Breda, Maset & Vermiglio 2005): with x the modes' states and w = p' over the
+// past tau seconds, x' = A x + B k w(-tau), dw/dt = dw/dtheta, w(0) = C x + (N + M) k w(-tau).
+// Then Newton on the characteristic equation, to rounding. Then a count by the argument principle
+// over the rectangle growth_min <= Re s <= bound, |Im s| <= 2 pi frequency_max, where `bound`
+// exceeds the real part of every pole: |k| sup|s G| e^(-tau bound) < 1. If the count and the list
+// differ, the discretisation is refined.
+//
+// Growth rates in 1/s, frequencies in Hz.
+#ifndef HOWL_MODEL_POLES_H_
+#define HOWL_MODEL_POLES_H_
+
+#include <vector>
+
+#include "model/loop.h"
+
+namespace howl {
+
+struct Pole {
+  double growth_rate = 0.0;   // Re s
+  double frequency_hz = 0.0;  // Im s / (2 pi) >= 0: complex poles stand for their pair
+};
+
+struct PoleOptions {
+  double growth_min = -200.0;
+  double frequency_max_hz = 2000.0;
+};
+
+struct PoleSet {
+  std::vector<Pole> poles;  // rightmost first
+  int counted = 0;          // by the argument principle; a pair counts once
+  bool complete = false;    // the list has as many as were counted
+};
+
+PoleSet ClosedLoopPoles(const LoopParameters<double>& loop, double flame_slope,
+                        const PoleOptions& options = {});
+
+// Of the rightmost pole; the search widens until there is one.
+Pole RightmostPole(const LoopParameters<double>& loop, double flame_slope,
+                   double frequency_max_hz = 2000.0);
+
+}  // namespace howl
+
+#endif  // HOWL_MODEL_POLES_H_
