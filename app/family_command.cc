@@ -1,9 +1,11 @@
 #include <cstdio>
+#include <limits>
 
 #include "app/command.h"
 #include "app/problem_input.h"
 #include "app/text_table.h"
 #include "estimation/family/conflict.h"
+#include "estimation/family/enclose.h"
 #include "estimation/family/enumerate.h"
 #include "estimation/family/tradeoff.h"
 #include "io/config/config.h"
@@ -34,30 +36,68 @@ void PrintConflict(const Conflict& conflict) {
   }
 }
 
-void PrintSpread(const FamilyProblem& problem, const std::vector<Member>& members) {
-  TextTable table({"experiment", "omega Hz", "xi", "N", "M", "tau ms", "loop gain"});
-  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
-    Range omega, xi, N, M, tau, gain;
-    for (Range* range : {&omega, &xi, &N, &M, &tau, &gain}) *range = {1e300, -1e300};
-    const auto extend = [](Range& range, double value) {
-      range.lo = std::min(range.lo, value);
-      range.hi = std::max(range.hi, value);
-    };
-    for (const Member& member : members) {
-      extend(omega, member[i].omega_hz);
-      extend(xi, member[i].xi);
-      extend(N, member[i].N);
-      extend(M, member[i].M);
-      extend(tau, 1e3 * member[i].tau_s);
-      extend(gain, ComputeErrors(problem.experiments[i], member[i]).loop_gain);
-    }
-    const auto text = [](const Range& range, int digits) {
-      return Significant(range.lo, digits) + " .. " + Significant(range.hi, digits);
-    };
-    table.AddRow({problem.experiments[i].name, text(omega, 5), text(xi, 3), text(N, 4), text(M, 4),
-                  text(tau, 5), text(gain, 4)});
+// "212.81 .. 219.75" from the members found; what the guaranteed bound adds follows in brackets
+// where it shows.
+std::string RangeText(const Range& range, double factor, int digits) {
+  return Significant(factor * range.lo, digits) + " .. " + Significant(factor * range.hi, digits);
+}
+
+void PrintBounds(const FamilyProblem& problem, const Enclosure& enclosure) {
+  std::vector<std::string> header = {"experiment", "omega Hz", "xi", "N"};
+  std::vector<FamilyParameter> shown = {FamilyParameter::kOmega, FamilyParameter::kXi,
+                                        FamilyParameter::kN};
+  if (problem.model.modes == 2) {
+    header.emplace_back("M");
+    shown.push_back(FamilyParameter::kM);
   }
-  std::printf("%s", table.Text().c_str());
+  header.emplace_back("tau ms");
+  shown.push_back(FamilyParameter::kTau);
+  header.emplace_back("loop gain");
+  shown.push_back(FamilyParameter::kLoopGain);
+  TextTable table(std::move(header));
+  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    std::vector<std::string> cells = {problem.experiments[i].name};
+    for (const FamilyParameter parameter : shown) {
+      if (!enclosure.IsBounded(i, parameter)) {
+        cells.emplace_back("-");
+        continue;
+      }
+      const double factor = parameter == FamilyParameter::kTau ? 1e3 : 1.0;
+      cells.push_back(RangeText(enclosure.Bound(i, parameter).outer, factor, 4));
+    }
+    table.AddRow(std::move(cells));
+  }
+  std::printf("no member lies outside (guaranteed):\n%s", table.Text().c_str());
+}
+
+// The parameter whose guaranteed bound exceeds the members found by most, relative to their range.
+void PrintTightness(const FamilyProblem& problem, const Enclosure& enclosure) {
+  double widest = -1.0;
+  double tightest = std::numeric_limits<double>::infinity();
+  std::string widest_name;
+  std::string tightest_name;
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    for (const FamilyParameter parameter : kFamilyParameters) {
+      if (!enclosure.IsBounded(i, parameter)) continue;
+      const EnclosedBound bound = enclosure.Bound(i, parameter);
+      const std::string name =
+          problem.experiments[i].name + "." + std::string(FamilyParameterName(parameter));
+      if (!bound.closed) ++open;
+      if (bound.Excess() > widest) {
+        widest = bound.Excess();
+        widest_name = name;
+      }
+      if (bound.Excess() < tightest) {
+        tightest = bound.Excess();
+        tightest_name = name;
+      }
+    }
+  }
+  std::printf("members reach the bounds to within %s %% (%s) .. %s %% (%s) of their range\n",
+              Significant(100.0 * tightest, 2).c_str(), tightest_name.c_str(),
+              Significant(100.0 * widest, 2).c_str(), widest_name.c_str());
+  if (open > 0) std::printf("%zu bounds are not as tight as asked: the budget ran out\n", open);
 }
 
 int Run(const Options& options) {
@@ -65,6 +105,9 @@ int Run(const Options& options) {
   const FamilyProblem problem = MakeFamilyProblem(config, LoadExperiments(config, options));
   const Enumeration enumeration = EnumerateMembers(
       problem, static_cast<std::size_t>(config.family.members), options.seed, options.threads);
+  Enclosure enclosure(
+      problem, {.width = config.family.width, .seed = options.seed, .threads = options.threads});
+  enclosure.Run();
   Conflict conflict;
   if (enumeration.members.empty()) conflict = ExplainEmpty(problem, options.threads);
   const std::vector<TradeoffPoint> tradeoff =
@@ -73,14 +116,14 @@ int Run(const Options& options) {
   WriteWholeFile(options.out / "family.csv", FamilyCsv(problem.experiments, enumeration.members));
   WriteWholeFile(options.out / "tradeoff.csv", TradeoffCsv(tradeoff));
   WriteWholeFile(options.out / "family.json",
-                 FamilyJson(problem, enumeration, conflict).dump(2) + "\n");
+                 FamilyJson(problem, enumeration, enclosure, conflict).dump(2) + "\n");
   if (!options.quiet) {
     if (enumeration.members.empty()) {
       PrintConflict(conflict);
     } else {
-      std::printf("%zu members of the family that the data cannot reject:\n",
-                  enumeration.members.size());
-      PrintSpread(problem, enumeration.members);
+      std::printf("%zu members listed that the data cannot reject\n", enumeration.members.size());
+      PrintBounds(problem, enclosure);
+      PrintTightness(problem, enclosure);
     }
     std::printf("written: family.csv, family.json and tradeoff.csv in %s\n", options.out.c_str());
   }

@@ -15,21 +15,29 @@ namespace {
 constexpr double kPerCent = 100.0;
 
 void PrintModels(const JointProblem& problem, const JointFit& fit) {
-  TextTable table({"experiment", "phi", "f Hz", "omega Hz", "xi", "N", "M", "tau ms", "loop gain",
-                   "gain err %", "phase err", "loop err"});
+  const bool two_modes = problem.model().modes == 2;
+  std::vector<std::string> header = {"experiment", "f Hz", "omega Hz", "xi", "N"};
+  if (two_modes) header.emplace_back("M");
+  for (const char* name : {"tau ms", "loop gain", "d gain %", "d phase", "d loop"}) {
+    header.emplace_back(name);
+  }
+  TextTable table(std::move(header));
   for (std::size_t i = 0; i < fit.models.size(); ++i) {
     const Experiment& experiment = problem.experiments()[i];
     const LoopModel& model = fit.models[i];
     const ExperimentErrors errors = ComputeErrors(experiment, model);
-    table.AddRow({experiment.name + (experiment.reliable ? "" : " *"),
-                  Significant(experiment.phi, 4), Fixed(experiment.frequency_hz, 1),
-                  Fixed(model.omega_hz, 2), Fixed(model.xi, 4), Significant(model.N),
-                  Significant(model.M), Fixed(1e3 * model.tau_s, 4), Fixed(errors.loop_gain, 3),
+    std::vector<std::string> cells = {experiment.name + (experiment.reliable ? "" : " *"),
+                                      Fixed(experiment.frequency_hz, 1), Fixed(model.omega_hz, 2),
+                                      Fixed(model.xi, 4), Significant(model.N)};
+    if (two_modes) cells.push_back(Significant(model.M));
+    cells.insert(cells.end(),
+                 {Fixed(1e3 * model.tau_s, 4), Fixed(errors.loop_gain, 3),
                   Fixed(kPerCent * errors.gain_error, 2), Fixed(errors.phase_error_deg, 2),
                   Fixed(errors.loop_phase_error_deg, 2)});
+    table.AddRow(std::move(cells));
   }
   std::printf("%s", table.Text().c_str());
-  std::printf("phase errors in degrees; * not reliable, weighs less\n");
+  std::printf("d: model less data, phases in degrees; * not reliable, weighs less\n");
 }
 
 void PrintShared(const JointProblem& problem, const JointFit& fit) {
@@ -56,17 +64,26 @@ void PrintIdentifiability(const JointFit& fit) {
   }
 }
 
+void PrintVanishing(const std::string& operating_parameter, const VanishingPhi& vanishing) {
+  if (!vanishing.available) return;
+  std::printf("the loop gain reaches one, and the cycle vanishes, at %s %s (95 %%: %s .. %s)\n",
+              operating_parameter.c_str(), Significant(vanishing.phi, 4).c_str(),
+              Significant(vanishing.lo, 4).c_str(), Significant(vanishing.hi, 4).c_str());
+}
+
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
   const JointProblem problem(LoadExperiments(config, options), config.model, config.residuals);
   const JointFit fit = SolveJoint(problem, config.solver, options.seed, options.threads);
+  const VanishingPhi vanishing_phi = EstimateVanishingPhi(problem.experiments());
   const std::filesystem::path path = options.out / "solution.json";
-  WriteWholeFile(path, SolutionJson(problem, fit).dump(2) + "\n");
+  WriteWholeFile(path, SolutionJson(problem, fit, vanishing_phi).dump(2) + "\n");
   if (!options.quiet) {
     PrintModels(problem, fit);
     PrintShared(problem, fit);
     std::printf("cost %s; %d of %d starts reached it; %s\n", Significant(fit.cost).c_str(),
                 fit.starts_at_best, fit.starts, fit.termination.c_str());
+    PrintVanishing(config.operating_parameter, vanishing_phi);
     PrintIdentifiability(fit);
     std::printf("written: %s\n", path.c_str());
   }

@@ -72,7 +72,7 @@ Json FreshResults(const Config& config, const Options& options) {
   const std::vector<Experiment> experiments = LoadExperiments(config, options);
   const JointProblem problem(experiments, config.model, config.residuals);
   const JointFit fit = SolveJoint(problem, config.solver, options.seed, options.threads);
-  Json solution = SolutionJson(problem, fit);
+  Json solution = SolutionJson(problem, fit, EstimateVanishingPhi(experiments));
   solution.erase("identifiability");
   const FamilyProblem family = MakeFamilyProblem(config, experiments);
   Json tradeoff = Json::array();

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "model/units.h"
 
 namespace howl {
 
@@ -55,6 +58,24 @@ VanishingPhi EstimateVanishingPhi(std::span<const LoopGainPoint> points) {
     result.hi = phi_mean + (-b + std::sqrt(discriminant)) / a;
   }
   return result;
+}
+
+VanishingPhi EstimateVanishingPhi(std::span<const Experiment> experiments) {
+  std::vector<LoopGainPoint> points;
+  for (const Experiment& experiment : experiments) {
+    if (!experiment.reliable || !experiment.flame_slope) continue;
+    LoopGainPoint point;
+    point.phi = experiment.phi;
+    point.loop_gain.value = experiment.gain * kRadPerSPerHz * experiment.frequency_hz *
+                            std::abs(*experiment.flame_slope);
+    if (experiment.gain_std && experiment.flame_slope_std) {
+      point.loop_gain.std =
+          point.loop_gain.value * std::hypot(*experiment.gain_std / experiment.gain,
+                                             *experiment.flame_slope_std / *experiment.flame_slope);
+    }
+    points.push_back(point);
+  }
+  return EstimateVanishingPhi(points);
 }
 
 }  // namespace howl

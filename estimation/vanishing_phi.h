@@ -11,6 +11,7 @@
 
 #include <span>
 
+#include "estimation/experiment.h"
 #include "estimation/statistics.h"
 
 namespace howl {
@@ -29,6 +30,10 @@ struct VanishingPhi {
 };
 
 VanishingPhi EstimateVanishingPhi(std::span<const LoopGainPoint> points);
+
+// From the loop gains gain 2 pi f |Phi'(0)| of the reliable experiments that have a flame slope
+// (seed, figure 7).
+VanishingPhi EstimateVanishingPhi(std::span<const Experiment> experiments);
 
 }  // namespace howl
 

@@ -36,19 +36,52 @@ Json ConflictJson(const Conflict& conflict) {
   return {{"proved", conflict.proved}, {"minimal_sets", sets}, {"relaxations", relaxations}};
 }
 
+Json RangeJson(const Range& range) {
+  return Json::array({NumberOrNull(range.lo), NumberOrNull(range.hi)});
+}
+
+// A bound that holds no member has null for `inner`.
+Json BoundsJson(const FamilyProblem& problem, const Enclosure& enclosure) {
+  Json bounds = Json::object();
+  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    Json& own = bounds[problem.experiments[i].name] = Json::object();
+    for (const FamilyParameter parameter : kFamilyParameters) {
+      if (!enclosure.IsBounded(i, parameter)) continue;
+      const EnclosedBound bound = enclosure.Bound(i, parameter);
+      const bool has_member = bound.inner.lo <= bound.inner.hi;
+      own[std::string(FamilyParameterName(parameter))] = {
+          {"outer", RangeJson(bound.outer)},
+          {"inner", has_member ? RangeJson(bound.inner) : Json(nullptr)},
+          {"closed", bound.closed}};
+    }
+  }
+  return bounds;
+}
+
+Json CountsJson(const Enumeration& enumeration, const Enclosure& enclosure) {
+  const CellCounts cells = enclosure.Counts();
+  return {{"members", enumeration.counts.members},
+          {"requested", enumeration.counts.requested},
+          {"drawn", enumeration.counts.drawn},
+          {"tested", enumeration.counts.complete},
+          {"boxes",
+           {{"inside", cells.inside},
+            {"outside", cells.outside},
+            {"undecided", cells.undecided},
+            {"pending", cells.pending}}}};
+}
+
 }  // namespace
 
 Json FamilyJson(const FamilyProblem& problem, const Enumeration& enumeration,
-                const Conflict& conflict) {
+                const Enclosure& enclosure, const Conflict& conflict) {
   Json empty_because = Json::array();
   for (const std::string_view name : ConflictNames(conflict)) empty_because.push_back(name);
+  const bool has_members = !enumeration.members.empty();
   Json json = {{"schema", "howl.family/1"},
                {"test", TestJson(problem.test)},
-               {"counts",
-                {{"members", enumeration.counts.members},
-                 {"requested", enumeration.counts.requested},
-                 {"drawn", enumeration.counts.drawn},
-                 {"tested", enumeration.counts.complete}}},
+               {"counts", CountsJson(enumeration, enclosure)},
+               {"bounds", has_members ? BoundsJson(problem, enclosure) : Json::object()},
                {"empty_because", empty_because}};
   if (conflict.is_empty) json["conflict"] = ConflictJson(conflict);
   return json;

@@ -7,13 +7,14 @@
 #include <string>
 
 #include "estimation/family/conflict.h"
+#include "estimation/family/enclose.h"
 #include "estimation/family/enumerate.h"
 #include "estimation/family/tradeoff.h"
 
 namespace howl {
 
 nlohmann::ordered_json FamilyJson(const FamilyProblem& problem, const Enumeration& enumeration,
-                                  const Conflict& conflict);
+                                  const Enclosure& enclosure, const Conflict& conflict);
 
 // omega_spread,xi_max: the smallest largest-xi that any member has at that spread. Spreads without
 // any member are left out.

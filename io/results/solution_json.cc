@@ -82,7 +82,15 @@ Json IdentifiabilityJson(const JointFit& fit) {
 
 Json NumberOrNull(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json SolutionJson(const JointProblem& problem, const JointFit& fit) {
+Json VanishingJson(const VanishingPhi& vanishing) {
+  if (!vanishing.available) return nullptr;
+  return {{"value", NumberOrNull(vanishing.phi)},
+          {"lo", NumberOrNull(vanishing.lo)},
+          {"hi", NumberOrNull(vanishing.hi)}};
+}
+
+Json SolutionJson(const JointProblem& problem, const JointFit& fit,
+                  const VanishingPhi& vanishing_phi) {
   Json experiments = Json::array();
   for (std::size_t i = 0; i < fit.models.size(); ++i) {
     experiments.push_back(ExperimentJson(problem.experiments()[i], fit.models[i]));
@@ -101,6 +109,7 @@ Json SolutionJson(const JointProblem& problem, const JointFit& fit) {
   return {{"schema", "howl.solution/1"},
           {"experiments", experiments},
           {"shared", shared},
+          {"vanishing_phi", VanishingJson(vanishing_phi)},
           {"cost", fit.cost},
           {"termination", fit.termination},
           {"converged", fit.converged},

@@ -5,11 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "estimation/joint_fit.h"
+#include "estimation/vanishing_phi.h"
 
 namespace howl {
 
 // Numbers that are not known or not finite become null.
-nlohmann::ordered_json SolutionJson(const JointProblem& problem, const JointFit& fit);
+nlohmann::ordered_json SolutionJson(const JointProblem& problem, const JointFit& fit,
+                                    const VanishingPhi& vanishing_phi);
 
 // A number, or null where it is not finite.
 nlohmann::ordered_json NumberOrNull(double value);

@@ -158,6 +158,12 @@ TEST(Fit, WritesTheSolutionOfThePublishedTable) {
     EXPECT_NEAR(experiment["loop_gain"].get<double>(), loop_gain[i], 0.001);
     EXPECT_LT(experiment["omega_hz"], experiment["frequency_hz"]);
   }
+  // notes to the seed, item 5: a straight line through the loop gains of experiments 1 to 4 reaches
+  // one at 0.675 (the paper reads about 0.64 off its figure).
+  const Json& vanishing = json["vanishing_phi"];
+  EXPECT_NEAR(vanishing["value"].get<double>(), 0.675, 0.0005);
+  EXPECT_LT(vanishing["lo"], vanishing["value"]);
+  EXPECT_TRUE(vanishing["hi"].is_null() || vanishing["hi"] > vanishing["value"]);
 }
 
 TEST(Fit, AnswerDoesNotDependOnThreads) {
