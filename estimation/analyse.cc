@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/units.h"
+
 namespace howl {
 namespace {
 
@@ -15,6 +17,24 @@ bool HasCycle(const Analysis& analysis) {
 
 bool HasPhase(const Analysis& analysis) {
   return HasCycle(analysis) && std::isfinite(analysis.characteristics.phase_deg.value);
+}
+
+// Variance of the part of pdot that is coherent with q, the fundamental's main lobe left out.
+double CoherentDerivativeVariance(const CrossSpectrum& spectrum, double fundamental_hz) {
+  if (!std::isfinite(fundamental_hz)) return 0.0;
+  const double chance = 1.0 / std::max(spectrum.degrees_of_freedom, 1.0);
+  double variance = 0.0;
+  for (std::size_t k = 3; k < spectrum.pp.size(); ++k) {
+    const double f = spectrum.Frequency(static_cast<int>(k));
+    if (std::abs(f - fundamental_hz) < (kBlackmanHarrisMainLobeBins + 1) * spectrum.bin_hz)
+      continue;
+    if (!(spectrum.qq[k] > 0.0)) continue;
+    const double coherent = std::norm(spectrum.qp[k]) / spectrum.qq[k];
+    const double by_chance = chance * (spectrum.pp[k] - coherent) / (1.0 - std::min(chance, 0.5));
+    const double w = kRadPerSPerHz * f;
+    variance += std::max(coherent - by_chance, 0.0) * w * w * spectrum.bin_hz;
+  }
+  return variance;
 }
 
 }  // namespace
@@ -33,9 +53,15 @@ Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
       FindLines(record, spectrum, HasCycle(analysis) && std::isfinite(f.value) ? f.value : 0.0,
                 options.lines);
   if (analysis.has_heat_release) {
+    analysis.remainder_variance = CoherentDerivativeVariance(spectrum, f.value);
     analysis.transfer = EstimateTransfer(spectrum, analysis.lines, options.transfer);
     if (options.fit_transfer) {
-      TransferFit fit = FitTransfer(*analysis.transfer, options.transfer_fit);
+      TransferFitOptions fit_options = options.transfer_fit;
+      if (std::isfinite(f.value) && options.fit_max_harmonic > 0.0) {
+        fit_options.min_frequency_hz = options.fit_min_harmonic * f.value;
+        fit_options.max_frequency_hz = options.fit_max_harmonic * f.value;
+      }
+      TransferFit fit = FitTransfer(*analysis.transfer, fit_options);
       if (fit.available) analysis.transfer_fit = std::move(fit);
     }
   } else if (std::isfinite(f.value)) {
@@ -49,7 +75,8 @@ void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions
               Analysis* analysis) {
   const Characteristics& c = analysis->characteristics;
   analysis->tau_s = tau_s;
-  FlameCurve curve = EstimateFlameCurve(record, c, tau_s.value, options.flame_curve);
+  FlameCurve curve =
+      EstimateFlameCurve(record, c, tau_s.value, analysis->remainder_variance, options.flame_curve);
   if (std::isfinite(curve.slope.value)) {
     analysis->loop_gain = LoopGainFromSlope(c.gain, c.frequency_hz, curve.slope);
   }
@@ -116,10 +143,17 @@ std::optional<Experiment> ToExperiment(const Analysis& analysis) {
     experiment.flame_slope_std = known(analysis.flame_curve->slope.std);
   }
   experiment.reliable = c.stationary;
+  // The loop closes a second time at one line: the strongest of p's that is no multiple of the
+  // cycle and lies above it (below lie differences of the two).
+  const SpectralLine* second = nullptr;
   for (const SpectralLine& line : analysis.lines) {
-    if (line.harmonic != 0 || !line.narrow || line.p_amplitude <= 0.0) continue;
-    const double std = std::isfinite(line.frequency_hz.std) ? line.frequency_hz.std : 0.0;
-    experiment.lines.push_back({line.frequency_hz.value, std});
+    if (line.harmonic != 0 || !line.narrow || line.p_amplitude < 0.01 * c.p_amplitude) continue;
+    if (line.frequency_hz.value < 1.05 * c.frequency_hz.value) continue;
+    if (second == nullptr || line.p_amplitude > second->p_amplitude) second = &line;
+  }
+  if (second != nullptr) {
+    const Estimate& f = second->frequency_hz;
+    experiment.lines.push_back({f.value, std::isfinite(f.std) ? f.std : 0.0});
   }
   return experiment;
 }

@@ -8,13 +8,16 @@
 //
 // Phi is seen as means of q in bins of x, the seed's method, and as a polynomial of degree 5 over
 // |x| <= 0.9 X, X = 2 pi f |p|, whose derivative at zero is Phi'(0). The error comes from the
-// long-run variance of its influence function over blocks. Noise left in x, of variance s^2,
-// changes the slope at zero to first order (Tweedie's formula for an x of arcsine density, and
-// smoothing of Phi) to
+// long-run variance of its influence function over blocks. It is that of a flame as smooth as the
+// polynomial: one that bends sharply near the origin is steeper there than any record shows. Noise
+// left in x, of variance s^2, changes the slope at zero to first order (Tweedie's formula for an x
+// of arcsine density, and smoothing of Phi) to
 //
 //   (1 + s^2 / X^2) Phi'(0) + (s^2 / 2) Phi'''(0)
 //
-// which is taken out; half of the correction enters the standard deviation.
+// which is taken out. The flame is driven by all of pdot: what there is beside the fundamental, of
+// variance v (`remainder_variance`), smooths the Phi that is seen against x: (v / 2) Phi'''(0)
+// more. Half of all corrections enters the standard deviation.
 #ifndef HOWL_ESTIMATION_FLAME_CURVE_H_
 #define HOWL_ESTIMATION_FLAME_CURVE_H_
 
@@ -42,6 +45,7 @@ struct FlameCurve {
   double saturation_high = 0.0;
   double hysteresis = 0.0;  // signed area of the mean cycle in (x, q) over pi X |q|: 1 for a circle
   double regressor_noise = 0.0;      // s^2 / X^2
+  double smoothing = 0.0;            // v / X^2
   double relative_correction = 0.0;  // slope given over slope as fitted, less one
 };
 
@@ -52,6 +56,7 @@ struct FlameCurveOptions {
 
 // The record has both channels, and `cycle` is its limit cycle.
 FlameCurve EstimateFlameCurve(const Record& record, const Characteristics& cycle, double tau_s,
+                              double remainder_variance = 0.0,
                               const FlameCurveOptions& options = {});
 
 // |L Phi'(0)| at the limit cycle with |G| = gain (1b): gain 2 pi f |Phi'(0)|. Independent errors.
