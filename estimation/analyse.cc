@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/units.h"
-
 namespace howl {
 namespace {
 
@@ -17,24 +15,6 @@ bool HasCycle(const Analysis& analysis) {
 
 bool HasPhase(const Analysis& analysis) {
   return HasCycle(analysis) && std::isfinite(analysis.characteristics.phase_deg.value);
-}
-
-// Variance of the part of pdot that is coherent with q, the fundamental's main lobe left out.
-double CoherentDerivativeVariance(const CrossSpectrum& spectrum, double fundamental_hz) {
-  if (!std::isfinite(fundamental_hz)) return 0.0;
-  const double chance = 1.0 / std::max(spectrum.degrees_of_freedom, 1.0);
-  double variance = 0.0;
-  for (std::size_t k = 3; k < spectrum.pp.size(); ++k) {
-    const double f = spectrum.Frequency(static_cast<int>(k));
-    if (std::abs(f - fundamental_hz) < (kBlackmanHarrisMainLobeBins + 1) * spectrum.bin_hz)
-      continue;
-    if (!(spectrum.qq[k] > 0.0)) continue;
-    const double coherent = std::norm(spectrum.qp[k]) / spectrum.qq[k];
-    const double by_chance = chance * (spectrum.pp[k] - coherent) / (1.0 - std::min(chance, 0.5));
-    const double w = kRadPerSPerHz * f;
-    variance += std::max(coherent - by_chance, 0.0) * w * w * spectrum.bin_hz;
-  }
-  return variance;
 }
 
 }  // namespace
@@ -53,7 +33,6 @@ Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
       FindLines(record, spectrum, HasCycle(analysis) && std::isfinite(f.value) ? f.value : 0.0,
                 options.lines);
   if (analysis.has_heat_release) {
-    analysis.remainder_variance = CoherentDerivativeVariance(spectrum, f.value);
     analysis.transfer = EstimateTransfer(spectrum, analysis.lines, options.transfer);
     if (options.fit_transfer) {
       TransferFitOptions fit_options = options.transfer_fit;
@@ -75,8 +54,7 @@ void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions
               Analysis* analysis) {
   const Characteristics& c = analysis->characteristics;
   analysis->tau_s = tau_s;
-  FlameCurve curve =
-      EstimateFlameCurve(record, c, tau_s.value, analysis->remainder_variance, options.flame_curve);
+  FlameCurve curve = EstimateFlameCurve(record, c, tau_s.value, options.flame_curve);
   if (std::isfinite(curve.slope.value)) {
     analysis->loop_gain = LoopGainFromSlope(c.gain, c.frequency_hz, curve.slope);
   }

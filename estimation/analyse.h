@@ -50,7 +50,6 @@ struct Analysis {
   std::optional<TransferFit> transfer_fit;
   std::optional<Growth> growth;  // of a pressure-only record whose envelope grows out of noise
   bool has_heat_release = false;
-  double remainder_variance = 0.0;  // of pdot beside its fundamental, as far as q knows of it
 };
 
 struct AnalysisSet {

@@ -95,7 +95,7 @@ void FillBins(const std::vector<double>& x, const std::vector<double>& q, double
 }  // namespace
 
 FlameCurve EstimateFlameCurve(const Record& record, const Characteristics& cycle, double tau_s,
-                              double remainder_variance, const FlameCurveOptions& options) {
+                              const FlameCurveOptions& options) {
   CHECK_EQ(record.heat_release.size(), record.pressure.size());
   CHECK_GT(cycle.p_amplitude, 0.0);
   const double frequency_hz = cycle.frequency_hz.value;
@@ -176,10 +176,8 @@ FlameCurve EstimateFlameCurve(const Record& record, const Characteristics& cycle
   // Joining the blocks leaves 0.79 of their noise's variance, half of it in the real part.
   curve.regressor_noise = 0.5 * 0.79 * cycle.block_noise_power * cycle.block_samples / length /
                           (cycle.p_amplitude * cycle.p_amplitude);
-  curve.smoothing = remainder_variance / (limit * limit);
   const double r = std::min(curve.regressor_noise, 0.3);  // beyond, first order says nothing
-  const double v = std::min(curve.smoothing, 0.3) + r;
-  const double slope = (c(1) / (1.0 + r) - 3.0 * v * c(3) + 15.0 * v * v * c(5)) / limit;
+  const double slope = (c(1) / (1.0 + r) - 3.0 * r * c(3)) / limit;
   const double correction = slope - c(1) / limit;
   curve.relative_correction = c(1) != 0.0 ? slope * limit / c(1) - 1.0 : 0.0;
   curve.slope = {slope, std::hypot(std::sqrt(slope_error.covariance(0, 0)) * inflation / limit,

@@ -15,9 +15,7 @@
 //
 //   (1 + s^2 / X^2) Phi'(0) + (s^2 / 2) Phi'''(0)
 //
-// which is taken out. The flame is driven by all of pdot: what there is beside the fundamental, of
-// variance v (`remainder_variance`), smooths the Phi that is seen against x: (v / 2) Phi'''(0)
-// more. Half of all corrections enters the standard deviation.
+// which is taken out; half of the correction enters the standard deviation.
 #ifndef HOWL_ESTIMATION_FLAME_CURVE_H_
 #define HOWL_ESTIMATION_FLAME_CURVE_H_
 
@@ -45,7 +43,6 @@ struct FlameCurve {
   double saturation_high = 0.0;
   double hysteresis = 0.0;  // signed area of the mean cycle in (x, q) over pi X |q|: 1 for a circle
   double regressor_noise = 0.0;      // s^2 / X^2
-  double smoothing = 0.0;            // v / X^2
   double relative_correction = 0.0;  // slope given over slope as fitted, less one
 };
 
@@ -56,7 +53,6 @@ struct FlameCurveOptions {
 
 // The record has both channels, and `cycle` is its limit cycle.
 FlameCurve EstimateFlameCurve(const Record& record, const Characteristics& cycle, double tau_s,
-                              double remainder_variance = 0.0,
                               const FlameCurveOptions& options = {});
 
 // |L Phi'(0)| at the limit cycle with |G| = gain (1b): gain 2 pi f |Phi'(0)|. Independent errors.
