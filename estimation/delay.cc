@@ -36,11 +36,21 @@ DelayChoice EstimateDelays(std::span<const DelayInput> inputs, std::optional<int
     const double variance = std::max(squares / n - mean * mean, 0.0) * n / (n - 1.0);
     if (positive) choice.branches.push_back({k, mean, std::sqrt(variance) / mean});
   }
+  double sum = 0.0, squares = 0.0;
+  for (const DelayInput& input : inputs) {
+    sum += 1.0 / input.frequency_hz.value;
+    squares += 1.0 / (input.frequency_hz.value * input.frequency_hz.value);
+  }
+  const double n = static_cast<double>(inputs.size());
+  const double period_spread =
+      std::sqrt(std::max(squares / n - sum * sum / (n * n), 0.0) * n / std::max(n - 1.0, 1.0)) /
+      (sum / n);
   std::sort(choice.branches.begin(), choice.branches.end(),
             [](const DelayBranch& a, const DelayBranch& b) { return a.spread < b.spread; });
   if (branch.has_value()) {
     choice.branch = *branch;
-  } else if (!choice.branches.empty() && highest > 1.01 * lowest) {
+  } else if (!choice.branches.empty() && highest > 1.01 * lowest &&
+             choice.branches.front().spread < 0.5 * period_spread) {
     choice.branch = choice.branches.front().branch;
     choice.by_consistency = true;
   }

@@ -20,13 +20,15 @@ Growth EstimateGrowth(std::span<const double> p, double sampling_hz, double freq
   for (const auto& z : blocks.amplitude) envelope.push_back(std::abs(z));
   const auto peak = std::max_element(envelope.begin(), envelope.end());
 
-  // Last block below the saturation's foot before the peak, then back down to the noise. The quiet
-  // part is taken as the first half of what precedes the foot: growth fills little of it.
+  // Back from the peak to where saturation begins, then to where the envelope leaves the noise.
+  // Noise excites the mode the more the nearer it comes to growing, so the noise's level is a high
+  // quantile of what precedes, the last fifth (growth itself) left out.
   auto end = peak;
   while (end != envelope.begin() && *end > options.below_peak * *peak) --end;
-  if (end - envelope.begin() < 6) return growth;
-  const std::span<const double> before(envelope.begin(), end);
-  const double noise = Median(before.first(std::max<std::size_t>(before.size() / 2, 3)));
+  if (end - envelope.begin() < 10) return growth;
+  std::vector<double> before(envelope.begin(), envelope.begin() + (end - envelope.begin()) * 4 / 5);
+  std::sort(before.begin(), before.end());
+  const double noise = before[before.size() * 19 / 20];
   auto start = end;
   while (start != envelope.begin() && *start > options.above_noise * noise) --start;
   ++start;
