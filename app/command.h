@@ -24,6 +24,7 @@ struct Command {
 
 const std::vector<Command>& Commands();
 
+Command AnalyseCommand();
 Command FitCommand();
 Command FamilyCommand();
 Command ListCommand();

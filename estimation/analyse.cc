@@ -121,6 +121,7 @@ std::optional<Experiment> ToExperiment(const Analysis& analysis) {
     experiment.flame_slope_std = known(analysis.flame_curve->slope.std);
   }
   experiment.reliable = c.stationary;
+  if (analysis.transfer) experiment.transfer = analysis.transfer->points;
   // The loop closes a second time at one line: the strongest of p's that is no multiple of the
   // cycle and lies above it (below lie differences of the two).
   const SpectralLine* second = nullptr;

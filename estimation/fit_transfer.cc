@@ -71,8 +71,9 @@ Solution Solve(std::span<const TransferPoint> points, const TransferFitOptions& 
   LogParameters& x = solution.x;
   ceres::Problem problem;
   for (const TransferPoint& point : points) {
-    problem.AddResidualBlock(TransferPointResidual::Create(point, options.harmonic_ratio), nullptr,
-                             &x[0], &x[1], &x[2], &x[3]);
+    problem.AddResidualBlock(
+        TransferPointResidual::CreateFull(point, {options.harmonic_ratio, false}), nullptr, &x[0],
+        &x[1], &x[2], &x[3]);
   }
   // Guard rails: a mode outside the points' band or without its N is another model.
   problem.SetParameterLowerBound(&x[1], 0, std::log(1e-4));

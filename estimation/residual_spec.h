@@ -19,20 +19,22 @@ enum class ResidualKind {
   kOmegaPrior,       // omega nearly constant over the experiments
   kXiIncreasing,     // xi does not fall as phi grows, one-sided
   kDampingPrior,     // xi small
+  kTransfer,         // G = H, the measured q-to-p transfer away from the limit cycle, (5a)
   kTauPrior,         // tau nearly constant over the experiments
 };
 
 inline constexpr std::array kResidualKinds = {
     ResidualKind::kGainEquality,   ResidualKind::kPhaseEquality,  ResidualKind::kLimitCyclePhase,
-    ResidualKind::kLimitCycleGain, ResidualKind::kSecondCrossing, ResidualKind::kOmegaPrior,
-    ResidualKind::kXiIncreasing,   ResidualKind::kDampingPrior,   ResidualKind::kTauPrior};
+    ResidualKind::kLimitCycleGain, ResidualKind::kSecondCrossing, ResidualKind::kTransfer,
+    ResidualKind::kOmegaPrior,     ResidualKind::kXiIncreasing,   ResidualKind::kDampingPrior,
+    ResidualKind::kTauPrior};
 inline constexpr std::size_t kNumResidualKinds = kResidualKinds.size();
 
 // As in configs.
 constexpr std::string_view ResidualName(ResidualKind kind) {
   constexpr std::array<std::string_view, kNumResidualKinds> kNames = {
       "gain_equality", "phase_equality", "limit_cycle_phase", "limit_cycle_gain", "second_crossing",
-      "omega_prior",   "xi_increasing",  "damping_prior",     "tau_prior"};
+      "transfer",      "omega_prior",    "xi_increasing",     "damping_prior",    "tau_prior"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -44,7 +46,8 @@ enum class LossKind { kNone, kHuber, kSoftL1, kCauchy, kTukey };
 struct ResidualSpec {
   bool enabled = true;
   // Standard deviation of the residual's error. Relative for gain, omega, tau and the damping
-  // prior; degrees for phases; absolute for loop gain and the order of xi. Experiments that bring
+  // prior; degrees for phases; absolute for loop gain and the order of xi. For the transfer: of the
+  // model itself, relative, on top of each point's own variance. Experiments that bring
   // their own take its place.
   double std = 1.0;
   double center = 0.0;  // damping_prior alone: the damping ratio that counts as small

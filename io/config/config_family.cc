@@ -45,12 +45,10 @@ void ReadAnalysis(const ConfigCursor& root, Config& config) {
   const auto analysis = root.Find("analysis");
   if (!analysis) return;
   if (const auto method = analysis->Find("method")) {
-    for (const AnalysisMethod each : kAnalysisMethods) {
+    for (const CharacteristicsMethod each : kAnalysisMethods) {
       if (method->Node().text == AnalysisMethodName(each)) config.analysis.method = each;
     }
   }
-  analysis->Read("harmonics", config.analysis.harmonics);
-  analysis->Read("max_lines", config.analysis.max_lines);
   analysis->Read("delay_branch", config.analysis.delay_branch);
 }
 

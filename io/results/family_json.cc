@@ -1,5 +1,6 @@
 #include "io/results/family_json.h"
 
+#include "io/results/csv_writer.h"
 #include "io/results/solution_json.h"
 
 namespace howl {
@@ -88,12 +89,12 @@ Json FamilyJson(const FamilyProblem& problem, const Enumeration& enumeration,
 }
 
 std::string TradeoffCsv(std::span<const TradeoffPoint> points) {
-  std::string text = "omega_spread,xi_max\n";
+  CsvWriter csv("omega_spread,xi_max");
   for (const TradeoffPoint& point : points) {
     if (!point.xi_max) continue;
-    text += Json(point.omega_spread).dump() + "," + Json(*point.xi_max).dump() + "\n";
+    csv.Cell(point.omega_spread).Cell(*point.xi_max).EndRow();
   }
-  return text;
+  return csv.Text();
 }
 
 }  // namespace howl

@@ -57,8 +57,6 @@ Defaults StructDefaults() {
       {"family.test.xi_max", Dump(config.family.test.xi_max)},
       {"family.test.xi_increasing", Dump(config.family.test.xi_increasing)},
       {"analysis.method", Dump(std::string(AnalysisMethodName(config.analysis.method)))},
-      {"analysis.harmonics", Dump(config.analysis.harmonics)},
-      {"analysis.max_lines", Dump(config.analysis.max_lines)},
   };
   for (const ParameterKind kind : kParameterKinds) {
     const ParameterSpec& spec = config.model[kind];

@@ -1,0 +1,26 @@
+#include "app/record_input.h"
+
+#include "io/records/records.h"
+
+namespace howl {
+
+std::vector<NamedRecord> LoadRecords(const Config& config) {
+  std::vector<NamedRecord> records;
+  for (const ExperimentConfig& each : config.experiments) {
+    if (!each.record) continue;
+    records.push_back({each.experiment.name, each.experiment.phi,
+                       LoadRecord(*each.record, config.source.string(), each.record_line)});
+  }
+  return records;
+}
+
+AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options) {
+  AnalysisOptions analysis;
+  analysis.characteristics.method = config.analysis.method;
+  analysis.delay_branch = config.analysis.delay_branch;
+  analysis.transfer_fit.harmonic_ratio = config.model.harmonic_ratio;
+  analysis.threads = options.threads;
+  return analysis;
+}
+
+}  // namespace howl
