@@ -4,6 +4,7 @@
 #include "app/command.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
+#include "app/vanishing_text.h"
 #include "io/results/analysis_files.h"
 #include "io/results/whole_file.h"
 #include "io/user_error.h"
@@ -121,12 +122,7 @@ int Run(const Options& options) {
   if (!AnyHeatRelease(set)) {
     std::printf("phase, gain, delay, flame curve and transfer need heat release: not available\n");
   }
-  if (set.vanishing_phi.available) {
-    std::printf("the cycle vanishes at %s %s (95 %%: %s .. %s)\n",
-                config.operating_parameter.c_str(), Significant(set.vanishing_phi.phi, 4).c_str(),
-                Significant(set.vanishing_phi.lo, 4).c_str(),
-                Significant(set.vanishing_phi.hi, 4).c_str());
-  }
+  std::printf("%s", VanishingText(set.vanishing_phi, config.operating_parameter).c_str());
   std::printf(
       "written: characteristics.csv, lines.csv, transfer.csv, flame_curve.csv and "
       "analysis.json in %s\n",

@@ -17,6 +17,8 @@ std::vector<NamedRecord> LoadRecords(const Config& config) {
 AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options) {
   AnalysisOptions analysis;
   analysis.characteristics.method = config.analysis.method;
+  analysis.characteristics.min_frequency_hz = config.analysis.min_frequency_hz;
+  analysis.characteristics.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
   analysis.delay_branch = config.analysis.delay_branch;
   analysis.transfer_fit.harmonic_ratio = config.model.harmonic_ratio;
   analysis.threads = options.threads;

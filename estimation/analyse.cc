@@ -100,6 +100,26 @@ AnalysisSet AnalyseRecords(std::span<const NamedRecord> records, const AnalysisO
   return set;
 }
 
+namespace {
+
+// Neighbouring points share data, and where no two-mode model fits them, their scatter about the
+// best one is the error to reckon with: both widen the points' variance, as they widen the fit's
+// standard deviations.
+std::vector<TransferPoint> WidenedPoints(const Analysis& analysis) {
+  std::vector<TransferPoint> points = analysis.transfer->points;
+  const double misfit =
+      analysis.transfer_fit ? std::max(1.0, analysis.transfer_fit->chi_square_per_dof) : 1.0;
+  const double factor = misfit * analysis.transfer->neighbour_inflation;
+  for (TransferPoint& point : points) {
+    point.variance_re *= factor;
+    point.variance_im *= factor;
+    point.covariance *= factor;
+  }
+  return points;
+}
+
+}  // namespace
+
 std::optional<Experiment> ToExperiment(const Analysis& analysis) {
   if (!HasPhase(analysis)) return std::nullopt;
   const Characteristics& c = analysis.characteristics;
@@ -121,7 +141,7 @@ std::optional<Experiment> ToExperiment(const Analysis& analysis) {
     experiment.flame_slope_std = known(analysis.flame_curve->slope.std);
   }
   experiment.reliable = c.stationary;
-  if (analysis.transfer) experiment.transfer = analysis.transfer->points;
+  if (analysis.transfer) experiment.transfer = WidenedPoints(analysis);
   // The loop closes a second time at one line: the strongest of p's that is no multiple of the
   // cycle and lies above it (below lie differences of the two).
   const SpectralLine* second = nullptr;

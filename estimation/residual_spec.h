@@ -16,10 +16,10 @@ enum class ResidualKind {
   kLimitCyclePhase,  // arg L = 180 degrees, (1a)
   kLimitCycleGain,   // |L Phi'(0)| > 1, (1b), one-sided
   kSecondCrossing,   // arg L = 180 degrees at an observed non-harmonic line
+  kTransfer,         // G = H, the measured q-to-p transfer away from the limit cycle, (5a)
   kOmegaPrior,       // omega nearly constant over the experiments
   kXiIncreasing,     // xi does not fall as phi grows, one-sided
   kDampingPrior,     // xi small
-  kTransfer,         // G = H, the measured q-to-p transfer away from the limit cycle, (5a)
   kTauPrior,         // tau nearly constant over the experiments
 };
 
@@ -29,6 +29,14 @@ inline constexpr std::array kResidualKinds = {
     ResidualKind::kOmegaPrior,     ResidualKind::kXiIncreasing,   ResidualKind::kDampingPrior,
     ResidualKind::kTauPrior};
 inline constexpr std::size_t kNumResidualKinds = kResidualKinds.size();
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kNumResidualKinds; ++i) {
+        if (static_cast<std::size_t>(kResidualKinds[i]) != i) return false;
+      }
+      return true;
+    }(),
+    "kResidualKinds lists the kinds in their order: names and specs are looked up by it");
 
 // As in configs.
 constexpr std::string_view ResidualName(ResidualKind kind) {

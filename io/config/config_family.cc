@@ -49,6 +49,13 @@ void ReadAnalysis(const ConfigCursor& root, Config& config) {
       if (method->Node().text == AnalysisMethodName(each)) config.analysis.method = each;
     }
   }
+  analysis->Read("min_frequency_hz", config.analysis.min_frequency_hz);
+  analysis->Read("max_frequency_hz", config.analysis.max_frequency_hz);
+  if (config.analysis.max_frequency_hz &&
+      *config.analysis.max_frequency_hz <= config.analysis.min_frequency_hz) {
+    analysis->Find("max_frequency_hz")
+        ->Fail("is not above min_frequency_hz, expected min_frequency_hz < max_frequency_hz");
+  }
   analysis->Read("delay_branch", config.analysis.delay_branch);
 }
 

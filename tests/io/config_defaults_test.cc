@@ -56,6 +56,7 @@ Defaults StructDefaults() {
       {"family.test.omega_spread_max", Dump(config.family.test.omega_spread_max)},
       {"family.test.xi_max", Dump(config.family.test.xi_max)},
       {"family.test.xi_increasing", Dump(config.family.test.xi_increasing)},
+      {"analysis.min_frequency_hz", Dump(config.analysis.min_frequency_hz)},
       {"analysis.method", Dump(std::string(AnalysisMethodName(config.analysis.method)))},
   };
   for (const ParameterKind kind : kParameterKinds) {
