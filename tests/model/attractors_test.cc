@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "model/floquet.h"
 #include "model/harmonic_balance.h"
 #include "model/simulate.h"
 #include "tests/model/seed_loop.h"
@@ -69,6 +70,11 @@ TEST(Attractors, Figure11TwoLines) {
   const std::size_t second = peak(670.0, 900.0);
   EXPECT_NEAR(frequency[first], 216.3, 5.0);
   EXPECT_NEAR(frequency[second], 746.0, 10.0);
+  // Where Floquet's multipliers put the upper mode on top of the cycle.
+  const LimitCycle cycle = LimitCycles(SeedLoop(0.415), 300.0).at(0);
+  const FloquetMultipliers floquet = CycleStability(SeedLoop(0.415), cycle);
+  const double offset_hz = std::abs(std::arg(floquet.multipliers[1])) / kTwoPi * cycle.frequency_hz;
+  EXPECT_NEAR(3.0 * cycle.frequency_hz + offset_hz, 745.9, 0.5);
   // A line of its own: ten times what is between the two, and weaker and broader than the first.
   const auto at = [&](double f) {
     return power[static_cast<std::size_t>(std::lround((f - 100.0) / 5.0))];
