@@ -47,7 +47,7 @@ class Follower {
   Eigen::VectorXd Linearise(const Eigen::VectorXd& z, Eigen::MatrixXd* jacobian) const {
     const Eigen::Index n = z.size() - 1;
     Eigen::MatrixXd in_u;
-    const Eigen::VectorXd r = internal::BalanceResiduals(path_(Parameter(z)), State(z), &in_u);
+    Eigen::VectorXd r = internal::BalanceResiduals(path_(Parameter(z)), State(z), &in_u);
     jacobian->resize(n, n + 1);
     jacobian->leftCols(n) = in_u;
     constexpr double kDifference = 1e-6;

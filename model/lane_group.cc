@@ -66,11 +66,10 @@ class LaneGroup {
     }
     has_effects_ = W == 1 && !first.effects.empty();
     past_ = (has_effects_ ? 4 : 1) * most_delay_steps + kOrder + kLoopBlock;
-    const auto rows = static_cast<std::size_t>(past_ + kChunk + 2 * kLoopBlock);
+    const std::size_t rows = static_cast<std::size_t>(past_) + kChunk + kLoopBlock + kLoopBlock;
     rate_.assign(rows * W, 0.0);
     heat_.assign(rows * W, 0.0);
     pressure_.assign(rows * W, 0.0);
-    flame_.assign(static_cast<std::size_t>(kLoopBlock) * W, 0.0);
     for (std::size_t l = 0; l < cases.size(); ++l) {
       recorders_.emplace_back(*cases[l], options, ratio);
       const Noise& noise = cases[l]->rig.noise;
@@ -80,7 +79,7 @@ class LaneGroup {
     }
     half_length_ = recorders_[0].half_length();
     settle_steps_ = std::llround(options.settle_s * internal_hz);
-    samples_ = std::llround(options.duration_s * options.sampling_hz) * ratio + 2 * half_length_;
+    samples_ = std::llround(options.duration_s * options.sampling_hz) * ratio + 2LL * half_length_;
     // The recorders' first sample is the one at step `settle_steps_`, counted from the initial
     // state; the record's first half_length_ later.
     if (has_effects_) StartEffects();
@@ -183,13 +182,11 @@ class LaneGroup {
     } else {
       for (int l = 0; l < W; ++l) {
         const double* from =
-            rate_.data() +
-            static_cast<std::ptrdiff_t>(fill_row_ - delay_steps_[static_cast<std::size_t>(l)] +
-                                        kFirstNode<kOrder>) *
-                W +
+            Row(rate_, fill_row_ - delay_steps_[static_cast<std::size_t>(l)] + kFirstNode<kOrder>) +
             l;
         double* to = block_.window.data() + l;
-        for (int i = 0; i < count + kOrder - 1; ++i) to[i * W] = from[i * W];
+        const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(count + kOrder - 1) * W;
+        for (std::ptrdiff_t i = 0; i < end; i += W) to[i] = from[i];
       }
       Interpolate(block_, count, heat);
     }
@@ -323,7 +320,6 @@ class LaneGroup {
   std::vector<double> rate_;
   std::vector<double> heat_;
   std::vector<double> pressure_;
-  std::vector<double> flame_;
   std::vector<double> line_p_;
   std::vector<double> line_q_;
   std::vector<Recorder> recorders_;
