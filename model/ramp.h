@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "model/loop_effect.h"
 
@@ -49,6 +50,35 @@ class ParameterRamp final : public LoopEffect {
   double last_;
   double start_s_;
   double end_s_;
+};
+
+// All parameters through given points in time, linear between them and constant outside: a ramp of
+// the operating parameter, each point being the loop at one of its values.
+class LoopSchedule final : public LoopEffect {
+ public:
+  struct Point {
+    double time_s = 0.0;
+    LoopParameters<double> loop;
+    Flame<double> flame;
+  };
+
+  explicit LoopSchedule(std::vector<Point> points);  // at least one, in order of time
+
+  std::unique_ptr<LoopEffect> Clone() const override;
+  void Parameters(const LoopContext& at, LoopParameters<double>* loop,
+                  Flame<double>* flame) override;
+  bool MovesDelay() const override { return true; }
+  void Delay(const LoopContext& at, std::span<double> tau_s) override;
+
+ private:
+  struct Between {
+    const Point* from;
+    const Point* to;
+    double share;
+  };
+  Between Find(double time_s) const;
+
+  std::vector<Point> points_;
 };
 
 }  // namespace howl

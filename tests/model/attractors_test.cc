@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
 #include "model/floquet.h"
 #include "model/harmonic_balance.h"
+#include "model/ramp.h"
 #include "model/simulate.h"
 #include "tests/model/seed_loop.h"
 
@@ -119,6 +121,37 @@ TEST(Attractors, NoiseSwitchesBetweenThem) {
     EXPECT_GE(low, 200) << seed;
     EXPECT_GE(high, 200) << seed;
   }
+}
+
+TEST(Attractors, SweepsUpAndDownSwitchAtDifferentPlaces) {
+  // M / N swept slowly: up from the lower cycle, which attracts until 0.923; down from the upper
+  // one, which attracts until 0.625 (tests/model/continuation_test.cc).
+  const auto sweep = [](double from, double to, std::size_t start_cycle) {
+    SimulationCase one;
+    one.rig.model = SeedLoop(from);
+    one.rig.noise.combustion_density = 1e-10;  // enough to leave a cycle that no longer attracts
+    one.rig.noise.combustion_corner_hz = 1500.0;
+    one.rig.past = PastOnCycle(LimitCycles(one.rig.model, 900.0).at(start_cycle));
+    one.rig.effects = {std::make_shared<LoopSchedule>(
+        std::vector<LoopSchedule::Point>{{0.0, SeedLoop(from).loop, SeedLoop(from).flame},
+                                         {40.0, SeedLoop(to).loop, SeedLoop(to).flame}})};
+    SimulationOptions options;
+    options.duration_s = 40.0;
+    return Simulate(one, options);
+  };
+  const auto on_upper = [](const SimulatedRecord& record, double share) {
+    const auto begin = static_cast<std::size_t>(share * 199000.0);
+    const double low = LineAmplitude(record, begin, 1000, 216.7);
+    const double high = LineAmplitude(record, begin, 1000, 750.5);
+    EXPECT_TRUE((low > 2.2) != (high > 0.4)) << share << ": " << low << " " << high;
+    return high > 0.4;
+  };
+  const SimulatedRecord up = sweep(0.70, 1.05, 0);
+  EXPECT_FALSE(on_upper(up, (0.90 - 0.70) / 0.35));
+  EXPECT_TRUE(on_upper(up, 1.0));
+  const SimulatedRecord down = sweep(0.85, 0.50, 1);
+  EXPECT_TRUE(on_upper(down, (0.85 - 0.65) / 0.35));
+  EXPECT_FALSE(on_upper(down, 1.0));
 }
 
 }  // namespace

@@ -133,6 +133,8 @@ TEST(Continuation, FoldAndHysteresis) {
     return *std::max_element(record.pressure.begin(), record.pressure.end());
   };
   const double inside = 0.5 * (fold + hopf);
+  EXPECT_EQ(LimitCycles(OffsetLoop(inside), 300.0).size(), 2u);
+  EXPECT_EQ(LimitCycles(OffsetLoop(fold - 0.02), 300.0).size(), 0u);
   EXPECT_GT(final_amplitude(inside, 0.5), 0.5);
   EXPECT_LT(final_amplitude(inside, 0.001), 1e-6);
   EXPECT_LT(final_amplitude(fold - 0.02, 0.5), 1e-6);

@@ -110,6 +110,12 @@ TEST(SimulateBits, NullEffectsAreTheBase) {
       std::make_shared<ClippingInstrument>(Channel::kHeatRelease, HUGE_VAL));
   ExpectSame(plain, Simulate(extended, Options(1)));
 
+  SimulationCase scheduled = base;
+  const ClosedLoop& own = base.rig.model;
+  scheduled.rig.effects = {std::make_shared<LoopSchedule>(
+      std::vector<LoopSchedule::Point>{{0.0, own.loop, own.flame}, {0.2, own.loop, own.flame}})};
+  ExpectSame(plain, Simulate(scheduled, Options(1)));
+
   SimulationCase more_modes = base;
   more_modes.rig.extra_modes = {{1100.0, 0.05, 0.0}, {400.0, 0.1, 0.0}};
   ExpectSame(plain, Simulate(more_modes, Options(1)));
