@@ -38,6 +38,10 @@ CellVariable VariableOf(FamilyParameter parameter) {
   return kCellOmega;
 }
 
+// A variable that is split by ratios rather than by differences.
+constexpr double kDecadesFloor = 1e-3;
+bool SpansDecades(const Interval& x) { return x.upper() > 10.0 * x.lower(); }
+
 enum class SearchState { kNew, kRunning, kClosed, kBudget };
 
 struct BoundSearch {
@@ -100,6 +104,11 @@ struct Enclosure::Impl {
   Impl(const FamilyProblem& p, const EncloseOptions& o)
       : problem(p), options(o), contractor(p), drawer(p), root(contractor.Root()) {
     root_empty = !contractor.Contract(root);
+    if (options.max_cells == 0) {
+      options.max_cells = problem.model.modes == 1
+                              ? 4000
+                              : std::max<std::size_t>(150, 2000 / problem.experiments.size());
+    }
     const Enumeration base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
     for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
       for (const FamilyParameter parameter : kFamilyParameters) {
@@ -254,10 +263,10 @@ struct Enclosure::Impl {
       const double width = Width(x);
       if (!std::isfinite(width) || !(width > 4e-16 * std::abs(x.upper()))) return;
       double score = width / Width(from);
-      if (!std::isfinite(Width(from))) score = width / x.upper();
-      if (x.lower() > 0.0 && from.lower() > 0.0 && from.upper() > 8.0 * from.lower() &&
-          std::isfinite(from.upper())) {
-        score = std::log(x.upper() / x.lower()) / std::log(from.upper() / from.lower());
+      if (SpansDecades(from)) {
+        const double floor = kDecadesFloor * (std::isfinite(from.upper()) ? from.upper() : 1e9);
+        score = std::log((x.upper() + floor) / (x.lower() + floor)) /
+                std::log((std::min(from.upper(), 1e9) + floor) / (from.lower() + floor));
       }
       if (weight * score > best_score) {
         best_score = weight * score;
@@ -277,11 +286,9 @@ struct Enclosure::Impl {
       offer(box[kCellOmega], from[kCellOmega], own ? 1.0 : rest);
       offer(box[kCellTangent], from[kCellTangent], own ? 0.7 : 0.5 * rest);
       offer(box[kCellGain], from[kCellGain], own ? 0.3 : 0.1 * rest);
-      if (two_modes && own) {
-        offer(box[kCellM], from[kCellM], 0.5);
-        offer(box[kCellRelative], from[kCellRelative], 0.5);
+      if (!contractor.Targets()[i].lines_hz.empty()) {
+        offer(box[kCellTau], from[kCellTau], own ? 0.4 : 0.1);
       }
-      if (two_modes) offer(box[kCellTau], from[kCellTau], own ? 0.4 : 0.1);
       if (i == 0) {
         for (const CellVariable shared : contractor.Shared()) {
           offer(box[shared], from[shared], 1.0);
@@ -292,8 +299,8 @@ struct Enclosure::Impl {
   }
 
   static double Middle(const Interval& x) {
-    return x.lower() > 0.0 && x.upper() > 4.0 * x.lower() ? std::sqrt(x.lower() * x.upper())
-                                                          : 0.5 * (x.lower() + x.upper());
+    if (x.lower() > 0.0 && x.upper() > 4.0 * x.lower()) return std::sqrt(x.lower() * x.upper());
+    return (x.lower() == 0.0 ? 0.25 : 0.5) * (x.lower() + x.upper());
   }
 
   void Start(BoundSearch& search) const {

@@ -44,7 +44,7 @@ double ParameterValue(const Experiment& experiment, const LoopModel& model,
 
 struct EncloseOptions {
   double width = 0.01;           // (outer - inner) / inner range of the parameter, both ends together
-  std::size_t max_cells = 4000;  // a bound
+  std::size_t max_cells = 0;  // a bound; 0: 4000 with one mode, 2000 / experiments with two
   std::uint64_t seed = 0;
   int threads = 1;
 };
