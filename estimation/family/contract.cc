@@ -32,8 +32,7 @@ Interval ModeShape(const Interval& z, const Interval& xi, const Interval& r) {
     const Interval x(point);
     return (4.0 * x * square(Interval(damping)) + square(1.0 - x)) / (1.0 + r * x);
   };
-  const double hi =
-      std::max(at(z.lower(), xi.upper()).upper(), at(z.upper(), xi.upper()).upper());
+  const double hi = std::max(at(z.lower(), xi.upper()).upper(), at(z.upper(), xi.upper()).upper());
   const Interval b = 1.0 - 2.0 * square(Interval(xi.lower()));
   const Interval c = 1.0 + 2.0 * b / r + 1.0 / square(r);
   if (!(c.lower() > 0.0)) {  // strong damping: no use is made of convexity
@@ -48,8 +47,8 @@ Interval ModeShape(const Interval& z, const Interval& xi, const Interval& r) {
 }
 
 // F = (y / xi - t) g about the middle of the box (mean value form): its error falls with the square
-// of the box, where the plain product's falls with the box alone. y' is negative; f is the frequency
-// at which y vanishes, scale = z / (omega / f)^2.
+// of the box, where the plain product's falls with the box alone. y' is negative; f is the
+// frequency at which y vanishes, scale = z / (omega / f)^2.
 Interval CentredProduct(const Interval& f, const Interval& scale, const Interval& ratio,
                         const ExperimentBox& box, const Interval& y, const Interval& g) {
   const Interval& omega = box[kCellOmega];
@@ -59,15 +58,14 @@ Interval CentredProduct(const Interval& f, const Interval& scale, const Interval
   const auto middle = [](const Interval& x) { return Interval(0.5 * (x.lower() + x.upper())); };
   const Interval omega_m = middle(omega), xi_m = middle(xi), t_m = middle(t);
   const Interval z_m = scale * square(omega_m / f);
-  const Interval g_m =
-      (4.0 * z_m * square(xi_m) + square(1.0 - z_m)) / (1.0 + ratio * z_m);
+  const Interval g_m = (4.0 * z_m * square(xi_m) + square(1.0 - z_m)) / (1.0 + ratio * z_m);
   const Interval y_m = 0.5 * (f / omega_m - omega_m / f);
   const Interval z = scale * square(omega / f);
   const Interval h = y / xi - t;
   const Interval lift = 1.0 + ratio * z;
   const Interval b = 1.0 - 2.0 * square(xi);
-  const Interval g_z = 1.0 / ratio - ratio * (1.0 + 2.0 * b / ratio + 1.0 / square(ratio)) /
-                                         square(lift);
+  const Interval g_z =
+      1.0 / ratio - ratio * (1.0 + 2.0 * b / ratio + 1.0 / square(ratio)) / square(lift);
   const Interval y_omega = -0.5 * (f / square(omega) + 1.0 / f);
   const Interval f_omega = y_omega / xi * g + h * g_z * (2.0 * scale * omega / square(f));
   const Interval f_xi = h * 8.0 * z * xi / lift - y / square(xi) * g;
@@ -75,8 +73,7 @@ Interval CentredProduct(const Interval& f, const Interval& scale, const Interval
          g * (t - t_m);
 }
 
-bool NarrowOmega(const ContractTarget& target, const Interval& detuning,
-                 ExperimentBox& box) {
+bool NarrowOmega(const ContractTarget& target, const Interval& detuning, ExperimentBox& box) {
   return Narrow(box[kCellOmega], OmegaOf(target.frequency_hz, detuning));
 }
 

@@ -16,8 +16,8 @@ namespace howl {
 
 namespace {
 
-constexpr double kRounding = 1e-12;   // of a bound: the test itself is evaluated in doubles
-constexpr double kFinest = 1e-9;      // of a root cell: no split below
+constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated in doubles
+constexpr double kFinest = 1e-9;     // of a root cell: no split below
 constexpr std::size_t kBaseMembers = 1000;
 
 CellVariable VariableOf(FamilyParameter parameter) {
@@ -132,7 +132,7 @@ struct Enclosure::Impl {
             search.inner = sign > 0.0 ? hi : -lo;
             search.witness = base.members[sign > 0.0 ? highest : lowest];
           }
-          range.push_back(lo < hi ? hi - lo : 1e-6 * std::abs(lo));
+          range.push_back(lo < hi ? hi - lo : (lo == hi ? 1e-6 * std::abs(lo) : 0.0));
           searches.push_back(std::move(search));
         }
       }
@@ -317,7 +317,7 @@ struct Enclosure::Impl {
     search.state = state;
     double outer = std::max(search.inner, search.settled);
     if (!search.heap.empty()) outer = std::max(outer, search.heap.front().bound);
-    search.outer = outer + kRounding * std::abs(outer);
+    search.outer = std::isfinite(outer) ? outer + kRounding * std::abs(outer) : outer;
     (state == SearchState::kClosed ? search.counts.undecided : search.counts.pending) +=
         search.heap.size();
     search.heap.clear();
@@ -397,7 +397,7 @@ EnclosedBound Enclosure::Bound(std::size_t experiment, FamilyParameter parameter
     } else if (search.state == SearchState::kRunning) {
       outer = std::max(search.inner, search.settled);
       if (!search.heap.empty()) outer = std::max(outer, search.heap.front().bound);
-      outer += kRounding * std::abs(outer);
+      if (std::isfinite(outer)) outer += kRounding * std::abs(outer);
     }
     if (search.sign > 0.0) {
       bound.outer.hi = outer;
@@ -416,8 +416,8 @@ CellCounts Enclosure::Counts() const {
     sum.inside += search.counts.inside;
     sum.outside += search.counts.outside;
     sum.undecided += search.counts.undecided;
-    sum.pending += search.counts.pending + search.heap.size() +
-                   (search.state == SearchState::kNew ? 1 : 0);
+    sum.pending +=
+        search.counts.pending + search.heap.size() + (search.state == SearchState::kNew ? 1 : 0);
   }
   return sum;
 }
@@ -523,10 +523,9 @@ bool Enclosure::Load(std::istream& in) {
     if (!in || state < 0 || state > static_cast<int>(SearchState::kBudget)) return false;
     search.state = static_cast<SearchState>(state);
     search.random.SetState(random);
-    for (double* const value :
-         {&search.inner, &search.settled, &search.outer, &search.focus.xi_end,
-          &search.focus.phase_end, &search.focus.gain_end, &search.focus.loop_phase_end,
-          &search.focus.omega_end}) {
+    for (double* const value : {&search.inner, &search.settled, &search.outer, &search.focus.xi_end,
+                                &search.focus.phase_end, &search.focus.gain_end,
+                                &search.focus.loop_phase_end, &search.focus.omega_end}) {
       if (!Read(in, *value)) return false;
     }
     if (!(in >> witness) || (witness != 0 && witness != experiments)) return false;

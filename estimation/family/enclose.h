@@ -2,9 +2,9 @@
 //
 // For each bound (one end of one parameter of one experiment) a best-first search over cells
 // (estimation/family/cell.h): the cell that reaches farthest is split and contracted
-// (estimation/family/contract.h) until it reaches no farther than a member that was found, to within
-// half the stated width. So no member lies outside `outer`, and members were found at both ends of
-// `inner`.
+// (estimation/family/contract.h) until it reaches no farther than a member that was found, to
+// within half the stated width. So no member lies outside `outer`, and members were found at both
+// ends of `inner`.
 //
 // A cell ends in one of four states, never mixed: outside (no member), inside (members only),
 // undecided (it may hold members, and at the precision asked it cannot move a bound), pending (not
@@ -43,7 +43,7 @@ double ParameterValue(const Experiment& experiment, const LoopModel& model,
                       FamilyParameter parameter);
 
 struct EncloseOptions {
-  double width = 0.01;           // (outer - inner) / inner range of the parameter, both ends together
+  double width = 0.01;        // (outer - inner) / inner range of the parameter, both ends together
   std::size_t max_cells = 0;  // a bound; 0: 4000 with one mode, 2000 / experiments with two
   std::uint64_t seed = 0;
   int threads = 1;

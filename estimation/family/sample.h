@@ -4,9 +4,9 @@
 //
 // Coordinate-wise slice sampling (Neal 2003) with shrinkage. The coordinates are those in which the
 // test's conditions are bounds: phase, gain and loop phase error in the place of omega, N and tau.
-// The Jacobian of closed_form.h and two_mode_solve.h corrects for the change of coordinates. Several
-// chains start from different members of an enumeration; where the family has parts that no chain
-// crosses between (two modes), R-hat says so.
+// The Jacobian of closed_form.h and two_mode_solve.h corrects for the change of coordinates.
+// Several chains start from different members of an enumeration; where the family has parts that no
+// chain crosses between (two modes), R-hat says so.
 #ifndef HOWL_ESTIMATION_FAMILY_SAMPLE_H_
 #define HOWL_ESTIMATION_FAMILY_SAMPLE_H_
 
