@@ -48,6 +48,7 @@ struct BoundSearch {
   std::size_t experiment = 0;
   FamilyParameter parameter = FamilyParameter::kOmega;
   double sign = 1.0;  // +1: upper end
+  const Expression* expression = nullptr;  // in the parameter's place
   SearchState state = SearchState::kNew;
   double inner = -kUnbounded;    // sign * value, of a member
   double settled = -kUnbounded;  // sign * reach of cells too fine to split
@@ -98,6 +99,8 @@ struct Enclosure::Impl {
   MemberDrawer drawer;
   std::vector<BoundSearch> searches;
   std::vector<double> range;  // of each search's parameter over the base members
+  Enumeration base;
+  std::size_t first_expression = 0;
   Cell root;
   bool root_empty;
 
@@ -109,34 +112,51 @@ struct Enclosure::Impl {
                               ? 4000
                               : std::max<std::size_t>(150, 2000 / problem.experiments.size());
     }
-    const Enumeration base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
-    for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
+    for (std::size_t i = 0; options.parameters && i < problem.experiments.size(); ++i) {
       for (const FamilyParameter parameter : kFamilyParameters) {
-        if (!Has(i, parameter)) continue;
-        double lo = kUnbounded, hi = -kUnbounded;
-        std::size_t lowest = 0, highest = 0;
-        for (std::size_t k = 0; k < base.members.size(); ++k) {
-          const double value =
-              ParameterValue(problem.experiments[i], base.members[k][i], parameter);
-          if (value < lo) lo = value, lowest = k;
-          if (value > hi) hi = value, highest = k;
-        }
-        for (const double sign : {-1.0, 1.0}) {
-          BoundSearch search;
-          search.experiment = i;
-          search.parameter = parameter;
-          search.sign = sign;
-          search.random = UnitRandom(options.seed, 0x100000 + searches.size());
-          search.focus.experiment = i;
-          if (lo <= hi) {
-            search.inner = sign > 0.0 ? hi : -lo;
-            search.witness = base.members[sign > 0.0 ? highest : lowest];
-          }
-          range.push_back(lo < hi ? hi - lo : (lo == hi ? 1e-6 * std::abs(lo) : 0.0));
-          searches.push_back(std::move(search));
-        }
+        BoundSearch search;
+        search.experiment = i;
+        search.parameter = parameter;
+        if (Has(i, parameter)) Add(search);
       }
     }
+    first_expression = searches.size();
+    for (const BoundedExpression& bounded : options.expressions) {
+      BoundSearch search;
+      search.experiment = bounded.experiment;
+      search.expression = &bounded.expression;
+      Add(search);
+    }
+  }
+
+  // Both ends.
+  void Add(BoundSearch search) {
+    double lo = kUnbounded, hi = -kUnbounded;
+    std::size_t lowest = 0, highest = 0;
+    for (std::size_t k = 0; k < base.members.size(); ++k) {
+      const double value = Value(search, base.members[k]);
+      if (value < lo) lo = value, lowest = k;
+      if (value > hi) hi = value, highest = k;
+    }
+    search.focus.experiment = search.experiment;
+    for (const double sign : {-1.0, 1.0}) {
+      search.sign = sign;
+      search.random = UnitRandom(options.seed, 0x100000 + searches.size());
+      if (lo <= hi) {
+        search.inner = sign > 0.0 ? hi : -lo;
+        search.witness = base.members[sign > 0.0 ? highest : lowest];
+      }
+      range.push_back(lo < hi ? hi - lo : (lo == hi ? 1e-6 * std::abs(lo) : 0.0));
+      searches.push_back(search);
+    }
+  }
+
+  double Value(const BoundSearch& search, const Member& models) const {
+    const std::size_t i = search.experiment;
+    return search.expression
+               ? search.expression->Evaluate(problem.experiments, models, i)
+               : ParameterValue(problem.experiments[i], models[i], search.parameter);
   }
 
   bool Has(std::size_t i, FamilyParameter parameter) const {
@@ -149,6 +169,12 @@ struct Enclosure::Impl {
 
   // The sign * value that the cell reaches.
   double Reach(const BoundSearch& search, const Cell& cell) const {
+    if (search.expression) {
+      const RoundingGuard guard;
+      const Interval value = search.expression->Evaluate(
+          problem.experiments, cell, problem.model.harmonic_ratio, search.experiment);
+      return search.sign > 0.0 ? value.upper() : -value.lower();
+    }
     Interval value = cell.boxes[search.experiment][VariableOf(search.parameter)];
     if (search.parameter == FamilyParameter::kLoopGain) {
       const RoundingGuard guard;
@@ -164,9 +190,7 @@ struct Enclosure::Impl {
     if (!drawer.HasSupport() || !drawer.DrawFocused(search.random, focus, models, globals)) {
       return false;
     }
-    const std::size_t i = search.experiment;
-    const double value =
-        search.sign * ParameterValue(problem.experiments[i], models[i], search.parameter);
+    const double value = search.sign * Value(search, models);
     if (!(value > search.inner)) return false;
     search.inner = value;
     search.witness = models;
@@ -278,7 +302,7 @@ struct Enclosure::Impl {
       offer(cell.window_hz, start.window_hz, 1.0);
     }
     for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
-      const bool own = i == search.experiment;
+      const bool own = i == search.experiment || search.expression != nullptr;
       ExperimentBox& box = cell.boxes[i];
       const ExperimentBox& from = start.boxes[i];
       const double rest = two_modes ? 0.4 : 0.1;
@@ -354,6 +378,33 @@ struct Enclosure::Impl {
     }
   }
 
+  // Of the two searches from `first`: the lower and the upper end.
+  EnclosedBound BoundAt(std::size_t first) const {
+    EnclosedBound bound;
+    bound.closed = true;
+    for (std::size_t k = first; k < first + 2; ++k) {
+      const BoundSearch& search = searches[k];
+      bound.closed &= search.state == SearchState::kClosed;
+      // Of an interrupted search: what its cells still reach.
+      double outer = search.outer;
+      if (search.state == SearchState::kNew) {
+        outer = root_empty ? -kUnbounded : Reach(search, root);
+      } else if (search.state == SearchState::kRunning) {
+        outer = std::max(search.inner, search.settled);
+        if (!search.heap.empty()) outer = std::max(outer, search.heap.front().bound);
+        if (std::isfinite(outer)) outer += kRounding * std::abs(outer);
+      }
+      if (search.sign > 0.0) {
+        bound.outer.hi = outer;
+        bound.inner.hi = search.inner;
+      } else {
+        bound.outer.lo = 0.0 - outer;
+        bound.inner.lo = 0.0 - search.inner;
+      }
+    }
+    return bound;
+  }
+
   bool IsDone(const BoundSearch& search) const {
     return search.state == SearchState::kClosed || search.state == SearchState::kBudget;
   }
@@ -385,29 +436,15 @@ bool Enclosure::IsBounded(std::size_t experiment, FamilyParameter parameter) con
 }
 
 EnclosedBound Enclosure::Bound(std::size_t experiment, FamilyParameter parameter) const {
-  EnclosedBound bound;
-  bound.closed = true;
-  for (const BoundSearch& search : impl_->searches) {
-    if (search.experiment != experiment || search.parameter != parameter) continue;
-    bound.closed &= search.state == SearchState::kClosed;
-    // Of an interrupted search: what its cells still reach.
-    double outer = search.outer;
-    if (search.state == SearchState::kNew) {
-      outer = impl_->root_empty ? -kUnbounded : impl_->Reach(search, impl_->root);
-    } else if (search.state == SearchState::kRunning) {
-      outer = std::max(search.inner, search.settled);
-      if (!search.heap.empty()) outer = std::max(outer, search.heap.front().bound);
-      if (std::isfinite(outer)) outer += kRounding * std::abs(outer);
-    }
-    if (search.sign > 0.0) {
-      bound.outer.hi = outer;
-      bound.inner.hi = search.inner;
-    } else {
-      bound.outer.lo = 0.0 - outer;
-      bound.inner.lo = -search.inner;
-    }
+  for (std::size_t k = 0; k < impl_->first_expression; k += 2) {
+    const BoundSearch& search = impl_->searches[k];
+    if (search.experiment == experiment && search.parameter == parameter) return impl_->BoundAt(k);
   }
-  return bound;
+  return {};
+}
+
+EnclosedBound Enclosure::BoundOfExpression(std::size_t k) const {
+  return impl_->BoundAt(impl_->first_expression + 2 * k);
 }
 
 CellCounts Enclosure::Counts() const {
