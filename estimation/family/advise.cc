@@ -31,8 +31,8 @@ SurvivalResult TestFurther(const FamilyProblem& problem, std::span<const Member>
       if (!model) continue;
       tested = true;
       // One at a time: what couples experiments was tested when the member was made.
-      const ConditionSet one = Falsify(std::span(&experiment, 1), std::span(&*model, 1),
-                                       problem.test);
+      const ConditionSet one =
+          Falsify(std::span(&experiment, 1), std::span(&*model, 1), problem.test);
       for (const Condition condition : kConditions) {
         if (one.Contains(condition)) failed.Insert(condition);
       }
@@ -115,10 +115,11 @@ std::vector<Measurement> DefaultMeasurements(const std::vector<Experiment>& expe
     const std::string of = " of " + experiments[i].name;
     for (const double multiple : {0.5, 1.5, 2.0}) {
       const double f = multiple * experiments[i].frequency_hz;
-      measurements.push_back({WithNumber("q-to-p phase" + of + " at Hz ", f), "deg",
-                              stds.phase_deg,
-                              [i, f, phase_of](std::span<const LoopModel> m)
-                                  -> std::optional<double> { return phase_of(m[i], f); }});
+      measurements.push_back(
+          {WithNumber("q-to-p phase" + of + " at Hz ", f), "deg", stds.phase_deg,
+           [i, f, phase_of](std::span<const LoopModel> m) -> std::optional<double> {
+             return phase_of(m[i], f);
+           }});
       measurements.push_back(
           {WithNumber("q-to-p gain" + of + " at Hz ", f), "relative", stds.gain_relative,
            [i, f](std::span<const LoopModel> m) -> std::optional<double> {

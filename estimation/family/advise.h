@@ -43,9 +43,10 @@ struct Measurement {
 struct Advice {
   std::string name;
   double std = 1.0;
-  // Share of the family (of the members given, which should be uniform) that is expected to be left:
-  // each member is taken as the truth in turn, its measurement is made with a normal error, and
-  // those within `kept_within` standard deviations of it stay. 1: the measurement tells nothing.
+  // Share of the family (of the members given, which should be uniform) that is expected to be
+  // left: each member is taken as the truth in turn, its measurement is made with a normal error,
+  // and those within `kept_within` standard deviations of it stay. 1: the measurement tells
+  // nothing.
   double expected_remaining = 1.0;
   Range predicted{1.0, -1.0};  // over the members
 };
@@ -62,10 +63,10 @@ struct MeasurementStds {
   double line_hz = 2.0;
 };
 
-// The measurements that a rig offers: the limit cycle's frequency, and phase and gain of G there, at
-// a phi half-way between each two neighbours; the transfer from q to p at a second frequency, half
-// and 1.5 and twice the limit cycle's, of each experiment; the line near 750 Hz of each experiment.
-// A growth rate needs the loop's poles: add a Measurement with a predictor for it.
+// The measurements that a rig offers: the limit cycle's frequency, and phase and gain of G there,
+// at a phi half-way between each two neighbours; the transfer from q to p at a second frequency,
+// half and 1.5 and twice the limit cycle's, of each experiment; the line near 750 Hz of each
+// experiment. A growth rate needs the loop's poles: add a Measurement with a predictor for it.
 std::vector<Measurement> DefaultMeasurements(const std::vector<Experiment>& experiments,
                                              const MeasurementStds& stds = {},
                                              const Range& line_band_hz = {600.0, 900.0});

@@ -47,7 +47,7 @@ enum class SearchState { kNew, kRunning, kClosed, kBudget };
 struct BoundSearch {
   std::size_t experiment = 0;
   FamilyParameter parameter = FamilyParameter::kOmega;
-  double sign = 1.0;  // +1: upper end
+  double sign = 1.0;                       // +1: upper end
   const Expression* expression = nullptr;  // in the parameter's place
   SearchState state = SearchState::kNew;
   double inner = -kUnbounded;    // sign * value, of a member
@@ -154,9 +154,8 @@ struct Enclosure::Impl {
 
   double Value(const BoundSearch& search, const Member& models) const {
     const std::size_t i = search.experiment;
-    return search.expression
-               ? search.expression->Evaluate(problem.experiments, models, i)
-               : ParameterValue(problem.experiments[i], models[i], search.parameter);
+    return search.expression ? search.expression->Evaluate(problem.experiments, models, i)
+                             : ParameterValue(problem.experiments[i], models[i], search.parameter);
   }
 
   bool Has(std::size_t i, FamilyParameter parameter) const {
@@ -302,7 +301,8 @@ struct Enclosure::Impl {
       offer(cell.window_hz, start.window_hz, 1.0);
     }
     for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
-      const bool own = i == search.experiment || search.expression != nullptr;
+      const bool own = search.expression ? search.expression->DependsOn(i, search.experiment)
+                                         : i == search.experiment;
       ExperimentBox& box = cell.boxes[i];
       const ExperimentBox& from = start.boxes[i];
       const double rest = two_modes ? 0.4 : 0.1;

@@ -312,6 +312,12 @@ T Expression::Run(const Lookup& lookup) const {
   return stack[0];
 }
 
+bool Expression::DependsOn(std::size_t experiment, std::size_t index) const {
+  return std::any_of(tokens_.begin(), tokens_.end(), [&](const Token& token) {
+    return token.operation == Operation::kName && token.experiment.value_or(index) == experiment;
+  });
+}
+
 double Expression::Evaluate(std::span<const Experiment> experiments,
                             std::span<const LoopModel> models, std::size_t index) const {
   return Run<double>([&](Name name, const std::optional<std::size_t>& of) {

@@ -1,8 +1,8 @@
 // Arithmetic expressions of a member's parameters, as a config may ask for:
 //
 //   + - * / ^ ( ), unary -, sqrt exp log sin cos abs, numbers, pi, and the names
-//   omega_hz xi N M tau_s harmonic_ratio (of the model), phi frequency_hz phase_deg gain flame_slope
-//   (of the experiment).
+//   omega_hz xi N M tau_s harmonic_ratio (of the model), phi frequency_hz phase_deg gain
+//   flame_slope (of the experiment).
 //
 // A name alone is that of the experiment the expression is evaluated for; exp1.xi is that of exp1.
 // ^ binds to the right, and tighter than the unary minus on its left: -x^2 = -(x^2).
@@ -40,6 +40,9 @@ class Expression {
   Interval Evaluate(std::span<const Experiment> experiments, const Cell& cell,
                     double harmonic_ratio, std::size_t index) const;
 
+  // Whether its value for experiment `index` depends on the model of `experiment`.
+  bool DependsOn(std::size_t experiment, std::size_t index) const;
+
   const std::string& Text() const { return text_; }
   // Names without an experiment: the value differs from experiment to experiment.
   bool IsPerExperiment() const { return per_experiment_; }
@@ -47,11 +50,33 @@ class Expression {
  private:
   friend class ExpressionParser;
   enum class Operation {
-    kNumber, kName, kAdd, kSubtract, kMultiply, kDivide, kPower, kNegate,
-    kSqrt, kExp, kLog, kSin, kCos, kAbs
+    kNumber,
+    kName,
+    kAdd,
+    kSubtract,
+    kMultiply,
+    kDivide,
+    kPower,
+    kNegate,
+    kSqrt,
+    kExp,
+    kLog,
+    kSin,
+    kCos,
+    kAbs
   };
   enum class Name {
-    kOmega, kXi, kN, kM, kTau, kHarmonicRatio, kPhi, kFrequency, kPhase, kGain, kFlameSlope
+    kOmega,
+    kXi,
+    kN,
+    kM,
+    kTau,
+    kHarmonicRatio,
+    kPhi,
+    kFrequency,
+    kPhase,
+    kGain,
+    kFlameSlope
   };
   struct Token {  // in reverse Polish order
     Operation operation;

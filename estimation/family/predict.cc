@@ -94,7 +94,7 @@ std::optional<LoopModel> InterpolateModel(std::span<const Experiment> experiment
   const LoopModel& b = models[at->above];
   const auto mix = [&](double x, double y) { return x + at->share * (y - x); };
   return LoopModel{mix(a.omega_hz, b.omega_hz), mix(a.xi, b.xi), mix(a.N, b.N), mix(a.M, b.M),
-                   mix(a.tau_s, b.tau_s), a.harmonic_ratio};
+                   mix(a.tau_s, b.tau_s),       a.harmonic_ratio};
 }
 
 std::optional<double> InterpolatedFrequency(std::span<const Experiment> experiments,
@@ -103,9 +103,9 @@ std::optional<double> InterpolatedFrequency(std::span<const Experiment> experime
   const std::optional<Between> at = Neighbours(experiments, phi);
   const std::optional<LoopModel> model = InterpolateModel(experiments, models, phi);
   if (!at || !model) return std::nullopt;
-  const double f = experiments[at->below].frequency_hz +
-                   at->share * (experiments[at->above].frequency_hz -
-                                experiments[at->below].frequency_hz);
+  const double f =
+      experiments[at->below].frequency_hz +
+      at->share * (experiments[at->above].frequency_hz - experiments[at->below].frequency_hz);
   return CrossingNear(*model, {f * (1.0 - reach), f * (1.0 + reach)});
 }
 

@@ -21,7 +21,7 @@ enum class IntervalKind { kGuaranteed, kSampled };
 struct Prediction {
   std::string name;
   IntervalKind kind = IntervalKind::kSampled;
-  Range interval{1.0, -1.0};  // lo > hi: no member has it
+  Range interval{1.0, -1.0};    // lo > hi: no member has it
   Range central_90{1.0, -1.0};  // 5 % to 95 % of the members, sampled ones only
   std::size_t members = 0;      // that have a value
 };

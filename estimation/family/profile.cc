@@ -86,8 +86,7 @@ class Walker {
       // The false position, kept off the ends.
       double share = (options_.cost_max - in.cost) / (out.cost - in.cost);
       share = std::isfinite(share) ? std::clamp(share, 0.1, 0.9) : 0.5;
-      const ProfilePoint middle =
-          At(in.value + share * (out.value - in.value), in.parameters);
+      const ProfilePoint middle = At(in.value + share * (out.value - in.value), in.parameters);
       if (middle.cost <= options_.cost_max) {
         points.push_back(middle);
         in = middle;
@@ -113,9 +112,14 @@ Profile ComputeProfile(const ConstrainedMinimum& minimise, double best_value,
   walker.Check(down.points);
   walker.Check(up.points);
   Profile profile;
-  profile.points.assign(down.points.rbegin(), down.points.rend());
-  profile.points.back().flagged |= up.points.front().flagged;
-  for (std::size_t k = 1; k < up.points.size(); ++k) profile.points.push_back(up.points[k]);
+  for (std::size_t k = down.points.size(); k-- > 0;) profile.points.push_back(down.points[k]);
+  for (std::size_t k = 0; k < up.points.size(); ++k) {
+    if (k > 0) {
+      profile.points.push_back(up.points[k]);
+    } else if (!profile.points.empty()) {
+      profile.points.back().flagged |= up.points[0].flagged;  // the start, in both
+    }
+  }
   profile.lo = down.end;
   profile.hi = up.end;
   profile.lo_end = down.reason;

@@ -1,12 +1,12 @@
 // The profile of a scalar (a parameter, or a prediction): the least cost that a model has with the
 // scalar held at each of a row of values, followed in both directions from the best fit, each to
 // the edge of the family (a cost that is no longer acceptable) or to the scalar's bounds. The steps
-// adapt to the cost, not to the scalar, so a flat direction is walked in long strides and nothing is
-// cropped at symmetric bounds.
+// adapt to the cost, not to the scalar, so a flat direction is walked in long strides and nothing
+// is cropped at symmetric bounds.
 //
 // Self-check: every point is minimised a second time, from its outer neighbour, on the way back. A
-// point whose two minima differ has not converged; it is flagged, and the lower one is kept. So is a
-// cost below that of the start, which then was no best fit.
+// point whose two minima differ has not converged; it is flagged, and the lower one is kept. So is
+// a cost below that of the start, which then was no best fit.
 #ifndef HOWL_ESTIMATION_FAMILY_PROFILE_H_
 #define HOWL_ESTIMATION_FAMILY_PROFILE_H_
 
@@ -28,13 +28,12 @@ using ConstrainedMinimum =
     std::function<ConstrainedFit(double value, const std::vector<double>& start)>;
 
 struct ProfileOptions {
-  Range bounds{-std::numeric_limits<double>::infinity(),
-               std::numeric_limits<double>::infinity()};
-  double cost_max = 0.0;    // the edge: cost at which a model is no longer acceptable
-  double first_step = 0.0;  // of the scalar; 0: a hundredth of its value
-  std::size_t max_points = 60;         // a direction
-  double edge_precision = 1e-4;        // of the edge, relative to its distance from the best fit
-  double agreement = 1e-3;             // of the two minima, relative to cost_max - best cost
+  Range bounds{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  double cost_max = 0.0;         // the edge: cost at which a model is no longer acceptable
+  double first_step = 0.0;       // of the scalar; 0: a hundredth of its value
+  std::size_t max_points = 60;   // a direction
+  double edge_precision = 1e-4;  // of the edge, relative to its distance from the best fit
+  double agreement = 1e-3;       // of the two minima, relative to cost_max - best cost
 };
 
 enum class ProfileEnd { kEdge, kBound, kFailed, kPoints };
