@@ -18,7 +18,8 @@ constexpr std::size_t kAttemptsPer = 400;  // attempts a member before a unit gi
 constexpr int kRootCells = 12;
 constexpr int kMaxRoots = 4;
 constexpr double kXiCap = 10.0;  // stands for "no upper limit"
-constexpr double kTinyXi = 1e-9;
+// Below it, omega is so close to f that the phase of G loses the digits that the test needs.
+constexpr double kTinyXi = 1e-5;
 constexpr double kThreeHalvesPi = 1.5 * std::numbers::pi;
 
 Range Intersection(const Range& a, const Range& b) {
@@ -188,8 +189,8 @@ struct MemberDrawer::Impl {
   }
 
   // The interval of xi of each experiment, before the chain.
-  bool XiIntervals(const DrawGlobals& globals, const Range& window_hz, const std::vector<Range>& phases,
-                   std::vector<Range>& xis) const {
+  bool XiIntervals(const DrawGlobals& globals, const Range& window_hz,
+                   const std::vector<Range>& phases, std::vector<Range>& xis) const {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       ExperimentTarget target = targets[i];
       target.phase_rad = phases[i];
@@ -261,8 +262,7 @@ struct MemberDrawer::Impl {
     if (!PropagateChain(targets, increasing, xis)) return false;
     if (focus) {
       const std::size_t i = focus->experiment;
-      const Range asked =
-          IsEmpty(focus->xi) ? xis[i] : Intersection(xis[i], focus->xi);
+      const Range asked = IsEmpty(focus->xi) ? xis[i] : Intersection(xis[i], focus->xi);
       if (IsEmpty(asked)) return false;
       FixInChain(targets, increasing, i, Pick(random, asked, focus->xi_end), xis);
     }
@@ -333,9 +333,11 @@ struct MemberDrawer::Impl {
         model.M = second_kind == ParameterKind::kM ? globals.second : globals.second * model.N;
       }
     }
-    model.tau_s = shared_tau ? globals.tau_s
-                             : TauFromPhase(f, theta, Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
-                                            problem.domain.delay_periods);
+    model.tau_s =
+        shared_tau ? globals.tau_s
+                   : TauFromPhase(f, theta,
+                                  Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
+                                  problem.domain.delay_periods);
     return true;
   }
 
@@ -363,10 +365,11 @@ struct MemberDrawer::Impl {
       model.N = shared_N ? globals.N : (std::sqrt(discriminant) - b) / SquaredMagnitude(first);
     }
     const double theta = Angle(model.N * first + model.M * other);
-    model.tau_s = shared_tau ? globals.tau_s
-                             : TauFromPhase(target.frequency_hz, theta,
-                                            Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
-                                            problem.domain.delay_periods);
+    model.tau_s =
+        shared_tau ? globals.tau_s
+                   : TauFromPhase(target.frequency_hz, theta,
+                                  Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
+                                  problem.domain.delay_periods);
     return true;
   }
 
@@ -394,7 +397,9 @@ struct MemberDrawer::Impl {
     phases.resize(targets.size());
     xis.resize(targets.size());
     for (std::size_t i = 0; i < targets.size(); ++i) phases[i] = targets[i].phase_rad;
-    if (shared_tau && !DrawTau(random, Intersection(tau, within(tau, where.tau_s)), globals, phases)) return false;
+    if (shared_tau &&
+        !DrawTau(random, Intersection(tau, within(tau, where.tau_s)), globals, phases))
+      return false;
     globals.window_hz = random.Uniform(within(window_support, where.window_hz));
     Range window_hz = omega;
     if (std::isfinite(window.factor)) {

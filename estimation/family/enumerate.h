@@ -49,7 +49,7 @@ struct DrawFocus {
   double gain_end = 0.5;
   double loop_phase_end = 0.5;
   double omega_end = 0.5;  // where omega is free (M per experiment)
-  Range xi = kUnset;  // of this experiment
+  Range xi = kUnset;       // of this experiment
   Range window_hz = kUnset;
   Range second = kUnset;
   Range N = kUnset;

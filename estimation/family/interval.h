@@ -14,11 +14,11 @@
 namespace howl {
 
 using GuardedInterval = boost::numeric::interval<
-    double, boost::numeric::interval_lib::policies<
-                boost::numeric::interval_lib::save_state<
-                    boost::numeric::interval_lib::rounded_transc_std<
-                        double, boost::numeric::interval_lib::rounded_arith_opp<double>>>,
-                boost::numeric::interval_lib::checking_base<double>>>;
+    double,
+    boost::numeric::interval_lib::policies<
+        boost::numeric::interval_lib::save_state<boost::numeric::interval_lib::rounded_transc_std<
+            double, boost::numeric::interval_lib::rounded_arith_opp<double>>>,
+        boost::numeric::interval_lib::checking_base<double>>>;
 using Interval = boost::numeric::interval_lib::unprotect<GuardedInterval>::type;
 
 class RoundingGuard {
