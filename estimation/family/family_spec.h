@@ -2,14 +2,25 @@
 #ifndef HOWL_ESTIMATION_FAMILY_FAMILY_SPEC_H_
 #define HOWL_ESTIMATION_FAMILY_FAMILY_SPEC_H_
 
+#include <string>
+#include <vector>
+
 #include "estimation/family/membership.h"
 
 namespace howl {
+
+// A quantity to be bounded over the family: an expression of estimation/family/expression.h.
+struct PredictionSpec {
+  std::string name;
+  std::string expression;
+  int line = 0;  // of the expression in the config
+};
 
 struct FamilySpec {
   int members = 1000;   // listed, spread over the whole set
   double width = 0.01;  // relative precision at which the search for guaranteed bounds stops
   MembershipTest test;
+  std::vector<PredictionSpec> predictions;
 };
 
 }  // namespace howl

@@ -32,6 +32,15 @@ void ReadFamily(const ConfigCursor& root, Config& config) {
   family->Read("members", config.family.members);
   family->Read("width", config.family.width);
   if (const auto test = family->Find("test")) ReadTest(*test, config.family.test);
+  if (const auto predictions = family->Find("predictions")) {
+    for (const ConfigCursor& item : predictions->Items()) {
+      PredictionSpec prediction;
+      item.Read("name", prediction.name);
+      item.Read("expression", prediction.expression);
+      prediction.line = item.Find("expression")->Node().line;
+      config.family.predictions.push_back(std::move(prediction));
+    }
+  }
 }
 
 void ReadSolver(const ConfigCursor& root, Config& config) {
