@@ -9,6 +9,7 @@
 
 #include "model/crossings.h"
 #include "model/floquet.h"
+#include "model/prediction.h"
 #include "tests/model/seed_loop.h"
 
 namespace howl {
@@ -83,6 +84,22 @@ TEST(HarmonicBalance, ClippedFlameConvergesSlowlyButDoes) {
   const auto cycles = LimitCycles(model, 300.0, options);
   ASSERT_EQ(cycles.size(), 1u);
   EXPECT_NEAR(cycles[0].frequency_hz, 216.1, 0.5);
+}
+
+TEST(Prediction, GathersWhatTheLoopWillDo) {
+  // Between 0.625 and 0.923 two cycles attract; at 0.415 one; with less gain none, and rest does.
+  EXPECT_EQ(PredictLoop(SeedLoop(0.75), 900.0).attracting_cycles(), 2);
+  const LoopPrediction one = PredictLoop(SeedLoop(0.415), 900.0);
+  EXPECT_EQ(one.attracting_cycles(), 1);
+  EXPECT_FALSE(one.rest_is_stable());
+  EXPECT_FALSE(one.margins.stable);
+  ClosedLoop weak = SeedLoop(0.415);
+  weak.flame.slope *= 0.8;
+  const LoopPrediction none = PredictLoop(weak, 900.0);
+  EXPECT_TRUE(none.cycles.empty());
+  EXPECT_TRUE(none.rest_is_stable());
+  EXPECT_TRUE(none.margins.stable);
+  EXPECT_TRUE(none.poles.complete);
 }
 
 TEST(Floquet, SmallCycleRelaxesAtTwiceItsExcessGrowth) {
