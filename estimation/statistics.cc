@@ -29,15 +29,15 @@ double OverlapCorrection(int n, int count, double c) {
 // with unit variance a hop: autocorrelation of the kernel C(t) - C(t - 1/2), C being Hann's
 // integral.
 std::array<double, 3> SmoothedWalkCovariance() {
-  constexpr int kPerHop = 500;
+  constexpr std::size_t kPerHop = 500;
   const auto integral = [](double u) {
     u = std::clamp(u, 0.0, 1.0);
     return u - std::sin(2.0 * kPi * u) / (2.0 * kPi);
   };
   std::array<double, 3 * kPerHop> kernel;
-  for (int i = 0; i < 3 * kPerHop; ++i) {
-    const double u = 0.5 * (i + 0.5) / kPerHop;
-    kernel[static_cast<std::size_t>(i)] = integral(u) - integral(u - 0.5);
+  for (std::size_t i = 0; i < kernel.size(); ++i) {
+    const double u = 0.5 * (static_cast<double>(i) + 0.5) / kPerHop;
+    kernel[i] = integral(u) - integral(u - 0.5);
   }
   std::array<double, 3> covariance{};
   for (std::size_t lag = 0; lag < 3; ++lag) {

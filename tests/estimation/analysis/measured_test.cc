@@ -148,9 +148,13 @@ TEST(RijkeTube, RampsGrowAtTheStatedRates) {
     const Analysis analysis = AnalyseRecord(record);
     ASSERT_TRUE(analysis.growth.has_value()) << name;
     const Growth& growth = *analysis.growth;
-    EXPECT_GT(growth.rate_per_s.value, 6.0) << name;
-    EXPECT_LT(growth.rate_per_s.value, 6.5) << name;
-    EXPECT_LT(growth.rate_per_s.std, 0.5) << name;
+    // The rate rises from 5 to 7 per second while the envelope grows, so that it depends on the
+    // window: the interval has to meet the stated rates, and to say so.
+    EXPECT_GT(growth.rate_per_s.value, 5.9) << name;
+    EXPECT_LT(growth.rate_per_s.value, 6.7) << name;
+    EXPECT_GT(growth.rate_per_s.value + kNormal95 * growth.rate_per_s.std, 6.4) << name;
+    EXPECT_LT(growth.rate_per_s.value - kNormal95 * growth.rate_per_s.std, 6.1) << name;
+    EXPECT_LT(growth.rate_per_s.std, 1.0) << name;
     EXPECT_NEAR(growth.frequency_hz.value, 166.6, 0.5) << name;
     EXPECT_NE(analysis.characteristics.state, CycleState::kLimitCycle) << name;
   }
