@@ -25,8 +25,9 @@ struct DelayInput {
   Estimate phase_deg;
 };
 
-// The error is the phase's alone (an unknown one, NaN, counts as zero): where a record's frequency
-// wanders, its phase wanders with it by 360 tau, and tau stays.
+// phase_deg is taken as it is, not wrapped. The error is the phase's alone (an unknown one, NaN,
+// counts as zero): where a record's frequency wanders, its phase wanders with it by 360 tau, and
+// tau stays.
 Estimate DelayOnBranch(const DelayInput& input, int branch);
 
 struct DelayBranch {

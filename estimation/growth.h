@@ -2,7 +2,9 @@
 // envelope grows as A(t) = A_0 e^(sigma t); noise makes log A a trend plus a random walk plus white
 // noise, whose slope FitTrend estimates with its interval (statistics.h). The window runs from
 // where the envelope last leaves the noise (`above_noise` times its 95 % quantile before) to where
-// saturation begins (`below_peak` of the highest envelope).
+// saturation begins (`below_peak` of the highest envelope). Neither end is sharp, and a rate that
+// changes over the window is no constant: half of what the fitted curvature changes it by is taken
+// for a uniform error.
 #ifndef HOWL_ESTIMATION_GROWTH_H_
 #define HOWL_ESTIMATION_GROWTH_H_
 
@@ -13,7 +15,7 @@
 namespace howl {
 
 struct GrowthOptions {
-  double above_noise = 6.0;
+  double above_noise = 10.0;
   double below_peak = 0.5;
   double block_periods = 16.0;
 };
