@@ -111,7 +111,7 @@ struct Enclosure::Impl {
     if (options.max_cells == 0) {
       options.max_cells = problem.model.modes == 1
                               ? 4000
-                              : std::max<std::size_t>(150, 2000 / problem.experiments.size());
+                              : std::max<std::size_t>(60, 400 / problem.experiments.size());
     }
     base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
     for (std::size_t i = 0; options.parameters && i < problem.experiments.size(); ++i) {
@@ -287,7 +287,7 @@ struct Enclosure::Impl {
   // whose halves reach least far (an expression may depend on many), or simply the widest.
   Interval* ChooseSplit(const BoundSearch& search, Cell& cell, const Cell& start) const {
     std::array<std::pair<double, Interval*>, kTrials> widest{};
-    const std::size_t kept = search.expression ? kTrials : 1;
+    const std::size_t kept = search.expression || contractor.TwoModes() ? kTrials : 1;
     const auto offer = [&](Interval& x, const Interval& from, double weight) {
       const double width = Width(x);
       if (!std::isfinite(width) || !(width > 4e-16 * std::abs(x.upper()))) return;
