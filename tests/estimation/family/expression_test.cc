@@ -106,15 +106,14 @@ TEST(ExpressionTest, IntervalHoldsEveryPoint) {
   }
 }
 
-// The spread of omega between exp1 and exp6 is bounded by the test itself, 0.25, and reaches it. The
-// limit cycle's angle over one delay is 270 degrees plus phase less loop phase error, exactly.
+// The spread of omega between exp1 and exp6 is bounded by the test itself, 0.25, and reaches it.
+// The limit cycle's angle over one delay is 270 degrees plus phase less loop phase error, exactly.
 TEST(ExpressionTest, GuaranteedBoundsOfAnExpression) {
   FamilyProblem problem{.experiments = R228()};
   ExpressionError error;
   const auto spread =
       Expression::Parse("exp1.omega_hz / exp6.omega_hz - 1", problem.experiments, error);
-  const auto turned =
-      Expression::Parse("360 * frequency_hz * tau_s", problem.experiments, error);
+  const auto turned = Expression::Parse("360 * frequency_hz * tau_s", problem.experiments, error);
   ASSERT_TRUE(spread && turned);
   Enclosure enclosure(problem, {.width = 0.02,
                                 .max_cells = 20000,
