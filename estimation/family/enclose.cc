@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated in doubles
 constexpr double kFinest = 1e-9;     // of a root cell: no split below
-constexpr std::size_t kTrials = 12;   // candidates for a split
+constexpr std::size_t kTrials = 12;  // candidates for a split
 constexpr std::size_t kBaseMembers = 1000;
 
 CellVariable VariableOf(FamilyParameter parameter) {
