@@ -94,6 +94,7 @@ std::vector<Measurement> DefaultMeasurements(const std::vector<Experiment>& expe
     return Angle(AcousticResponse(model.Loop().acoustics, frequency_hz)) * kDegPerRad;
   };
   std::vector<double> phis;
+  phis.reserve(experiments.size());
   for (const Experiment& experiment : experiments) phis.push_back(experiment.phi);
   std::sort(phis.begin(), phis.end());
   for (std::size_t k = 1; k < phis.size(); ++k) {

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated in doubles
 constexpr double kFinest = 1e-9;     // of a root cell: no split below
+constexpr std::size_t kTrials = 12;  // candidates for a split
 constexpr std::size_t kBaseMembers = 1000;
 
 CellVariable VariableOf(FamilyParameter parameter) {
@@ -110,7 +111,7 @@ struct Enclosure::Impl {
     if (options.max_cells == 0) {
       options.max_cells = problem.model.modes == 1
                               ? 4000
-                              : std::max<std::size_t>(150, 2000 / problem.experiments.size());
+                              : std::max<std::size_t>(60, 400 / problem.experiments.size());
     }
     base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
     for (std::size_t i = 0; options.parameters && i < problem.experiments.size(); ++i) {
@@ -205,6 +206,10 @@ struct Enclosure::Impl {
                               &focus.loop_phase_end, &focus.omega_end}) {
       if (search.random.Uniform() < 0.3) *end = kEnds[search.random.Index(3)];
     }
+    if (search.expression && search.random.Uniform() < 0.7) {
+      const unsigned at = 6u * static_cast<unsigned>(search.random.Index(10));
+      focus.pattern ^= (search.random.Next() & 63u) << at;
+    }
     return focus;
   }
 
@@ -278,10 +283,11 @@ struct Enclosure::Impl {
     std::push_heap(search.heap.begin(), search.heap.end(), ReachesLess);
   }
 
-  // The variable whose width, relative to the root's, matters most; nullptr below the finest.
+  // The variable to split; nullptr below the finest. Of the widest, relative to the root's, the one
+  // whose halves reach least far (an expression may depend on many), or simply the widest.
   Interval* ChooseSplit(const BoundSearch& search, Cell& cell, const Cell& start) const {
-    Interval* best = nullptr;
-    double best_score = kFinest;
+    std::array<std::pair<double, Interval*>, kTrials> widest{};
+    const std::size_t kept = search.expression || contractor.TwoModes() ? kTrials : 1;
     const auto offer = [&](Interval& x, const Interval& from, double weight) {
       const double width = Width(x);
       if (!std::isfinite(width) || !(width > 4e-16 * std::abs(x.upper()))) return;
@@ -291,9 +297,10 @@ struct Enclosure::Impl {
         score = std::log((x.upper() + floor) / (x.lower() + floor)) /
                 std::log((std::min(from.upper(), 1e9) + floor) / (from.lower() + floor));
       }
-      if (weight * score > best_score) {
-        best_score = weight * score;
-        best = &x;
+      std::pair<double, Interval*> next{weight * score, &x};
+      if (next.first <= kFinest) return;
+      for (std::size_t k = 0; k < kept; ++k) {
+        if (next.first > widest[k].first) std::swap(next, widest[k]);
       }
     };
     const bool two_modes = contractor.TwoModes();
@@ -305,7 +312,7 @@ struct Enclosure::Impl {
                                          : i == search.experiment;
       ExperimentBox& box = cell.boxes[i];
       const ExperimentBox& from = start.boxes[i];
-      const double rest = two_modes ? 0.4 : 0.1;
+      const double rest = search.expression ? 1e-3 : (two_modes ? 0.4 : 0.1);
       offer(box[kCellXi], from[kCellXi], own ? 1.0 : rest);
       offer(box[kCellOmega], from[kCellOmega], own ? 1.0 : rest);
       offer(box[kCellTangent], from[kCellTangent], own ? 0.7 : 0.5 * rest);
@@ -317,6 +324,25 @@ struct Enclosure::Impl {
         for (const CellVariable shared : contractor.Shared()) {
           offer(box[shared], from[shared], 1.0);
         }
+      }
+    }
+    if (kept == 1) return widest[0].second;
+    Interval* best = nullptr;
+    double best_reach = kUnbounded;
+    for (const auto& [score, variable] : widest) {
+      if (variable == nullptr) break;
+      const Interval whole = *variable;
+      const double middle = Middle(whole);
+      double reach = -kUnbounded;
+      for (const bool low : {true, false}) {
+        *variable = low ? Interval(whole.lower(), middle) : Interval(middle, whole.upper());
+        Cell child = cell;
+        if (contractor.Contract(child)) reach = std::max(reach, Reach(search, child));
+      }
+      *variable = whole;
+      if (best == nullptr || reach < best_reach) {
+        best = variable;
+        best_reach = reach;
       }
     }
     return best;
@@ -522,7 +548,8 @@ void Enclosure::Save(std::ostream& out) const {
   for (const BoundSearch& search : impl_->searches) {
     out << static_cast<int>(search.state) << ' ' << search.random.State() << ' ' << search.cells
         << ' ' << search.counts.inside << ' ' << search.counts.outside << ' '
-        << search.counts.undecided << ' ' << search.counts.pending << ' ';
+        << search.counts.undecided << ' ' << search.counts.pending << ' ' << search.focus.pattern
+        << ' ';
     for (const double value :
          {search.inner, search.settled, search.outer, search.focus.xi_end, search.focus.phase_end,
           search.focus.gain_end, search.focus.loop_phase_end, search.focus.omega_end}) {
@@ -556,7 +583,7 @@ bool Enclosure::Load(std::istream& in) {
     std::uint64_t random = 0;
     std::size_t witness = 0, heap = 0;
     in >> state >> random >> search.cells >> search.counts.inside >> search.counts.outside >>
-        search.counts.undecided >> search.counts.pending;
+        search.counts.undecided >> search.counts.pending >> search.focus.pattern;
     if (!in || state < 0 || state > static_cast<int>(SearchState::kBudget)) return false;
     search.state = static_cast<SearchState>(state);
     search.random.SetState(random);

@@ -50,8 +50,9 @@ struct BoundedExpression {
 };
 
 struct EncloseOptions {
-  double width = 0.01;        // (outer - inner) / inner range of the parameter, both ends together
-  std::size_t max_cells = 0;  // a bound; 0: 4000 with one mode, 2000 / experiments with two
+  double width = 0.01;  // (outer - inner) / inner range of the parameter, both ends together
+  std::size_t max_cells =
+      0;  // a bound; 0: 4000 with one mode, 400 / experiments (60 at least) with two
   std::uint64_t seed = 0;
   int threads = 1;
   bool parameters = true;  // false: the expressions alone

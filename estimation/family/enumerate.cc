@@ -271,7 +271,8 @@ struct MemberDrawer::Impl {
     const bool up = random.Uniform() < 0.5;
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = up ? (start + k) % n : (start + n - k) % n;
-      FixInChain(targets, increasing, i, random.Uniform(xis[i]), xis);
+      const double end = focus && i != focus->experiment ? focus->OtherEnd(i, 0) : 0.5;
+      FixInChain(targets, increasing, i, Pick(random, xis[i], end), xis);
     }
     return true;
   }
@@ -417,7 +418,9 @@ struct MemberDrawer::Impl {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       bool found = false;
       for (int tries = two_modes ? 4 : 1; tries > 0 && !found; --tries) {
-        const DrawFocus& here = i == where.experiment ? where : kNoFocus;
+        DrawFocus other;
+        other.phase_end = where.OtherEnd(i, 3);
+        const DrawFocus& here = focus && i == where.experiment ? where : other;
         found =
             DrawExperiment(random, i, window_hz, phases[i], xis[i].lo, globals, here, models[i]);
       }

@@ -44,7 +44,7 @@ Interval Exponential(const Interval& x) {
 // The part of the argument outside the domain has no value: the enclosure is of the rest.
 Interval Logarithm(const Interval& x) {
   if (!(x.upper() > 0.0)) return kWholeLine;
-  return {x.lower() > 0.0 ? Below(std::log(x.lower())) : -kUnbounded, Above(std::log(x.upper()))};
+  return {x.lower() > 0.0 ? Below(std::log(x.lower())) : -Unbounded(), Above(std::log(x.upper()))};
 }
 Interval Root(const Interval& x) {
   if (!(x.upper() >= 0.0)) return kWholeLine;

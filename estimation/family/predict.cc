@@ -47,7 +47,8 @@ Prediction PredictSampled(std::string name, std::span<const Member> members,
   std::sort(values.begin(), values.end());
   prediction.interval = {values.front(), values.back()};
   const auto quantile = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+    return values[static_cast<std::size_t>(
+        std::lround(share * static_cast<double>(values.size() - 1)))];
   };
   prediction.central_90 = {quantile(0.05), quantile(0.95)};
   return prediction;

@@ -265,7 +265,7 @@ TEST(EncloseTest, KilledTenTimesAtRandomAndResumedIsTheSame) {
       std::istringstream in(state);
       ASSERT_TRUE(part.Load(in));
     }
-    std::atomic<int> left{std::uniform_int_distribution<int>(1, 60)(random)};
+    std::atomic<int> left{std::uniform_int_distribution<int>(1, 20)(random)};
     part.Run([&] { return left-- <= 0; });
     state = Text(part);
   }
