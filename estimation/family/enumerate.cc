@@ -334,11 +334,57 @@ struct MemberDrawer::Impl {
         model.M = second_kind == ParameterKind::kM ? globals.second : globals.second * model.N;
       }
     }
-    model.tau_s =
-        shared_tau ? globals.tau_s
-                   : TauFromPhase(f, theta,
-                                  Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
-                                  problem.domain.delay_periods);
+    return SetTau(random, i, theta, globals, focus, model);
+  }
+
+  // tau within the loop phase tolerance; with lines, within the part of it that closes the loop at
+  // every line (w tau = arg G - pi / 2 - error + 2 pi k there), false where there is none.
+  bool SetTau(UnitRandom& random, std::size_t i, double theta, const DrawGlobals& globals,
+              const DrawFocus& focus, LoopModel& model) const {
+    if (shared_tau) {
+      model.tau_s = globals.tau_s;
+      return true;
+    }
+    const ExperimentTarget& target = targets[i];
+    if (!two_modes || problem.experiments[i].lines.empty()) {
+      model.tau_s = TauFromPhase(target.frequency_hz, theta,
+                                 Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
+                                 problem.domain.delay_periods);
+      return true;
+    }
+    const auto tau_at = [&](double error) {
+      return TauFromPhase(target.frequency_hz, theta, error, problem.domain.delay_periods);
+    };
+    std::vector<Range> allowed{
+        {tau_at(target.loop_phase_error_rad.hi), tau_at(target.loop_phase_error_rad.lo)}};
+    const double tolerance = problem.test.second_crossing_tolerance_deg * kRadPerDeg * (1.0 - 1e-9);
+    if (two_modes && tolerance < std::numbers::pi) {
+      for (const ObservedLine& line : problem.experiments[i].lines) {
+        const double w = kRadPerSPerHz * line.frequency_hz;
+        const double turned = Angle(AcousticResponse(model.Loop().acoustics, line.frequency_hz)) -
+                              0.5 * std::numbers::pi;
+        std::vector<Range> narrowed;
+        for (const Range& part : allowed) {
+          const double turn = 2.0 * std::numbers::pi;
+          const double last = std::floor((part.hi * w - turned + tolerance) / turn);
+          for (double k = std::ceil((part.lo * w - turned - tolerance) / turn); k <= last; ++k) {
+            const Range here = Intersection(
+                part, {(turned - tolerance + k * turn) / w, (turned + tolerance + k * turn) / w});
+            if (!IsEmpty(here)) narrowed.push_back(here);
+          }
+        }
+        allowed = std::move(narrowed);
+      }
+    }
+    if (allowed.empty()) return false;
+    // An end of 0 is the least loop phase error, and so the largest tau.
+    if (focus.loop_phase_end == 0.0) {
+      model.tau_s = allowed.back().hi;
+    } else if (focus.loop_phase_end == 1.0) {
+      model.tau_s = allowed.front().lo;
+    } else {
+      model.tau_s = random.Uniform(allowed[random.Index(allowed.size())]);
+    }
     return true;
   }
 
@@ -366,12 +412,7 @@ struct MemberDrawer::Impl {
       model.N = shared_N ? globals.N : (std::sqrt(discriminant) - b) / SquaredMagnitude(first);
     }
     const double theta = Angle(model.N * first + model.M * other);
-    model.tau_s =
-        shared_tau ? globals.tau_s
-                   : TauFromPhase(target.frequency_hz, theta,
-                                  Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
-                                  problem.domain.delay_periods);
-    return true;
+    return SetTau(random, i, theta, globals, focus, model);
   }
 
   bool InDomain(const Member& models) const {
@@ -417,7 +458,7 @@ struct MemberDrawer::Impl {
     if (!DrawXi(random, focus, xis)) return false;
     for (std::size_t i = 0; i < targets.size(); ++i) {
       bool found = false;
-      for (int tries = two_modes ? 4 : 1; tries > 0 && !found; --tries) {
+      for (int tries = two_modes ? 6 : 1; tries > 0 && !found; --tries) {
         DrawFocus other;
         other.phase_end = where.OtherEnd(i, 3);
         const DrawFocus& here = focus && i == where.experiment ? where : other;
