@@ -18,7 +18,7 @@ TEST(TransferPointResidual, HasExactDerivatives) {
   point.variance_re = 0.5;
   point.variance_im = 0.3;
   point.covariance = 0.1;
-  const std::unique_ptr<ceres::CostFunction> cost(TransferPointResidual::Create(point));
+  const std::unique_ptr<ceres::CostFunction> cost(TransferPointResidual::CreateFull(point, {}));
   EXPECT_CORRECT_JACOBIAN(
       *cost, (std::vector<double>{std::log(210.0), std::log(0.1), std::log(5e3), std::log(2e3)}));
 }
@@ -32,7 +32,7 @@ TEST(TransferPointResidual, IsTheWhitenedDifference) {
   point.variance_im = 1.0;
   const double omega = std::log(100.0), xi = std::log(0.1);
   const double n = std::log(5.0 * 0.2 * 200.0 * M_PI), m = std::log(1e-12);
-  const std::unique_ptr<ceres::CostFunction> cost(TransferPointResidual::Create(point));
+  const std::unique_ptr<ceres::CostFunction> cost(TransferPointResidual::CreateFull(point, {}));
   const double* parameters[] = {&omega, &xi, &n, &m};
   double residual[2] = {NAN, NAN};
   ASSERT_TRUE(cost->Evaluate(parameters, residual, nullptr));
