@@ -29,6 +29,7 @@ Command FitCommand();
 Command FamilyCommand();
 Command ListCommand();
 Command RegressCommand();
+Command SimulateCommand();
 
 }  // namespace howl
 

@@ -39,8 +39,9 @@ Command FamilyCommand() {
       "family",
       "list and bound all models that the data cannot reject",
       "A model belongs to the family when it passes every condition of the config's\n"
-      "`family: test:`. Bounds each parameter with a guarantee, lists members drawn uniformly\n"
-      "(50 or fewer: chosen far apart), and computes the trade-off between the spread of omega\n"
+      "`family: test:`. Bounds each parameter with a guarantee, lists members spread over\n"
+      "the whole set (50 or fewer: chosen far apart), and computes the trade-off between the "
+      "spread of omega\n"
       "and the largest xi. Writes family.csv, family.json and tradeoff.csv. When the family is\n"
       "empty, names the conditions that exclude each other and exits with 1. Interrupted work\n"
       "goes on where it stopped.",

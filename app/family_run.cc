@@ -12,7 +12,7 @@ namespace {
 
 // A list this short is meant to be looked at: its members are chosen far apart from each other.
 constexpr std::size_t kShortList = 50;
-constexpr std::size_t kSampleForShortList = 2000;
+constexpr std::size_t kChooseFrom = 2000;
 
 std::vector<BoundedExpression> ParsePredictions(const Config& config,
                                                 const FamilyProblem& problem) {
@@ -50,26 +50,33 @@ void TakePredictions(const Config& config, const std::vector<BoundedExpression>&
   }
 }
 
-void DrawMembers(const Config& config, const Options& options, FamilyRun& run) {
-  const auto listed = static_cast<std::size_t>(config.family.members);
+std::vector<Member> DrawUniformly(const Options& options, std::size_t count, FamilyRun& run) {
   SampleOptions sampling;
-  sampling.count = listed <= kShortList ? kSampleForShortList : listed;
+  sampling.count = count;
   sampling.seed = options.seed;
   sampling.threads = options.threads;
   MemberSample sample = SampleMembers(run.problem, sampling);
   run.diagnostics = sample.diagnostics;
-  run.sample = std::move(sample.members);
-  if (run.sample.empty()) {
-    // A family too thin for the chains to move in may still have members.
-    run.sample =
-        EnumerateMembers(run.problem, sampling.count, options.seed, options.threads).members;
+  return std::move(sample.members);
+}
+
+void DrawMembers(const Config& config, const Options& options, FamilyRun& run) {
+  const auto listed = static_cast<std::size_t>(config.family.members);
+  const bool is_short = listed <= kShortList;
+  const std::size_t drawn = is_short ? kChooseFrom : listed;
+  run.sample = DrawUniformly(options, std::min(drawn, kChooseFrom), run);
+  std::vector<Member> members;
+  if (config.family.draw == MemberDraw::kUniform) {
+    members = drawn <= kChooseFrom ? run.sample : DrawUniformly(options, drawn, run);
+  } else {
+    members = EnumerateMembers(run.problem, drawn, options.seed, options.threads).members;
   }
-  if (listed > kShortList || run.sample.size() <= listed) {
-    run.members = run.sample;
+  if (!is_short || members.size() <= listed) {
+    run.members = std::move(members);
     return;
   }
-  for (const std::size_t index : SpreadMembers(run.sample, listed)) {
-    run.members.push_back(run.sample[index]);
+  for (const std::size_t index : SpreadMembers(members, listed)) {
+    run.members.push_back(members[index]);
   }
 }
 

@@ -23,7 +23,7 @@ struct FamilyRun {
   std::unique_ptr<Enclosure> enclosure;
   std::vector<Member> members;  // as listed
   SampleDiagnostics diagnostics;
-  std::vector<Member> sample;  // uniform, for predictions and advice; holds the listed ones
+  std::vector<Member> sample;  // drawn uniformly, for predictions and advice
   Conflict conflict;           // when there is no member
   std::vector<TradeoffPoint> tradeoff;
   std::vector<ExperimentPrediction> predictions;

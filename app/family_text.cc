@@ -94,16 +94,15 @@ void PrintTightness(const FamilyProblem& problem, const Enclosure& enclosure) {
 
 void PrintDiagnostics(const FamilyRun& run) {
   const SampleDiagnostics& what = run.diagnostics;
-  std::printf("%zu members listed that the data cannot reject, of %zu drawn uniformly\n",
-              run.members.size(), run.sample.size());
+  std::printf("%zu members listed that the data cannot reject\n", run.members.size());
   if (what.effective_sample_size > 0.0) {
-    std::printf("  effective sample size %s, split R-hat %s, largest hole %s of the range\n",
-                Significant(what.effective_sample_size, 3).c_str(),
-                Significant(what.split_r_hat, 4).c_str(),
-                Significant(what.largest_hole, 2).c_str());
+    std::printf(
+        "%zu more drawn uniformly: effective sample size %s, split R-hat %s, largest hole %s\n",
+        run.sample.size(), Significant(what.effective_sample_size, 3).c_str(),
+        Significant(what.split_r_hat, 4).c_str(), Significant(what.largest_hole, 2).c_str());
   }
   if (what.split_r_hat > 1.05) {
-    std::printf("  the chains have not mixed: the members are in the family, but not uniform\n");
+    std::printf("  their chains have not mixed: they are in the family, but not uniform\n");
   }
 }
 

@@ -16,9 +16,14 @@ struct PredictionSpec {
   int line = 0;  // of the expression in the config
 };
 
+// kSpread: over the whole set, light damping as well as heavy. kUniform: with the density of the
+// natural parameters' Lebesgue measure, most of which lies at heavy damping.
+enum class MemberDraw { kSpread, kUniform };
+
 struct FamilySpec {
   int members = 1000;   // listed, spread over the whole set
   double width = 0.01;  // relative precision at which the search for guaranteed bounds stops
+  MemberDraw draw = MemberDraw::kSpread;
   MembershipTest test;
   std::vector<PredictionSpec> predictions;
 };

@@ -30,6 +30,10 @@ void ReadFamily(const ConfigCursor& root, Config& config) {
   const auto family = root.Find("family");
   if (!family) return;
   family->Read("members", config.family.members);
+  if (const auto draw = family->Find("draw")) {
+    config.family.draw =
+        draw->Node().text == "uniform" ? MemberDraw::kUniform : MemberDraw::kSpread;
+  }
   family->Read("width", config.family.width);
   if (const auto test = family->Find("test")) ReadTest(*test, config.family.test);
   if (const auto predictions = family->Find("predictions")) {
