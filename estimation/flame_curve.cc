@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
+#include <utility>
 
-#include "estimation/spectrum.h"
+#include "estimation/flame_regressor.h"
 #include "model/units.h"
 
 namespace howl {
@@ -16,45 +16,9 @@ namespace {
 
 constexpr int kCoefficients = 6;
 constexpr int kScoreBlocks = 48;
+constexpr int kFewestSamples = 100;
+constexpr double kClearPreference = 2.0;  // standard errors
 using Coefficients = Eigen::Matrix<double, kCoefficients, 1>;
-
-// The fundamental as a complex oscillation between its blocks: A(t) e^(j 2 pi f t), where A(t)
-// joins the blocks' amplitudes with Hann's weights, which sum to one.
-class Fundamental {
- public:
-  Fundamental(const std::vector<double>& x, double sampling_hz, double frequency_hz, int length)
-      : blocks_(Demodulate(x, sampling_hz, frequency_hz, length)), frequency_hz_(frequency_hz) {}
-  double FirstTime() const { return blocks_.first_center_s; }
-  double LastTime() const {
-    return FirstTime() + static_cast<double>(blocks_.amplitude.size() - 1) * blocks_.hop_s;
-  }
-  std::complex<double> At(double time_s) const {
-    const double position = (time_s - blocks_.first_center_s) / blocks_.hop_s;
-    const auto b = std::min(static_cast<std::size_t>(position), blocks_.amplitude.size() - 2);
-    const double next =
-        0.5 - 0.5 * std::cos(std::numbers::pi * (position - static_cast<double>(b)));
-    return (blocks_.amplitude[b] * (1.0 - next) + blocks_.amplitude[b + 1] * next) *
-           std::polar(1.0, kRadPerSPerHz * frequency_hz_ * time_s);
-  }
-
- private:
-  Blocks blocks_;
-  double frequency_hz_;
-};
-
-// Samples of the blocks that p's fundamental is joined from. Long ones let in less noise (a
-// relative variance of 0.4 |n|^2 / |P|^2, falling as 1 / length), short ones follow a wandering
-// phase (an error of about 0.1 D length). A whole number of periods, three at least, keeps
-// harmonics out.
-int JoiningBlock(const Characteristics& cycle, double sampling_hz) {
-  const double longest_s = cycle.block_samples / sampling_hz;
-  const double noise =
-      0.4 * cycle.block_noise_power * longest_s / (cycle.p_amplitude * cycle.p_amplitude);
-  const double diffusion = std::max(kRadPerSPerHz * cycle.line_width_hz, 1e-9);
-  const double best_s = std::min(std::sqrt(noise / (0.1 * diffusion)), longest_s);
-  const double periods = std::max(std::round(best_s * cycle.frequency_hz.value), 3.0);
-  return static_cast<int>(std::lround(periods / cycle.frequency_hz.value * sampling_hz));
-}
 
 // u^0 .. u^5
 Coefficients Powers(double u) {
@@ -92,96 +56,153 @@ void FillBins(const std::vector<double>& x, const std::vector<double>& q, double
   }
 }
 
+// One regressor and the heat release beside it.
+struct Samples {
+  std::vector<double> x;
+  std::vector<double> q;
+  double q_mean = 0.0;
+  double hysteresis = 0.0;
+};
+
+Samples Collect(const Record& record, const FlameRegressor& regressor, bool with_harmonics) {
+  Samples samples;
+  double area = 0.0, in_phase = 0.0, quadrature_sum = 0.0, fundamental_sum = 0.0;
+  for (int t = regressor.first(); t < regressor.last(); ++t) {
+    const std::complex<double> z = regressor.Fundamental(t);
+    const double q = record.heat_release[static_cast<std::size_t>(t)];
+    samples.x.push_back(z.real() + (with_harmonics ? regressor.Harmonics(z) : 0.0));
+    samples.q.push_back(q);
+    samples.q_mean += q;
+    area -= q * z.imag();
+    in_phase += q * z.real();
+    quadrature_sum -= z.imag();
+    fundamental_sum += z.real();
+  }
+  samples.q_mean /= static_cast<double>(samples.x.size());
+  area -= samples.q_mean * quadrature_sum;
+  in_phase -= samples.q_mean * fundamental_sum;
+  samples.hysteresis = area / std::hypot(area, in_phase);
+  return samples;
+}
+
+// q - mean as a polynomial of x / limit over |x| <= range * limit.
+struct PolynomialFit {
+  Coefficients coefficients;
+  Coefficients slope_row;  // of the inverse normal matrix: the slope's influence function
+  Coefficients offset_row;
+
+  double Residual(const Samples& samples, std::size_t t, double limit) const {
+    return samples.q[t] - samples.q_mean - coefficients.dot(Powers(samples.x[t] / limit));
+  }
+};
+
+PolynomialFit FitPolynomial(const Samples& samples, double limit, double range) {
+  Eigen::Matrix<double, kCoefficients, kCoefficients> normal;
+  normal.setZero();
+  Coefficients rhs = Coefficients::Zero();
+  for (std::size_t t = 0; t < samples.x.size(); ++t) {
+    if (std::abs(samples.x[t]) > range * limit) continue;
+    const Coefficients f = Powers(samples.x[t] / limit);
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(f);
+    rhs += (samples.q[t] - samples.q_mean) * f;
+  }
+  const Eigen::LDLT<Eigen::Matrix<double, kCoefficients, kCoefficients>> solver(
+      normal.selfadjointView<Eigen::Lower>());
+  PolynomialFit fit;
+  fit.coefficients = solver.solve(rhs);
+  fit.slope_row = solver.solve(Coefficients::Unit(1));
+  fit.offset_row = solver.solve(Coefficients::Unit(0));
+  return fit;
+}
+
+// By how many standard errors `b` leaves q less scattered than `a`: positive where b is the better
+// regressor. Over the same samples, in blocks that outlast the correlation of the residuals.
+double ScatterPreference(const Samples& a, const PolynomialFit& fit_a, const Samples& b,
+                         const PolynomialFit& fit_b, double limit, double range) {
+  std::vector<double> differences(kScoreBlocks, 0.0);
+  for (std::size_t t = 0; t < a.x.size(); ++t) {
+    if (std::abs(a.x[t]) > range * limit || std::abs(b.x[t]) > range * limit) continue;
+    const double ra = fit_a.Residual(a, t, limit);
+    const double rb = fit_b.Residual(b, t, limit);
+    differences[t * kScoreBlocks / a.x.size()] += ra * ra - rb * rb;
+  }
+  double mean = 0.0;
+  for (const double difference : differences) mean += difference / kScoreBlocks;
+  const double variance = ErrorOfMean(differences, 0.0).covariance(0, 0);
+  return variance > 0.0 ? mean / std::sqrt(variance) : 0.0;
+}
+
+void FillErrors(const Samples& samples, const PolynomialFit& fit, double limit, double range,
+                FlameCurve& curve) {
+  std::vector<double> slope_scores(kScoreBlocks, 0.0), offset_scores(kScoreBlocks, 0.0);
+  double low_sum = 0, high_sum = 0;
+  int low_count = 0, high_count = 0;
+  for (std::size_t t = 0; t < samples.x.size(); ++t) {
+    const double u = samples.x[t] / limit;
+    if (u > range) high_sum += samples.q[t], ++high_count;
+    if (u < -range) low_sum += samples.q[t], ++low_count;
+    if (std::abs(u) > range) continue;
+    const Coefficients f = Powers(u);
+    const double residual = fit.Residual(samples, t, limit);
+    const std::size_t block = t * kScoreBlocks / samples.x.size();
+    slope_scores[block] += kScoreBlocks * fit.slope_row.dot(f) * residual;
+    offset_scores[block] += kScoreBlocks * fit.offset_row.dot(f) * residual;
+  }
+  const MeanError slope_error = ErrorOfMean(slope_scores, 0.0);
+  const MeanError offset_error = ErrorOfMean(offset_scores, 0.0);
+  const double inflation = StudentInflation(slope_error.degrees_of_freedom);
+  const double positive = high_count > 0 ? high_sum / high_count : samples.q_mean;
+  const double negative = low_count > 0 ? low_sum / low_count : samples.q_mean;
+  curve.saturation_low = std::min(positive, negative);
+  curve.saturation_high = std::max(positive, negative);
+  curve.offset = {samples.q_mean + fit.coefficients(0),
+                  std::sqrt(offset_error.covariance(0, 0)) * inflation};
+  curve.slope.std = std::sqrt(slope_error.covariance(0, 0)) * inflation / limit;
+}
+
 }  // namespace
 
 FlameCurve EstimateFlameCurve(const Record& record, const Characteristics& cycle, double tau_s,
                               const FlameCurveOptions& options) {
   CHECK_EQ(record.heat_release.size(), record.pressure.size());
-  CHECK_GT(cycle.p_amplitude, 0.0);
-  const double frequency_hz = cycle.frequency_hz.value;
-  const double w = kRadPerSPerHz * frequency_hz;
-  const double shift_s = 0.25 / frequency_hz - tau_s;
-  const int length = JoiningBlock(cycle, record.sampling_hz);
-  const Fundamental fundamental(RemoveMean(record.pressure), record.sampling_hz, frequency_hz,
-                                length);
+  const FlameRegressor regressor(record, cycle, tau_s, options.max_harmonic);
   FlameCurve curve;
-  const int n = static_cast<int>(record.pressure.size());
-  const int first = std::max(
-      static_cast<int>(std::ceil((fundamental.FirstTime() - shift_s) * record.sampling_hz)), 0);
-  const int last = std::min(
-      static_cast<int>(std::floor((fundamental.LastTime() - shift_s) * record.sampling_hz)), n);
-  if (last - first < 100) return curve;
-  const double limit = w * cycle.p_amplitude;
+  if (regressor.last() - regressor.first() < kFewestSamples) return curve;
+  const double limit = kRadPerSPerHz * cycle.frequency_hz.value * cycle.p_amplitude;
   curve.x_amplitude = limit;
 
-  std::vector<double> x, q;
-  x.reserve(static_cast<std::size_t>(last - first));
-  q.reserve(x.capacity());
-  double area = 0.0, q_mean = 0.0, in_phase = 0.0, quadrature_sum = 0.0;
-  double x_sum = 0.0;
-  for (int t = first; t < last; ++t) {
-    const std::complex<double> z = w * fundamental.At(t / record.sampling_hz + shift_s);
-    x.push_back(z.real());
-    q.push_back(record.heat_release[static_cast<std::size_t>(t)]);
-    q_mean += q.back();
-    area -= q.back() * z.imag();
-    in_phase += q.back() * z.real();
-    quadrature_sum -= z.imag();
-    x_sum += z.real();
+  Samples samples = Collect(record, regressor, false);
+  double undecided = 0.0;
+  PolynomialFit fit = FitPolynomial(samples, limit, options.fit_range);
+  if (regressor.locked_harmonics() > 0) {
+    Samples full = Collect(record, regressor, true);
+    const PolynomialFit full_fit = FitPolynomial(full, limit, options.fit_range);
+    const double preference =
+        ScatterPreference(samples, fit, full, full_fit, limit, options.fit_range);
+    // Where the scatter cannot tell the two apart, neither can the slope be known better than to
+    // half of their distance.
+    if (std::abs(preference) < kClearPreference) {
+      undecided = 0.5 * (full_fit.coefficients(1) - fit.coefficients(1)) / limit;
+    }
+    if (preference > 0.0) {
+      samples = std::move(full);
+      fit = full_fit;
+      curve.harmonics = regressor.locked_harmonics();
+    }
   }
-  q_mean /= static_cast<double>(x.size());
-  area -= q_mean * quadrature_sum;
-  in_phase -= q_mean * x_sum;
-  curve.hysteresis = area / std::hypot(area, in_phase);
-  FillBins(x, q, 1.05 * limit, options.bins, &curve.bins);
-
-  Eigen::Matrix<double, kCoefficients, kCoefficients> normal;
-  normal.setZero();
-  Coefficients rhs = Coefficients::Zero();
-  for (std::size_t t = 0; t < x.size(); ++t) {
-    if (std::abs(x[t]) > options.fit_range * limit) continue;
-    const Coefficients f = Powers(x[t] / limit);
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(f);
-    rhs += (q[t] - q_mean) * f;
-  }
-  const Eigen::LDLT<Eigen::Matrix<double, kCoefficients, kCoefficients>> solver(
-      normal.selfadjointView<Eigen::Lower>());
-  const Coefficients c = solver.solve(rhs);
-  const Coefficients slope_row = solver.solve(Coefficients::Unit(1));
-  const Coefficients offset_row = solver.solve(Coefficients::Unit(0));
-
-  std::vector<double> slope_scores(kScoreBlocks, 0.0), offset_scores(kScoreBlocks, 0.0);
-  double low_sum = 0, high_sum = 0;
-  int low_count = 0, high_count = 0;
-  for (std::size_t t = 0; t < x.size(); ++t) {
-    const double u = x[t] / limit;
-    if (u > options.fit_range) high_sum += q[t], ++high_count;
-    if (u < -options.fit_range) low_sum += q[t], ++low_count;
-    if (std::abs(u) > options.fit_range) continue;
-    const Coefficients f = Powers(u);
-    const double residual = q[t] - q_mean - c.dot(f);
-    const std::size_t block = t * kScoreBlocks / x.size();
-    slope_scores[block] += kScoreBlocks * slope_row.dot(f) * residual;
-    offset_scores[block] += kScoreBlocks * offset_row.dot(f) * residual;
-  }
-  const MeanError slope_error = ErrorOfMean(slope_scores, 0.0);
-  const MeanError offset_error = ErrorOfMean(offset_scores, 0.0);
-  const double inflation = StudentInflation(slope_error.degrees_of_freedom);
-  const double positive = high_count > 0 ? high_sum / high_count : q_mean;
-  const double negative = low_count > 0 ? low_sum / low_count : q_mean;
-  curve.saturation_low = std::min(positive, negative);
-  curve.saturation_high = std::max(positive, negative);
-  curve.offset = {q_mean + c(0), std::sqrt(offset_error.covariance(0, 0)) * inflation};
+  curve.hysteresis = samples.hysteresis;
+  FillBins(samples.x, samples.q, 1.05 * limit, options.bins, &curve.bins);
+  FillErrors(samples, fit, limit, options.fit_range, curve);
 
   // Joining the blocks leaves 0.79 of their noise's variance, half of it in the real part.
-  curve.regressor_noise = 0.5 * 0.79 * cycle.block_noise_power * cycle.block_samples / length /
-                          (cycle.p_amplitude * cycle.p_amplitude);
+  curve.regressor_noise = 0.5 * 0.79 * cycle.block_noise_power * cycle.block_samples /
+                          regressor.block_samples() / (cycle.p_amplitude * cycle.p_amplitude);
+  const Coefficients& c = fit.coefficients;
   const double r = std::min(curve.regressor_noise, 0.3);  // beyond, first order says nothing
-  const double slope = (c(1) / (1.0 + r) - 3.0 * r * c(3)) / limit;
-  const double correction = slope - c(1) / limit;
-  curve.relative_correction = c(1) != 0.0 ? slope * limit / c(1) - 1.0 : 0.0;
-  curve.slope = {slope, std::hypot(std::sqrt(slope_error.covariance(0, 0)) * inflation / limit,
-                                   0.5 * correction)};
+  curve.slope.value = (c(1) / (1.0 + r) - 3.0 * r * c(3)) / limit;
+  const double correction = curve.slope.value - c(1) / limit;
+  curve.relative_correction = c(1) != 0.0 ? curve.slope.value * limit / c(1) - 1.0 : 0.0;
+  curve.slope.std = std::hypot(curve.slope.std, 0.5 * correction, undecided);
   return curve;
 }
 

@@ -3,8 +3,9 @@
 //
 //   x(t) = 2 pi f p(t - tau + 1 / (4 f))                       (units of p per second)
 //
-// p here is its fundamental alone, joined from its blocks (spectrum.h): (4) is right for nothing
-// else, and harmonics, other lines and noise of p would be errors in the regressor.
+// p here is its fundamental, joined from its blocks; or its fundamental and the harmonics locked to
+// it (flame_regressor.h), whichever leaves q less scattered about the curve. The seed's (4) is the
+// first: its q lacks the harmonics.
 //
 // Phi is seen as means of q in bins of x, the seed's method, and as a polynomial of degree 5 over
 // |x| <= 0.9 X, X = 2 pi f |p|, whose derivative at zero is Phi'(0). The error comes from the
@@ -42,6 +43,7 @@ struct FlameCurve {
   double saturation_low = 0.0;  // mean of q over x > 0.9 X and over x < -0.9 X, whichever is lower
   double saturation_high = 0.0;
   double hysteresis = 0.0;  // signed area of the mean cycle in (x, q) over pi X |q|: 1 for a circle
+  int harmonics = 0;        // of p in x beyond the fundamental
   double regressor_noise = 0.0;      // s^2 / X^2
   double relative_correction = 0.0;  // slope given over slope as fitted, less one
 };
@@ -49,6 +51,7 @@ struct FlameCurve {
 struct FlameCurveOptions {
   int bins = 40;
   double fit_range = 0.9;  // of X
+  int max_harmonic = 5;    // 1: (4) as it stands
 };
 
 // The record has both channels, and `cycle` is its limit cycle.
