@@ -6,8 +6,8 @@
 #include "app/text_table.h"
 #include "app/vanishing_text.h"
 #include "io/results/analysis_files.h"
-#include "io/results/whole_file.h"
 #include "io/user_error.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {

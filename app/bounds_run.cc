@@ -9,7 +9,7 @@
 
 #include "app/interruption.h"
 #include "estimation/unit_seed.h"
-#include "io/results/whole_file.h"
+#include "io/whole_file.h"
 #include "model/version.h"
 
 namespace howl {

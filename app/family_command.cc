@@ -5,7 +5,7 @@
 #include "app/family_text.h"
 #include "io/results/family_csv.h"
 #include "io/results/family_json.h"
-#include "io/results/whole_file.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {

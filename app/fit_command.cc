@@ -8,7 +8,7 @@
 #include "estimation/joint_fit.h"
 #include "io/config/config.h"
 #include "io/results/solution_json.h"
-#include "io/results/whole_file.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {

@@ -15,25 +15,21 @@ const char* Shortcoming(const Analysis& analysis) {
   return "shows no limit cycle";
 }
 
-// Analyses in the order of the experiments that have a record.
-AnalysisSet Analyse(const Config& config, const Options& options) {
-  const std::vector<NamedRecord> records = LoadRecords(config);
-  if (records.empty()) return {};
-  return AnalyseRecords(records, MakeAnalysisOptions(config, options));
-}
-
 }  // namespace
 
-std::vector<Experiment> LoadExperiments(const Config& config, const Options& options) {
-  const AnalysisSet set = Analyse(config, options);
-  std::vector<Experiment> experiments;
+ProblemInput LoadInput(const Config& config, const Options& options) {
+  ProblemInput input;
+  const std::vector<NamedRecord> records = LoadRecords(config);
+  if (!records.empty()) {
+    input.analysis = AnalyseRecords(records, MakeAnalysisOptions(config, options));
+  }
   std::size_t next = 0;
   for (const ExperimentConfig& each : config.experiments) {
     if (!each.record) {
-      experiments.push_back(each.experiment);
+      input.experiments.push_back(each.experiment);
       continue;
     }
-    const Analysis& analysis = set.analyses[next++];
+    const Analysis& analysis = input.analysis->analyses[next++];
     std::optional<Experiment> experiment = ToExperiment(analysis);
     if (!experiment) {
       if (!options.quiet) {
@@ -41,15 +37,20 @@ std::vector<Experiment> LoadExperiments(const Config& config, const Options& opt
       }
       continue;
     }
-    experiment->delay_periods = set.delay.branch;
+    experiment->delay_periods = input.analysis->delay.branch;
     experiment->reliable = experiment->reliable && each.experiment.reliable;
-    experiments.push_back(*std::move(experiment));
+    input.experiments.push_back(*std::move(experiment));
   }
-  if (experiments.empty()) {
+  return input;
+}
+
+std::vector<Experiment> LoadExperiments(const Config& config, const Options& options) {
+  ProblemInput input = LoadInput(config, options);
+  if (input.experiments.empty()) {
     throw UserError(config.source.string(), config.experiments.front().line, "experiments",
                     "no record shows a limit cycle in p and q, expected at least one");
   }
-  return experiments;
+  return std::move(input.experiments);
 }
 
 FamilyProblem MakeFamilyProblem(const Config& config, std::vector<Experiment> experiments) {

@@ -2,18 +2,27 @@
 #ifndef HOWL_APP_PROBLEM_INPUT_H_
 #define HOWL_APP_PROBLEM_INPUT_H_
 
+#include <optional>
 #include <vector>
 
 #include "app/options.h"
+#include "estimation/analyse.h"
 #include "estimation/experiment.h"
 #include "estimation/family/problem.h"
 #include "io/config/config.h"
 
 namespace howl {
 
+struct ProblemInput {
+  std::vector<Experiment> experiments;  // that fit and family can take; may be empty
+  std::optional<AnalysisSet> analysis;  // when the config has records
+};
+
 // Published numbers as they are; records analysed first. An experiment whose record shows no limit
-// cycle or has no heat release is left out, and a line on standard error says so. Throws UserError
-// when none is left.
+// cycle or has no heat release is left out, and a line on standard error says so.
+ProblemInput LoadInput(const Config& config, const Options& options);
+
+// The experiments alone. Throws UserError when none is left.
 std::vector<Experiment> LoadExperiments(const Config& config, const Options& options);
 
 // The family's problem. Only bounds that the config gives limit it: the guard rails of a fit do not

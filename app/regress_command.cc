@@ -12,10 +12,11 @@
 #include "estimation/family/tradeoff.h"
 #include "estimation/joint_fit.h"
 #include "io/config/config.h"
+#include "io/results/analysis_files.h"
 #include "io/results/family_json.h"
 #include "io/results/solution_json.h"
-#include "io/results/whole_file.h"
 #include "io/user_error.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {
@@ -66,14 +67,20 @@ void Compare(const std::string& name, const Json& reference, const Json& fresh, 
   }
 }
 
-// What the config's stored results hold: the solution and the trade-off, without what depends on
-// the linear algebra underneath (covariances and directions move with every library).
-Json FreshResults(const Config& config, const Options& options) {
-  const std::vector<Experiment> experiments = LoadExperiments(config, options);
+Json FreshSolution(const Config& config, const Options& options,
+                   const std::vector<Experiment>& experiments) {
   const JointProblem problem(experiments, config.model, config.residuals);
   const JointFit fit = SolveJoint(problem, config.solver, options.seed, options.threads);
   Json solution = SolutionJson(problem, fit, EstimateVanishingPhi(experiments));
+  // What depends on the linear algebra underneath moves with every library; what is listed for each
+  // point of a transfer is too long to keep.
   solution.erase("identifiability");
+  if (config.experiments.front().record) solution.erase("residuals");
+  return solution;
+}
+
+Json FreshTradeoff(const Config& config, const Options& options,
+                   const std::vector<Experiment>& experiments) {
   const FamilyProblem family = MakeFamilyProblem(config, experiments);
   Json tradeoff = Json::array();
   for (const TradeoffPoint& point :
@@ -81,7 +88,20 @@ Json FreshResults(const Config& config, const Options& options) {
     tradeoff.push_back({{"omega_spread", point.omega_spread},
                         {"xi_max", point.xi_max ? Json(*point.xi_max) : Json(nullptr)}});
   }
-  return {{"schema", "howl.reference/1"}, {"solution", solution}, {"tradeoff", tradeoff}};
+  return tradeoff;
+}
+
+// What the config's stored results hold: figures, no samples. The analysis where there are records,
+// the solution where p and q have a cycle, the trade-off for published tables.
+Json FreshResults(const Config& config, const Options& options) {
+  const ProblemInput input = LoadInput(config, options);
+  Json results = {{"schema", "howl.reference/1"}};
+  if (input.analysis) results["analysis"] = AnalysisJson(*input.analysis);
+  if (!input.experiments.empty()) {
+    results["solution"] = FreshSolution(config, options, input.experiments);
+  }
+  if (!input.analysis) results["tradeoff"] = FreshTradeoff(config, options, input.experiments);
+  return results;
 }
 
 Json ReadReference(const std::filesystem::path& path) {

@@ -11,7 +11,7 @@
 #include "io/records/records.h"
 #include "io/results/family_csv.h"
 #include "io/results/records_yaml.h"
-#include "io/results/whole_file.h"
+#include "io/whole_file.h"
 #include "model/harmonic_balance.h"
 #include "model/simulate.h"
 

@@ -1,0 +1,68 @@
+#include "io/whole_file.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "io/user_error.h"
+
+namespace howl {
+
+NewFile::NewFile(const std::filesystem::path& path)
+    : path_(path), temporary_(path.string() + ".XXXXXX") {
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  if (error) {
+    throw UserError(path.parent_path().string(), 0, "",
+                    "cannot make this folder: " + error.message());
+  }
+  descriptor_ = mkostemp(temporary_.data(), O_CLOEXEC);
+  if (descriptor_ < 0) Fail("cannot be created");
+  // mkostemp's files are for their owner alone; this one is to be as any other.
+  const mode_t mask = umask(0);
+  umask(mask);
+  fchmod(descriptor_, 0666 & ~mask);
+}
+
+NewFile::~NewFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+  if (!published_) unlink(temporary_.c_str());
+}
+
+void NewFile::Write(const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = write(descriptor_, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) Fail("cannot be written");
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+void NewFile::Publish() {
+  const int status = close(descriptor_);
+  descriptor_ = -1;
+  if (status != 0) Fail("cannot be written");
+  if (rename(temporary_.c_str(), path_.c_str()) != 0) Fail("cannot be put in its place");
+  published_ = true;
+}
+
+void NewFile::Fail(const char* what) const {
+  const std::string reason = strerror(errno);
+  if (descriptor_ >= 0) unlink(temporary_.c_str());
+  throw UserError(path_.string(), 0, "", std::string(what) + ": " + reason);
+}
+
+void WriteWholeFile(const std::filesystem::path& path, std::string_view content) {
+  NewFile file(path);
+  file.Write(content.data(), content.size());
+  file.Publish();
+}
+
+}  // namespace howl
