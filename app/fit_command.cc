@@ -85,7 +85,8 @@ int Run(const Options& options) {
     PrintShared(problem, fit);
     std::printf("cost %s, %s a degree of freedom; %d of %d starts reached it; %s\n",
                 Significant(fit.cost).c_str(), Significant(CostPerDegreeOfFreedom(fit), 3).c_str(),
-                fit.starts_at_best, fit.starts, fit.termination.c_str());
+                fit.starts_at_best, fit.starts,
+                fit.converged ? "converged" : fit.termination.c_str());
     std::printf("%s", VanishingText(vanishing_phi, config.operating_parameter).c_str());
     PrintIdentifiability(fit);
     std::printf("written: %s\n", path.c_str());
