@@ -14,12 +14,13 @@ fi
 if [ -d "$root/../shared/practice" ]; then
   export HOWL_PRACTICE=${HOWL_PRACTICE:-$(cd "$root/../shared/practice" && pwd)}
 fi
-sources=$(cd "$root" && find model estimation diagnosis io app rig tests bench -name '*.h' -o -name '*.cc')
-(cd "$root" && clang-format --dry-run -Werror $sources)
+cd "$root"
+find . -path './build*' -prune -o \( -name '*.h' -o -name '*.cc' \) -print0 |
+  xargs -0 clang-format --dry-run -Werror
 howl_build "$root" all
 if [ "${1:-}" = --tidy ]; then
-  (cd "$root" && find model estimation diagnosis io app rig -name '*.cc' -print0 |
-    xargs -0 -n 4 -P "$(nproc)" clang-tidy -p build --quiet)
+  find . \( -path './build*' -o -path ./tests -o -path ./bench \) -prune -o -name '*.cc' -print0 |
+    xargs -0 -n 4 -P "$(nproc)" clang-tidy -p build --quiet
 fi
 cd "$root/build"
 exec ctest --output-on-failure --timeout 300 -j "$(nproc)" -LE long
