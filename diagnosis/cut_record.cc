@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "diagnosis/real_fft.h"
+#include "diagnosis/sensor_noise.h"
 
 namespace howl {
 namespace {
@@ -98,6 +99,10 @@ void SetBand(double cycle_hz, CutRecord* record) {
       record->heat_release_spectrum.segment(start, record->extended()), record->acoustic_count);
   record->derivative_filter = DerivativeFilter(*record, 1.05 * high_b);
   record->masked.assign(static_cast<std::size_t>(record->acoustic_count), 0);
+  const SensorNoise noise = EstimateSensorNoise(*record);
+  record->sensor_noise = noise.variance;
+  record->derivative_filter =
+      record->derivative_filter.cwiseProduct(PressureShrinkage(*record, noise.pressure_variance));
 }
 
 }  // namespace

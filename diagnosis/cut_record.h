@@ -51,10 +51,12 @@ struct CutRecord {
   Eigen::VectorXcd heat_release_spectrum;
   Eigen::VectorXcd windowed_pressure;  // acoustic_count bins
   Eigen::VectorXcd windowed_heat_release;
-  Eigen::VectorXd frequency_hz;        // of the extended band: acoustic_count + 2 kTapReach bins
-  Eigen::VectorXcd derivative_filter;  // s times a low-pass, over the half spectrum
-  Eigen::VectorXd amplitude;           // slow amplitude of p, relative to the mean of all records
-  std::vector<char> masked;            // bins with a coherent line: not used (acoustic_count)
+  Eigen::VectorXd frequency_hz;  // of the extended band: acoustic_count + 2 kTapReach bins
+  // s times a low-pass, times the shrinkage of sensor_noise.h: over the half spectrum.
+  Eigen::VectorXcd derivative_filter;
+  Eigen::VectorXd sensor_noise;  // model-free V_A (sensor_noise.h)
+  Eigen::VectorXd amplitude;     // slow amplitude of p, relative to the mean of all records
+  std::vector<char> masked;      // bins with a coherent line: not used (acoustic_count)
 
   Eigen::Index extended() const { return acoustic_count + 2 * kTapReach; }
   double frequency(Eigen::Index bin) const { return frequency_hz[bin + kTapReach]; }

@@ -87,6 +87,7 @@ class Fitter {
     if (acoustic_) {
       at.acoustic_residual = AcousticResidual(records_[e], effect_, fit->values, at.acoustics);
       cost += Squares(at.acoustic_residual, weights_a_[e]);
+      cost += LeakJacobian(fit->values, at.acoustics, e);
     }
     if (flame_) {
       if (own_columns_) {
@@ -146,6 +147,7 @@ class Fitter {
       if (flame_) at.flame_noise = FlameNoise(at.flame_residual, records_[e].masked);
       fit->acoustic_cost +=
           WhittleCost(at.acoustic_residual, at.acoustic_noise, records_[e].masked);
+      fit->acoustic_cost += LeakJacobian(fit->values, at.acoustics, e);
       fit->flame_cost += WhittleCost(at.flame_residual, at.flame_noise, records_[e].masked);
     }
     SetNoise(*fit);
@@ -219,6 +221,21 @@ class Fitter {
     std::vector<Reduced> experiments;
   };
 
+  // With a leak, the residuals are (E_A, E_B) = M (P, Q) with |det M| = |1 - leak R| instead of
+  // one: recorded p stands on both sides. The likelihood needs - log |det M|^2, or the leak is
+  // biased by what combustion noise sends to p at once.
+  double LeakJacobian(EffectValues x, const AcousticLocals& locals, std::size_t e) const {
+    const CutRecord& record = records_[e];
+    if (effect_.PressureLeak(record.at.cycle_frequency_hz, record.at, x) == 0.0) return 0.0;
+    const Eigen::VectorXcd r = RecordedTransfer(record, effect_, x, locals);
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < record.flame_count; ++k) {
+      const Response leak = effect_.PressureLeak(record.frequency(k), record.at, x);
+      sum -= std::log(std::norm(1.0 - leak * r[k + kTapReach]));
+    }
+    return sum / kBinCorrelation;
+  }
+
   static Eigen::VectorXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& g,
                                      double damping) {
     const Eigen::VectorXd scale = h.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -263,6 +280,16 @@ class Fitter {
         out.reduced_curvature.bottomRightCorner(d, d) +=
             h.bottomRightCorner(d, d) - out.mixed.transpose() * inner;
         out.reduced_gradient.tail(d) += g.tail(d) - inner.transpose() * out.local_gradient;
+        // Half the slope, as in g.
+        const double leak_now = LeakJacobian(fit.values, at.acoustics, e);
+        std::vector<double> moved = fit.values;
+        for (Eigen::Index i = 0; i < d; ++i) {
+          const auto which = static_cast<std::size_t>(i);
+          moved[which] += steps[i];
+          const double leak = LeakJacobian(moved, at.acoustics, e);
+          out.reduced_gradient[1 + i] += 0.5 * (leak - leak_now) / steps[i] * to_u[i];
+          moved[which] = fit.values[which];
+        }
       }
       if (flame_) {
         Eigen::MatrixXcd j = FlameJacobian(records_[e], effect_, fit.values, fit.tau_s, columns_[e],
@@ -355,13 +382,17 @@ double StartDelay(const std::vector<CutRecord>& records, const std::vector<Flame
   double best_tau = 0.0;
   for (double tau = 0.1 / f0; tau < 1.6 / f0; tau += step) {
     double cost = 0.0;
+    double falling = 0.0;
     for (std::size_t e = 0; e < records.size(); e += std::max<std::size_t>(records.size() / 2, 1)) {
       const Eigen::VectorXd weight =
           Weights(Eigen::VectorXd::Ones(records[e].flame_count), records[e].masked);
       const FlameSolution solution = SolveFlame(records[e], none, {}, tau, columns[e], weight);
-      // The largest slope of the wrong sign is no flame: heat release falls as v rises.
       cost += std::log(solution.residual.cwiseAbs2().dot(weight));
+      // Near v = 0, where all records have samples.
+      falling += solution.coefficients[3] - solution.coefficients[6];
     }
+    // Half a period away a rising flame fits nearly as well; heat release falls as v rises.
+    if (falling <= 0.0) continue;
     if (cost < best) {
       best = cost;
       best_tau = tau;

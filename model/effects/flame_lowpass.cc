@@ -17,7 +17,7 @@ class Lag final : public NamedEffect {
                       "Hz",
                       kInfinity,
                       60.0,
-                      2e4,
+                      1e6,
                       {250.0, 700.0, 2000.0},
                       ParameterScale::kLogarithmic}}) {}
   bool ChangesFlameCut() const override { return true; }

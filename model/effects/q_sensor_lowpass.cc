@@ -18,7 +18,7 @@ class Filter final : public NamedEffect {
                       "Hz",
                       kInfinity,
                       60.0,
-                      2e4,
+                      1e6,
                       {250.0, 700.0, 2000.0},
                       ParameterScale::kLogarithmic}}),
         order_(order) {}
