@@ -11,6 +11,7 @@ namespace howl {
 namespace {
 
 constexpr double kRangeMargin = 1.001;
+constexpr double kEnds = 0.02;  // of the record
 constexpr double kRidge = 1e-10;
 
 double DelayOf(const CutRecord& record, const Effect& effect, EffectValues x, double tau_s) {
@@ -56,7 +57,10 @@ FlameColumns MakeFlameColumns(const CutRecord& record, const Effect& effect, Eff
                               double tau_s) {
   FlameColumns out;
   out.v = FlameInput(record, effect, x, tau_s);
-  out.range = kRangeMargin * out.v.cwiseAbs().maxCoeff();
+  // At the record's ends the derivative of the periodic continuation jumps; the window is zero
+  // there.
+  const auto ends = static_cast<Eigen::Index>(kEnds * static_cast<double>(record.samples));
+  out.range = kRangeMargin * out.v.segment(ends, record.samples - 2 * ends).cwiseAbs().maxCoeff();
   const Eigen::MatrixXd columns = FlameBasis(out.range).Columns(out.v);
   out.spectrum.resize(record.flame_count + 2 * kTapReach, kFlameTerms);
   for (Eigen::Index j = 0; j < kFlameTerms; ++j) {

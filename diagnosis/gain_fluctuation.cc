@@ -36,7 +36,7 @@ std::vector<std::complex<double>> Analytic(const CutRecord& record, const Eigen:
 
 // D(t), at twice the low-pass's frequency.
 Series Demodulate(const CutRecord& record, const Series& residual, const Series& reference,
-                  double low_pass_hz, double* step_s) {
+                  double low_pass_hz, double* step_s, Eigen::VectorXd* gain) {
   const auto stride =
       static_cast<Eigen::Index>(std::max(1.0, record.sampling_hz / (2.0 * low_pass_hz)));
   // A Gaussian in time with the low-pass exp(-(f / f_c)^2).
@@ -49,6 +49,7 @@ Series Demodulate(const CutRecord& record, const Series& residual, const Series&
   }
   const auto ends = static_cast<Eigen::Index>(kEnds * static_cast<double>(record.samples)) + reach;
   Series out;
+  std::vector<double> local;  // Re D over the present amplitude
   double mean_power = 0.0;
   for (Eigen::Index centre = ends; centre + ends < record.samples; centre += stride) {
     std::complex<double> top = 0.0;
@@ -61,11 +62,20 @@ Series Demodulate(const CutRecord& record, const Series& residual, const Series&
     }
     // Over the mean amplitude, not the present one, the noise is as large at all times.
     out.push_back(top / std::sqrt(std::max(bottom, 1e-300)));
+    local.push_back(top.real() / std::max(bottom, 1e-300));
     mean_power += bottom;
   }
   mean_power /= std::max<double>(1.0, static_cast<double>(out.size()));
   for (auto& value : out) value /= std::sqrt(mean_power);
   *step_s = static_cast<double>(stride) / record.sampling_hz;
+  gain->setZero(record.samples);
+  for (Eigen::Index i = 0; i < record.samples && !local.empty(); ++i) {
+    const double x = std::clamp(static_cast<double>(i - ends) / static_cast<double>(stride), 0.0,
+                                static_cast<double>(local.size() - 1));
+    const auto k = std::min(static_cast<std::size_t>(x), local.size() - 1);
+    const double next = local[std::min(k + 1, local.size() - 1)];
+    (*gain)[i] = local[k] + (x - static_cast<double>(k)) * (next - local[k]);
+  }
   return out;
 }
 
@@ -199,7 +209,17 @@ GainFluctuation EstimateGainFluctuation(const std::vector<CutRecord>& records,
         record.heat_release_spectrum.segment(record.first - kTapReach, phi.size());
     const Series reference = Analytic(record, phi);
     const Series residual = Analytic(record, q - phi);
-    const Series d = Demodulate(record, residual, reference, low_pass_hz, &step_s);
+    Eigen::VectorXd gain;
+    const Series d = Demodulate(record, residual, reference, low_pass_hz, &step_s, &gain);
+    Eigen::VectorXd fluctuation(record.samples);
+    for (Eigen::Index i = 0; i < record.samples; ++i) {
+      fluctuation[i] = gain[i] * reference[static_cast<std::size_t>(i)].real();
+    }
+    out.corrected.push_back(
+        fit.experiments[e].flame_residual -
+        ApplyWindow(ForwardFft(fluctuation)
+                        .segment(record.first - kTapReach, record.flame_count + 2 * kTapReach),
+                    record.flame_count));
     std::vector<double> x;
     double re = 0.0;
     double im = 0.0;

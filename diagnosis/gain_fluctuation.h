@@ -23,8 +23,9 @@ struct GainFluctuation {
   double correlation_s = 0.0;  // of Re D
   double coloured_cost = 0.0;  // - log-likelihood, with Akaike's penalty
   double switching_cost = 0.0;
-  double low_level = 0.0;  // of the two levels, relative to the upper one
-  double dwell_s = 0.0;    // mean time on the lower level
+  double low_level = 0.0;                   // of the two levels, relative to the upper one
+  double dwell_s = 0.0;                     // mean time on the lower level
+  std::vector<Eigen::VectorXcd> corrected;  // E_B of each experiment without the fluctuation
 };
 
 GainFluctuation EstimateGainFluctuation(const std::vector<CutRecord>& records,
