@@ -174,7 +174,7 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
 
 Attempt TryQuantisation(const Setting& at, const Effect& effect) {
   Attempt out = Named(at, effect);
-  const Quantisation found = FindQuantisation(*at.records);
+  const FewLevels found = FindQuantisation(*at.records);
   out.candidate.gain = found.found ? 2.0 * kFlagGain : 0.0;
   out.candidate.parameters.push_back(Plain("levels", found.levels, 0.1, ""));
   return out;

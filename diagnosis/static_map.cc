@@ -123,8 +123,8 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
   return out;
 }
 
-Quantisation FindQuantisation(const std::vector<CutRecord>& records) {
-  Quantisation out;
+FewLevels FindQuantisation(const std::vector<CutRecord>& records) {
+  FewLevels out;
   std::size_t found = 0;
   for (const CutRecord& record : records) {
     std::vector<double> values(record.pressure.data(),

@@ -24,12 +24,12 @@ struct ClippingFit {
 ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
                         const EffectFit& base);
 
-struct Quantisation {
+struct FewLevels {
   bool found = false;
   double levels = 0.0;  // mean over the experiments
 };
 
-Quantisation FindQuantisation(const std::vector<CutRecord>& records);
+FewLevels FindQuantisation(const std::vector<CutRecord>& records);
 
 }  // namespace howl
 
