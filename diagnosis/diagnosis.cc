@@ -26,10 +26,11 @@ namespace {
 // of their own: gains of 20 come from no effect at all now and then.
 constexpr double kDetectionGain = 25.0;
 constexpr double kDetectionWidth = 4.0;
-// Slack that the base leaves in cut B on rigs without an effect.
-constexpr double kSlackAllowance = 80.0;
-constexpr double kUnknownShare = 0.06;
-constexpr double kUnknownWidth = 0.015;
+// Slack that is left on rigs without an effect, or with one whose form is only nearly right.
+constexpr double kAcousticAllowance = 40.0;
+constexpr double kFlameAllowance = 120.0;
+constexpr double kUnknownShare = 0.10;
+constexpr double kUnknownWidth = 0.02;
 // Models are never exact: gains count by their share of the largest too.
 constexpr double kTemperature = 3.0;
 constexpr double kTemperatureShare = 0.02;
@@ -204,7 +205,7 @@ bool Reaches(LoopBlock block, bool acoustic_cut) {
 std::vector<Place> FindPlaces(const Setting& at, const std::vector<Attempt>& attempts,
                               const Diagnosis& diagnosis, const Slack& before) {
   const bool acoustic = before.acoustic_excess > 0.1 * before.flame_excess;
-  const bool flame = before.flame_excess > std::max(kSlackAllowance, 0.1 * before.acoustic_excess);
+  const bool flame = before.flame_excess > std::max(kFlameAllowance, 0.1 * before.acoustic_excess);
   struct Score {
     LoopBlock block;
     double gain;
@@ -422,8 +423,8 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   out.slack_flame_after = slack_after.flame_excess;
 
   const double largest = top ? std::max(0.0, top->candidate.gain) : 0.0;
-  const double rest =
-      out.slack_acoustic_after + std::max(0.0, out.slack_flame_after - kSlackAllowance);
+  const double rest = std::max(0.0, out.slack_acoustic_after - kAcousticAllowance) +
+                      std::max(0.0, out.slack_flame_after - kFlameAllowance);
   const double nothing =
       Logistic((kDetectionGain - largest) / kDetectionWidth) * Logistic((40.0 - rest) / 5.0);
   double unknown = 0.0;

@@ -24,7 +24,7 @@ Eigen::VectorXd FlameInput(const CutRecord& record, const Effect& effect, Effect
   Eigen::VectorXcd spectrum = record.pressure_spectrum.cwiseProduct(record.derivative_filter);
   if (effect.ChangesFlameInput()) {
     for (Eigen::Index k = 1; k < spectrum.size(); ++k) {
-      if (spectrum[k] == 0.0) break;  // beyond the low-pass
+      if (spectrum[k] == 0.0) continue;  // beyond the low-pass
       const double f = static_cast<double>(k) * record.bin_hz;
       spectrum[k] *= effect.FlameIn(f, record.at, x) / effect.PressureInstrument(f, x);
     }
