@@ -24,10 +24,12 @@ struct Command {
 
 const std::vector<Command>& Commands();
 
+Command AnalyseCommand();
 Command FitCommand();
 Command FamilyCommand();
 Command ListCommand();
 Command RegressCommand();
+Command SimulateCommand();
 
 }  // namespace howl
 

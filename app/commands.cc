@@ -3,8 +3,9 @@
 namespace howl {
 
 const std::vector<Command>& Commands() {
-  static const std::vector<Command> commands = {FitCommand(), FamilyCommand(), ListCommand(),
-                                                RegressCommand()};
+  static const std::vector<Command> commands = {AnalyseCommand(),  FitCommand(),
+                                                FamilyCommand(),   ListCommand(),
+                                                SimulateCommand(), RegressCommand()};
   return commands;
 }
 

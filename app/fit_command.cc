@@ -3,6 +3,7 @@
 #include "app/command.h"
 #include "app/problem_input.h"
 #include "app/text_table.h"
+#include "app/vanishing_text.h"
 #include "estimation/family/membership.h"
 #include "estimation/joint_fit.h"
 #include "io/config/config.h"
@@ -64,11 +65,12 @@ void PrintIdentifiability(const JointFit& fit) {
   }
 }
 
-void PrintVanishing(const std::string& operating_parameter, const VanishingPhi& vanishing) {
-  if (!vanishing.available) return;
-  std::printf("the loop gain reaches one, and the cycle vanishes, at %s %s (95 %%: %s .. %s)\n",
-              operating_parameter.c_str(), Significant(vanishing.phi, 4).c_str(),
-              Significant(vanishing.lo, 4).c_str(), Significant(vanishing.hi, 4).c_str());
+// About 1/2 where the model and the stated standard deviations hold.
+double CostPerDegreeOfFreedom(const JointFit& fit) {
+  std::size_t residuals = 0;
+  for (const FitResidual& residual : fit.residuals) residuals += residual.values.size();
+  const auto determined = static_cast<std::size_t>(fit.identifiability.rank);
+  return residuals > determined ? fit.cost / static_cast<double>(residuals - determined) : 0.0;
 }
 
 int Run(const Options& options) {
@@ -81,9 +83,10 @@ int Run(const Options& options) {
   if (!options.quiet) {
     PrintModels(problem, fit);
     PrintShared(problem, fit);
-    std::printf("cost %s; %d of %d starts reached it; %s\n", Significant(fit.cost).c_str(),
+    std::printf("cost %s, %s a degree of freedom; %d of %d starts reached it; %s\n",
+                Significant(fit.cost).c_str(), Significant(CostPerDegreeOfFreedom(fit), 3).c_str(),
                 fit.starts_at_best, fit.starts, fit.termination.c_str());
-    PrintVanishing(config.operating_parameter, vanishing_phi);
+    std::printf("%s", VanishingText(vanishing_phi, config.operating_parameter).c_str());
     PrintIdentifiability(fit);
     std::printf("written: %s\n", path.c_str());
   }

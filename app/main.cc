@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/interruption.h"
 #include "io/user_error.h"
 #include "model/version.h"
 
@@ -84,8 +85,12 @@ int main(int argc, char** argv) {
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
   FLAGS_minloglevel = google::GLOG_ERROR;
+  howl::WatchForInterruption();
   try {
     return howl::Run({argv + 1, argv + argc});
+  } catch (const howl::Interrupted& stop) {
+    std::fprintf(stderr, "howl: %s\n", stop.what());
+    return howl::kInterrupted;
   } catch (const howl::UserError& error) {
     std::fprintf(stderr, "%s\n", error.what());
   } catch (const howl::UsageError& error) {

@@ -1,13 +1,53 @@
 #include "app/problem_input.h"
 
+#include <cstdio>
 #include <utility>
 
-namespace howl {
+#include "app/record_input.h"
+#include "io/user_error.h"
 
-std::vector<Experiment> LoadExperiments(const Config& config, const Options& /*options*/) {
+namespace howl {
+namespace {
+
+// Why a record gives fit and family nothing.
+const char* Shortcoming(const Analysis& analysis) {
+  if (!analysis.has_heat_release) return "has no heat release";
+  return "shows no limit cycle";
+}
+
+// Analyses in the order of the experiments that have a record.
+AnalysisSet Analyse(const Config& config, const Options& options) {
+  const std::vector<NamedRecord> records = LoadRecords(config);
+  if (records.empty()) return {};
+  return AnalyseRecords(records, MakeAnalysisOptions(config, options));
+}
+
+}  // namespace
+
+std::vector<Experiment> LoadExperiments(const Config& config, const Options& options) {
+  const AnalysisSet set = Analyse(config, options);
   std::vector<Experiment> experiments;
+  std::size_t next = 0;
   for (const ExperimentConfig& each : config.experiments) {
-    experiments.push_back(each.experiment);
+    if (!each.record) {
+      experiments.push_back(each.experiment);
+      continue;
+    }
+    const Analysis& analysis = set.analyses[next++];
+    std::optional<Experiment> experiment = ToExperiment(analysis);
+    if (!experiment) {
+      if (!options.quiet) {
+        std::fprintf(stderr, "%s %s: left out\n", analysis.name.c_str(), Shortcoming(analysis));
+      }
+      continue;
+    }
+    experiment->delay_periods = set.delay.branch;
+    experiment->reliable = experiment->reliable && each.experiment.reliable;
+    experiments.push_back(*std::move(experiment));
+  }
+  if (experiments.empty()) {
+    throw UserError(config.source.string(), config.experiments.front().line, "experiments",
+                    "no record shows a limit cycle in p and q, expected at least one");
   }
   return experiments;
 }
@@ -17,6 +57,7 @@ FamilyProblem MakeFamilyProblem(const Config& config, std::vector<Experiment> ex
   problem.experiments = std::move(experiments);
   problem.model = config.model;
   problem.test = config.family.test;
+  problem.domain.delay_periods = problem.experiments.front().delay_periods;
   const ModelSpec defaults = DefaultModelSpec();
   for (const ParameterKind kind : kParameterKinds) {
     const ParameterSpec& spec = config.model[kind];

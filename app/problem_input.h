@@ -1,4 +1,4 @@
-// From a config to the experiments that fit and family take.
+// From a config to the experiments that fit and family take, and to the family's problem.
 #ifndef HOWL_APP_PROBLEM_INPUT_H_
 #define HOWL_APP_PROBLEM_INPUT_H_
 
@@ -11,7 +11,9 @@
 
 namespace howl {
 
-// Published numbers as they are.
+// Published numbers as they are; records analysed first. An experiment whose record shows no limit
+// cycle or has no heat release is left out, and a line on standard error says so. Throws UserError
+// when none is left.
 std::vector<Experiment> LoadExperiments(const Config& config, const Options& options);
 
 // The family's problem. Only bounds that the config gives limit it: the guard rails of a fit do not

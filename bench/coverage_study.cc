@@ -16,8 +16,9 @@ int main(int argc, char** argv) {
   std::array<Tally, kQuantities> all;
   std::printf("%-26s %-10s %6s %11s %11s %11s %9s\n", "row", "quantity", "n", "bias", "rms error",
               "mean std", "coverage");
+  std::uint64_t row_seed = seed * 1000003;
   for (const CoverageRow& row : CoverageRows()) {
-    const RowResult result = RunCoverageRow(row, records, seed * 1000003);
+    const RowResult result = RunCoverageRow(row, records, row_seed += 100000);
     for (int k = 0; k < kQuantities; ++k) {
       const Tally& t = result.tally[static_cast<std::size_t>(k)];
       if (t.count == 0) continue;

@@ -35,7 +35,12 @@ Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
   if (analysis.has_heat_release) {
     analysis.transfer = EstimateTransfer(spectrum, analysis.lines, options.transfer);
     if (options.fit_transfer) {
-      TransferFit fit = FitTransfer(*analysis.transfer, options.transfer_fit);
+      TransferFitOptions fit_options = options.transfer_fit;
+      if (std::isfinite(f.value) && options.fit_max_harmonic > 0.0) {
+        fit_options.min_frequency_hz = options.fit_min_harmonic * f.value;
+        fit_options.max_frequency_hz = options.fit_max_harmonic * f.value;
+      }
+      TransferFit fit = FitTransfer(*analysis.transfer, fit_options);
       if (fit.available) analysis.transfer_fit = std::move(fit);
     }
   } else if (std::isfinite(f.value)) {
@@ -95,6 +100,26 @@ AnalysisSet AnalyseRecords(std::span<const NamedRecord> records, const AnalysisO
   return set;
 }
 
+namespace {
+
+// Neighbouring points share data, and where no two-mode model fits them, their scatter about the
+// best one is the error to reckon with: both widen the points' variance, as they widen the fit's
+// standard deviations.
+std::vector<TransferPoint> WidenedPoints(const Analysis& analysis) {
+  std::vector<TransferPoint> points = analysis.transfer->points;
+  const double misfit =
+      analysis.transfer_fit ? std::max(1.0, analysis.transfer_fit->chi_square_per_dof) : 1.0;
+  const double factor = misfit * analysis.transfer->neighbour_inflation;
+  for (TransferPoint& point : points) {
+    point.variance_re *= factor;
+    point.variance_im *= factor;
+    point.covariance *= factor;
+  }
+  return points;
+}
+
+}  // namespace
+
 std::optional<Experiment> ToExperiment(const Analysis& analysis) {
   if (!HasPhase(analysis)) return std::nullopt;
   const Characteristics& c = analysis.characteristics;
@@ -116,10 +141,18 @@ std::optional<Experiment> ToExperiment(const Analysis& analysis) {
     experiment.flame_slope_std = known(analysis.flame_curve->slope.std);
   }
   experiment.reliable = c.stationary;
+  if (analysis.transfer) experiment.transfer = WidenedPoints(analysis);
+  // The loop closes a second time at one line: the strongest of p's that is no multiple of the
+  // cycle and lies above it (below lie differences of the two).
+  const SpectralLine* second = nullptr;
   for (const SpectralLine& line : analysis.lines) {
-    if (line.harmonic != 0 || !line.narrow || line.p_amplitude <= 0.0) continue;
-    const double std = std::isfinite(line.frequency_hz.std) ? line.frequency_hz.std : 0.0;
-    experiment.lines.push_back({line.frequency_hz.value, std});
+    if (line.harmonic != 0 || !line.narrow || line.p_amplitude < 0.01 * c.p_amplitude) continue;
+    if (line.frequency_hz.value < 1.05 * c.frequency_hz.value) continue;
+    if (second == nullptr || line.p_amplitude > second->p_amplitude) second = &line;
+  }
+  if (second != nullptr) {
+    const Estimate& f = second->frequency_hz;
+    experiment.lines.push_back({f.value, std::isfinite(f.std) ? f.std : 0.0});
   }
   return experiment;
 }

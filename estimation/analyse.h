@@ -28,6 +28,9 @@ struct AnalysisOptions {
   TransferOptions transfer;
   TransferFitOptions transfer_fit;
   bool fit_transfer = true;
+  // The transfer fit's band in multiples of the cycle's frequency (the second mode lies near the
+  // third); without a peak, or with a maximum of zero, transfer_fit's own band.
+  double fit_min_harmonic = 0.25, fit_max_harmonic = 5.0;
   std::optional<int> delay_branch;  // else by consistency
   int threads = 0;                  // 0: all
 };

@@ -6,24 +6,23 @@
 #include <optional>
 #include <string_view>
 
+#include "estimation/characteristics.h"
+
 namespace howl {
 
-// kMl: maximum likelihood over fundamental and harmonics. kSeed: the paper's own procedure (FFT,
-// maximum, amplitude-weighted mean over 11 bins).
-enum class AnalysisMethod { kMl, kSeed };
-
-inline constexpr std::array kAnalysisMethods = {AnalysisMethod::kMl, AnalysisMethod::kSeed};
+inline constexpr std::array kAnalysisMethods = {CharacteristicsMethod::kLocal,
+                                                CharacteristicsMethod::kSeed};
 
 // As in configs.
-constexpr std::string_view AnalysisMethodName(AnalysisMethod method) {
-  constexpr std::array<std::string_view, kAnalysisMethods.size()> kNames = {"ml", "seed"};
-  return kNames[static_cast<std::size_t>(method)];
+constexpr std::string_view AnalysisMethodName(CharacteristicsMethod method) {
+  return method == CharacteristicsMethod::kLocal ? "local" : "seed";
 }
 
 struct AnalysisSpec {
-  AnalysisMethod method = AnalysisMethod::kMl;
-  int harmonics = 5;  // fitted together with the fundamental, which is the first
-  int max_lines = 8;  // non-harmonic lines reported at most
+  CharacteristicsMethod method = CharacteristicsMethod::kLocal;
+  // Where the limit cycle is looked for.
+  double min_frequency_hz = 20.0;
+  std::optional<double> max_frequency_hz;  // absent: four tenths of the sampling rate
   // Whole periods added to the delay of (3); absent: by consistency over the experiments.
   std::optional<int> delay_branch;
 };

@@ -144,7 +144,8 @@ void EstimateEnvelope(const Complexes& p, double hop_s, Characteristics* result)
   }
   const MeanError error = ErrorOfMean(scores, kHannOverlapCorrelation);
   result->power_fluctuation = {
-      ratio - 1.0, std::sqrt(error.covariance(0, 0)) * StudentInflation(error.degrees_of_freedom)};
+      std::max(ratio - 1.0, 0.0),
+      std::sqrt(error.covariance(0, 0)) * StudentInflation(error.degrees_of_freedom)};
 
   // Slope of the envelope as a mean of influences, relative to its own mean.
   const double n = static_cast<double>(p.size());

@@ -6,7 +6,9 @@
 // in seconds; f in hertz, Delta in (-180, 180] degrees. One record cannot tell the branch k, the
 // number of whole periods that the delay exceeds. Several can: the loop keeps one delay while its
 // frequency moves, so the branch is the one whose tau_k differ least, relative to their mean; a
-// wrong k adds (k' - k) / f to each. A config may also name it.
+// wrong k adds (k' - k) / f to each, and as k grows the spread tends to that of 1 / f. Where no
+// branch has less than half of that spread the delays agree on none, and the seed's k = 0 stands. A
+// config may also name the branch.
 #ifndef HOWL_ESTIMATION_DELAY_H_
 #define HOWL_ESTIMATION_DELAY_H_
 
@@ -23,8 +25,9 @@ struct DelayInput {
   Estimate phase_deg;
 };
 
-// The error is the phase's alone (an unknown one, NaN, counts as zero): where a record's frequency
-// wanders, its phase wanders with it by 360 tau, and tau stays.
+// phase_deg is taken as it is, not wrapped. The error is the phase's alone (an unknown one, NaN,
+// counts as zero): where a record's frequency wanders, its phase wanders with it by 360 tau, and
+// tau stays.
 Estimate DelayOnBranch(const DelayInput& input, int branch);
 
 struct DelayBranch {
@@ -35,7 +38,7 @@ struct DelayBranch {
 
 struct DelayChoice {
   int branch = 0;
-  bool by_consistency = false;        // else given, or too few experiments: the seed's k = 0
+  bool by_consistency = false;        // else given, or k = 0
   std::vector<DelayBranch> branches;  // all that were compared, smallest spread first
   std::vector<Estimate> tau_s;        // one an experiment, on the chosen branch
 };

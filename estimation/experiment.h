@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "estimation/transfer_point.h"
+
 namespace howl {
 
 // A non-harmonic line of the pressure spectrum at which the loop is taken to close a second time.
@@ -23,11 +25,17 @@ struct Experiment {
   double gain = 0.0;          // |p| / |q| at frequency_hz
   std::optional<double> flame_slope;  // Phi'(0), not positive
 
+  // Whole periods that the delay exceeds the shortest one of (3).
+  int delay_periods = 0;
+
   // Standard deviations where the data give them; absent ones take the residual's default.
   std::optional<double> frequency_std_hz;
   std::optional<double> phase_std_deg;
   std::optional<double> gain_std;  // in units of gain
   std::optional<double> flame_slope_std;
+
+  // Coherent q-to-p transfer of a record, thinned to independent points; empty for a published row.
+  std::vector<TransferPoint> transfer;
 
   bool reliable = true;
   std::vector<ObservedLine> lines;

@@ -12,12 +12,13 @@
 namespace howl {
 namespace {
 
+using LogParameters = std::array<double, 4>;
+
 // For given omega and xi the model is linear in N and M: the best start of a grid by linear least
 // squares, M kept positive.
-std::array<double, 4> GridStart(std::span<const TransferPoint> points, double ratio,
-                                bool second_mode) {
+LogParameters GridStart(std::span<const TransferPoint> points, double ratio, bool second_mode) {
   double best_cost = std::numeric_limits<double>::infinity();
-  std::array<double, 4> best{};
+  LogParameters best{};
   const double low = 0.5 * points.front().frequency_hz, high = 1.2 * points.back().frequency_hz;
   constexpr int kOmegas = 60;
   for (int i = 0; i < kOmegas; ++i) {
@@ -56,23 +57,32 @@ std::array<double, 4> GridStart(std::span<const TransferPoint> points, double ra
   return best;
 }
 
-}  // namespace
+struct Solution {
+  LogParameters x;
+  std::vector<double> residuals;
+  Eigen::MatrixXd normal;  // J^T J over the free parameters
+  double cost = 0.0;
+  bool usable = false;
+};
 
-TransferFit FitTransfer(const Transfer& transfer, const TransferFitOptions& options) {
-  TransferFit fit;
-  const std::vector<TransferPoint>& points = transfer.points;
-  if (points.size() < 4) return fit;
-  std::array<double, 4> x = GridStart(points, options.harmonic_ratio, options.second_mode);
-  if (x[0] == 0.0) return fit;
-  if (!options.second_mode) x[3] = x[2] + std::log(1e-9);
-
+Solution Solve(std::span<const TransferPoint> points, const TransferFitOptions& options,
+               const LogParameters& start) {
+  Solution solution{.x = start};
+  LogParameters& x = solution.x;
   ceres::Problem problem;
   for (const TransferPoint& point : points) {
-    problem.AddResidualBlock(TransferPointResidual::Create(point, options.harmonic_ratio), nullptr,
-                             &x[0], &x[1], &x[2], &x[3]);
+    problem.AddResidualBlock(
+        TransferPointResidual::CreateFull(point, {options.harmonic_ratio, false}), nullptr, &x[0],
+        &x[1], &x[2], &x[3]);
   }
-  if (!options.second_mode) problem.SetParameterBlockConstant(&x[3]);
-  problem.SetParameterLowerBound(&x[3], 0, x[2] + std::log(1e-9));
+  // Guard rails: a mode outside the points' band or without its N is another model.
+  problem.SetParameterLowerBound(&x[1], 0, std::log(1e-4));
+  problem.SetParameterUpperBound(&x[1], 0, std::log(10.0));
+  if (options.second_mode) {
+    problem.SetParameterLowerBound(&x[3], 0, x[2] + std::log(1e-6));
+  } else {
+    problem.SetParameterBlockConstant(&x[3]);
+  }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = 200;
@@ -80,56 +90,96 @@ TransferFit FitTransfer(const Transfer& transfer, const TransferFitOptions& opti
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  fit.available = summary.IsSolutionUsable();
-  fit.acoustics = {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]),
-                   options.harmonic_ratio};
+  solution.usable = summary.IsSolutionUsable();
 
-  std::vector<double> residuals;
   ceres::CRSMatrix jacobian;
-  double cost = 0.0;
-  problem.Evaluate({}, &cost, &residuals, nullptr, &jacobian);
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);
+  problem.Evaluate({}, &solution.cost, &solution.residuals, nullptr, &jacobian);
+  solution.normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);
   for (int row = 0; row < jacobian.num_rows; ++row) {
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(jacobian.num_cols);
-    for (int i = jacobian.rows[static_cast<std::size_t>(row)];
-         i < jacobian.rows[static_cast<std::size_t>(row) + 1]; ++i) {
+    const auto r = static_cast<std::size_t>(row);
+    for (int i = jacobian.rows[r]; i < jacobian.rows[r + 1]; ++i) {
       const auto k = static_cast<std::size_t>(i);
       gradient(jacobian.cols[k]) = jacobian.values[k];
     }
-    normal += gradient * gradient.transpose();
+    solution.normal += gradient * gradient.transpose();
   }
+  return solution;
+}
+
+std::vector<TransferPoint> WithModelError(std::span<const TransferPoint> points, double error) {
+  std::vector<TransferPoint> result(points.begin(), points.end());
+  for (TransferPoint& point : result) {
+    const double variance = 0.5 * error * error * (point.re * point.re + point.im * point.im);
+    point.variance_re += variance;
+    point.variance_im += variance;
+  }
+  return result;
+}
+
+}  // namespace
+
+TransferFit FitTransfer(const Transfer& transfer, const TransferFitOptions& options) {
+  TransferFit fit;
+  const auto within = [&](const TransferPoint& point) {
+    return point.frequency_hz >= options.min_frequency_hz &&
+           point.frequency_hz <= options.max_frequency_hz;
+  };
+  std::vector<TransferPoint> points;
+  std::copy_if(transfer.points.begin(), transfer.points.end(), std::back_inserter(points), within);
+  if (points.size() < 4) return fit;
   const int free = options.second_mode ? 4 : 3;
-  fit.log_covariance.topLeftCorner(free, free) =
-      transfer.neighbour_inflation *
-      normal.topLeftCorner(free, free).completeOrthogonalDecomposition().pseudoInverse();
   const double dof = 2.0 * static_cast<double>(points.size()) - free;
-  fit.chi_square_per_dof = 2.0 * cost / dof;
-  const double widening = std::sqrt(std::max(fit.chi_square_per_dof, 1.0));
+  const auto solve = [&](double error) {
+    const std::vector<TransferPoint> softened = WithModelError(points, error);
+    LogParameters start = GridStart(softened, options.harmonic_ratio, options.second_mode);
+    if (!options.second_mode) start[3] = start[2] + std::log(1e-9);
+    return Solve(softened, options, start);
+  };
+  Solution solution = solve(0.0);
+  fit.chi_square_per_dof = 2.0 * solution.cost / dof;
+  if (fit.chi_square_per_dof > 1.5) {
+    double low = 1e-3, high = 10.0;
+    for (int i = 0; i < 12; ++i) {
+      fit.model_error = std::sqrt(low * high);
+      solution = solve(fit.model_error);
+      (2.0 * solution.cost / dof > 1.0 ? low : high) = fit.model_error;
+    }
+  }
+  const LogParameters& x = solution.x;
+  fit.available = solution.usable;
+  fit.acoustics = {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]),
+                   options.harmonic_ratio};
+  fit.log_covariance.topLeftCorner(free, free) =
+      transfer.neighbour_inflation * std::max(2.0 * solution.cost / dof, 1.0) *
+      solution.normal.topLeftCorner(free, free).completeOrthogonalDecomposition().pseudoInverse();
   const auto estimate = [&](int i) {
     const double value = std::exp(x[static_cast<std::size_t>(i)]);
-    return Estimate{value, value * widening * std::sqrt(fit.log_covariance(i, i))};
+    return Estimate{value, value * std::sqrt(fit.log_covariance(i, i))};
   };
   fit.omega_hz = estimate(0);
   fit.xi = estimate(1);
   fit.N = estimate(2);
   fit.M = estimate(3);
 
-  double power = 0, missed = 0, noise = 0, within = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const TransferPoint& point = points[i];
-    const Complex<double> g = AcousticResponse(fit.acoustics, point.frequency_hz);
+  double power = 0, missed = 0, noise = 0, explained = 0;
+  for (const TransferPoint& point : transfer.points) {
+    const Complex<double> g =
+        0.5 * (AcousticResponse(fit.acoustics, point.frequency_hz - point.spread_hz) +
+               AcousticResponse(fit.acoustics, point.frequency_hz + point.spread_hz));
+    const Eigen::Vector2d error(g.re - point.re, g.im - point.im);
+    const double misfit = std::sqrt(error.dot(point.Covariance().ldlt().solve(error)));
     const double size = point.re * point.re + point.im * point.im;
-    const double error = SquaredMagnitude(Complex<double>{g.re - point.re, g.im - point.im});
-    const double misfit = std::hypot(residuals[2 * i], residuals[2 * i + 1]);
-    fit.points.push_back({point.frequency_hz, g.re, g.im, misfit, std::sqrt(error / size)});
+    fit.points.push_back({point.frequency_hz, g.re, g.im, misfit,
+                          std::sqrt(error.squaredNorm() / size), within(point)});
     power += point.weight;
-    missed += point.weight * error / size;
+    missed += point.weight * error.squaredNorm() / size;
     noise += point.weight * (point.variance_re + point.variance_im) / size;
-    within += misfit * misfit < 5.991 ? 1.0 : 0.0;  // chi-square, two degrees, 95 %
+    explained += misfit * misfit < 5.991 ? 1.0 : 0.0;  // chi-square, two degrees, 95 %
   }
   fit.explained_power = 1.0 - missed / power;
   fit.noise_power = noise / power;
-  fit.points_within_95 = within / static_cast<double>(points.size());
+  fit.points_within_95 = explained / static_cast<double>(transfer.points.size());
   return fit;
 }
 

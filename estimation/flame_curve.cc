@@ -14,7 +14,7 @@
 namespace howl {
 namespace {
 
-constexpr int kCoefficients = 6;  // degree 5
+constexpr int kCoefficients = 6;
 constexpr int kScoreBlocks = 48;
 using Coefficients = Eigen::Matrix<double, kCoefficients, 1>;
 
@@ -56,6 +56,7 @@ int JoiningBlock(const Characteristics& cycle, double sampling_hz) {
   return static_cast<int>(std::lround(periods / cycle.frequency_hz.value * sampling_hz));
 }
 
+// u^0 .. u^5
 Coefficients Powers(double u) {
   Coefficients f;
   f(0) = 1.0;

@@ -8,9 +8,10 @@
 //
 // Phi is seen as means of q in bins of x, the seed's method, and as a polynomial of degree 5 over
 // |x| <= 0.9 X, X = 2 pi f |p|, whose derivative at zero is Phi'(0). The error comes from the
-// long-run variance of its influence function over blocks. Noise left in x, of variance s^2,
-// changes the slope at zero to first order (Tweedie's formula for an x of arcsine density, and
-// smoothing of Phi) to
+// long-run variance of its influence function over blocks. It is that of a flame as smooth as the
+// polynomial: one that bends sharply near the origin is steeper there than any record shows. Noise
+// left in x, of variance s^2, changes the slope at zero to first order (Tweedie's formula for an x
+// of arcsine density, and smoothing of Phi) to
 //
 //   (1 + s^2 / X^2) Phi'(0) + (s^2 / 2) Phi'''(0)
 //

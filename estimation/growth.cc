@@ -20,13 +20,15 @@ Growth EstimateGrowth(std::span<const double> p, double sampling_hz, double freq
   for (const auto& z : blocks.amplitude) envelope.push_back(std::abs(z));
   const auto peak = std::max_element(envelope.begin(), envelope.end());
 
-  // Last block below the saturation's foot before the peak, then back down to the noise. The quiet
-  // part is taken as the first half of what precedes the foot: growth fills little of it.
+  // Back from the peak to where saturation begins, then to where the envelope leaves the noise.
+  // Noise excites the mode the more the nearer it comes to growing, so the noise's level is a high
+  // quantile of what precedes, the last fifth (growth itself) left out.
   auto end = peak;
   while (end != envelope.begin() && *end > options.below_peak * *peak) --end;
-  if (end - envelope.begin() < 6) return growth;
-  const std::span<const double> before(envelope.begin(), end);
-  const double noise = Median(before.first(std::max<std::size_t>(before.size() / 2, 3)));
+  if (end - envelope.begin() < 10) return growth;
+  std::vector<double> before(envelope.begin(), envelope.begin() + (end - envelope.begin()) * 4 / 5);
+  std::sort(before.begin(), before.end());
+  const double noise = before[before.size() * 19 / 20];
   auto start = end;
   while (start != envelope.begin() && *start > options.above_noise * noise) --start;
   ++start;
@@ -35,10 +37,17 @@ Growth EstimateGrowth(std::span<const double> p, double sampling_hz, double freq
   std::vector<double> log_envelope;
   for (auto it = start; it <= end; ++it) log_envelope.push_back(std::log(*it));
   const TrendFit trend = FitTrend(log_envelope);
-  growth.rate_per_s = {trend.slope.value / blocks.hop_s, trend.slope.std / blocks.hop_s};
   const auto first = static_cast<std::size_t>(start - envelope.begin());
   const auto count = static_cast<std::size_t>(end - start) + 1;
-  const std::span<const std::complex<double>> window(blocks.amplitude.data() + first, count);
+  const double change = trend.curvature.value * static_cast<double>(count) / 2.0;
+  growth.rate_per_s = {trend.slope.value / blocks.hop_s,
+                       std::hypot(trend.slope.std, change / std::sqrt(3.0)) / blocks.hop_s};
+  // The frequency moves as soon as saturation begins to act: from small amplitudes where they
+  // suffice.
+  std::size_t small = 0;
+  while (small < count && envelope[first + small] < 0.15 * *peak) ++small;
+  if (small < 6) small = count;
+  const std::span<const std::complex<double>> window(blocks.amplitude.data() + first, small);
   const LineFrequency line = EstimateLineFrequency(window, UnwrapPhase(window), blocks.hop_s);
   growth.frequency_hz = {frequency_hz + line.offset_hz.value, line.offset_hz.std};
   growth.start_s = blocks.first_center_s + static_cast<double>(first) * blocks.hop_s;

@@ -1,8 +1,10 @@
 // Growth of an oscillation out of noise, from pressure alone. While a linear loop is unstable its
 // envelope grows as A(t) = A_0 e^(sigma t); noise makes log A a trend plus a random walk plus white
 // noise, whose slope FitTrend estimates with its interval (statistics.h). The window runs from
-// where the envelope last leaves the noise (`above_noise` times its median before) to where
-// saturation begins (`below_peak` of the highest envelope).
+// where the envelope last leaves the noise (`above_noise` times its 95 % quantile before) to where
+// saturation begins (`below_peak` of the highest envelope). Neither end is sharp, and a rate that
+// changes over the window is no constant: half of what the fitted curvature changes it by is taken
+// for a uniform error.
 #ifndef HOWL_ESTIMATION_GROWTH_H_
 #define HOWL_ESTIMATION_GROWTH_H_
 
@@ -13,8 +15,8 @@
 namespace howl {
 
 struct GrowthOptions {
-  double above_noise = 6.0;
-  double below_peak = 0.2;
+  double above_noise = 10.0;
+  double below_peak = 0.5;
   double block_periods = 16.0;
 };
 

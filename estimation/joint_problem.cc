@@ -17,14 +17,20 @@
 #include "estimation/residuals/limit_cycle_phase.h"
 #include "estimation/residuals/phase_equality.h"
 #include "estimation/residuals/second_crossing.h"
+#include "estimation/residuals/transfer_point.h"
 #include "estimation/residuals/xi_increasing.h"
 #include "estimation/unit_seed.h"
 
 namespace howl {
 namespace {
 
-constexpr double kStartXi = 0.1;            // a lightly damped mode
-constexpr double kStartMOverN = 0.4;        // the seed's figures 11 and 12 imply about this
+constexpr double kStartXi = 0.1;      // a lightly damped mode
+constexpr double kStartMOverN = 0.4;  // the seed's figures 11 and 12 imply about this
+// The band of the transfer that the modes of the model cover, in multiples of the limit cycle's
+// frequency: one mode up to halfway to the next.
+constexpr double kTransferLowest = 0.25;
+constexpr double kTransferHighestOneMode = 2.0;
+constexpr double kTransferHighestTwoModes = 5.0;
 constexpr double kMaxStartPhaseDeg = 85.0;  // the closed form needs less than 90
 
 ceres::LossFunction* CreateLoss(const ResidualBlock& block) {
@@ -73,7 +79,10 @@ double StartValue(ParameterKind kind, const LoopModel& model) {
 
 LoopModel StartModel(Experiment experiment) {
   experiment.phase_deg = std::clamp(experiment.phase_deg, -kMaxStartPhaseDeg, kMaxStartPhaseDeg);
-  return ClosedFormModel(experiment, kStartXi);
+  LoopModel model = ClosedFormModel(experiment, kStartXi);
+  model.tau_s =
+      DelayFromPhase(experiment.frequency_hz, experiment.phase_deg, experiment.delay_periods);
+  return model;
 }
 
 // Factor by which a random start may leave the closed form, either way. tau's is small: its
@@ -246,7 +255,8 @@ void JointProblem::AddEqualities(int i, const ResidualSet& residuals) {
              {experiment.frequency_hz, residuals[ResidualKind::kLimitCyclePhase].std}, "");
   }
   if (two_modes && ActsOn(residuals, ResidualKind::kSecondCrossing, experiment)) {
-    const double tau_s = DelayFromPhase(experiment.frequency_hz, experiment.phase_deg);
+    const double tau_s =
+        DelayFromPhase(experiment.frequency_hz, experiment.phase_deg, experiment.delay_periods);
     for (const ObservedLine& line : experiment.lines) {
       add_loop(ResidualKind::kSecondCrossing,
                SecondCrossing(line.frequency_hz, line.frequency_std_hz, tau_s,
@@ -254,11 +264,34 @@ void JointProblem::AddEqualities(int i, const ResidualSet& residuals) {
                " " + std::to_string(std::lround(line.frequency_hz)) + " Hz");
     }
   }
+  if (ActsOn(residuals, ResidualKind::kTransfer, experiment)) AddTransfer(i, residuals);
   if (ActsOn(residuals, ResidualKind::kDampingPrior, experiment)) {
     Add(residuals, ResidualKind::kDampingPrior, i,
         DampingPrior::Create(residuals[ResidualKind::kDampingPrior].center,
                              residuals[ResidualKind::kDampingPrior].std),
         {ParameterIndex(ParameterKind::kXi, i)});
+  }
+}
+
+void JointProblem::AddTransfer(int i, const ResidualSet& residuals) {
+  const Experiment& experiment = experiments_[static_cast<std::size_t>(i)];
+  const bool two_modes = model_.modes == 2;
+  const double low_hz = kTransferLowest * experiment.frequency_hz;
+  const double high_hz =
+      (two_modes ? kTransferHighestTwoModes : kTransferHighestOneMode) * experiment.frequency_hz;
+  const double model_std = residuals[ResidualKind::kTransfer].std;
+  for (TransferPoint point : experiment.transfer) {
+    if (point.frequency_hz < low_hz || point.frequency_hz > high_hz) continue;
+    const double model_variance =
+        model_std * model_std * (point.re * point.re + point.im * point.im);
+    point.variance_re += model_variance;
+    point.variance_im += model_variance;
+    ceres::CostFunction* cost =
+        two_modes ? TransferPointResidual::CreateFull(
+                        point, {model_.harmonic_ratio, model_.second_mode_relative})
+                  : TransferPointResidual::CreateReduced(point);
+    Add(residuals, ResidualKind::kTransfer, i, cost, AcousticBlocks(i, two_modes),
+        " " + std::to_string(std::lround(point.frequency_hz)) + " Hz");
   }
 }
 

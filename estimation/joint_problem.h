@@ -81,6 +81,7 @@ class JointProblem {
   void AddParameters();
   void AddMean(ResidualKind prior, ParameterKind kind, const ResidualSet& residuals);
   void AddEqualities(int experiment, const ResidualSet& residuals);
+  void AddTransfer(int experiment, const ResidualSet& residuals);
   void AddXiOrder(const ResidualSet& residuals);
   void Add(const ResidualSet& residuals, ResidualKind kind, int experiment,
            ceres::CostFunction* cost, std::vector<int> parameters, std::string label_suffix = "");

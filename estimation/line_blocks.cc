@@ -18,7 +18,7 @@ LineFrequency PulsePair(std::span<const std::complex<double>> blocks, double hop
     sum += blocks[b + 1] * std::conj(blocks[b]);
     power += 0.5 * (std::norm(blocks[b]) + std::norm(blocks[b + 1]));
   }
-  if (scores.size() + blocks.size() < 6 || !(std::abs(sum) > 0.0)) return line;
+  if (blocks.size() < 6 || !(std::abs(sum) > 0.0)) return line;
   const double mean = std::abs(sum) / static_cast<double>(blocks.size() - 1);
   for (std::size_t b = 0; b + 1 < blocks.size(); ++b) {
     scores.push_back(

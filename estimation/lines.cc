@@ -170,7 +170,8 @@ std::vector<SpectralLine> FindLines(const Record& record, const CrossSpectrum& s
       const int multiple = static_cast<int>(std::lround(line.frequency_hz.value / fundamental_hz));
       const double distance = std::abs(line.frequency_hz.value - multiple * fundamental_hz);
       const double noise = std::isfinite(line.frequency_hz.std) ? line.frequency_hz.std : 0.0;
-      if (multiple > 0 && distance < std::max(1.5 * spectrum.bin_hz, 3.0 * noise)) {
+      if (multiple > 0 &&
+          distance < std::max({1.5 * spectrum.bin_hz, 3.0 * noise, 0.5 * line.width_hz})) {
         line.harmonic = multiple;
       }
     }

@@ -9,6 +9,7 @@ ResidualSet DefaultResidualSet() {
   set[ResidualKind::kLimitCyclePhase].std = 1.0;
   set[ResidualKind::kLimitCycleGain].std = 0.05;
   set[ResidualKind::kSecondCrossing].std = 5.0;
+  set[ResidualKind::kTransfer].std = 0.02;
   set[ResidualKind::kOmegaPrior].std = 0.05;
   set[ResidualKind::kXiIncreasing].std = 0.02;
   set[ResidualKind::kDampingPrior].std = 1.0;

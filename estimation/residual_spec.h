@@ -16,6 +16,7 @@ enum class ResidualKind {
   kLimitCyclePhase,  // arg L = 180 degrees, (1a)
   kLimitCycleGain,   // |L Phi'(0)| > 1, (1b), one-sided
   kSecondCrossing,   // arg L = 180 degrees at an observed non-harmonic line
+  kTransfer,         // G = H, the measured q-to-p transfer away from the limit cycle, (5a)
   kOmegaPrior,       // omega nearly constant over the experiments
   kXiIncreasing,     // xi does not fall as phi grows, one-sided
   kDampingPrior,     // xi small
@@ -24,15 +25,24 @@ enum class ResidualKind {
 
 inline constexpr std::array kResidualKinds = {
     ResidualKind::kGainEquality,   ResidualKind::kPhaseEquality,  ResidualKind::kLimitCyclePhase,
-    ResidualKind::kLimitCycleGain, ResidualKind::kSecondCrossing, ResidualKind::kOmegaPrior,
-    ResidualKind::kXiIncreasing,   ResidualKind::kDampingPrior,   ResidualKind::kTauPrior};
+    ResidualKind::kLimitCycleGain, ResidualKind::kSecondCrossing, ResidualKind::kTransfer,
+    ResidualKind::kOmegaPrior,     ResidualKind::kXiIncreasing,   ResidualKind::kDampingPrior,
+    ResidualKind::kTauPrior};
 inline constexpr std::size_t kNumResidualKinds = kResidualKinds.size();
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kNumResidualKinds; ++i) {
+        if (static_cast<std::size_t>(kResidualKinds[i]) != i) return false;
+      }
+      return true;
+    }(),
+    "kResidualKinds lists the kinds in their order: names and specs are looked up by it");
 
 // As in configs.
 constexpr std::string_view ResidualName(ResidualKind kind) {
   constexpr std::array<std::string_view, kNumResidualKinds> kNames = {
       "gain_equality", "phase_equality", "limit_cycle_phase", "limit_cycle_gain", "second_crossing",
-      "omega_prior",   "xi_increasing",  "damping_prior",     "tau_prior"};
+      "transfer",      "omega_prior",    "xi_increasing",     "damping_prior",    "tau_prior"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -44,7 +54,8 @@ enum class LossKind { kNone, kHuber, kSoftL1, kCauchy, kTukey };
 struct ResidualSpec {
   bool enabled = true;
   // Standard deviation of the residual's error. Relative for gain, omega, tau and the damping
-  // prior; degrees for phases; absolute for loop gain and the order of xi. Experiments that bring
+  // prior; degrees for phases; absolute for loop gain and the order of xi. For the transfer: of the
+  // model itself, relative, on top of each point's own variance. Experiments that bring
   // their own take its place.
   double std = 1.0;
   double center = 0.0;  // damping_prior alone: the damping ratio that counts as small

@@ -62,10 +62,11 @@ double CrossSpectrum::DegreesOfFreedom(int bins) const {
   for (int d = 0; d * hop < segment && d < segments; ++d) {
     for (int m = 0; m < std::min(bins, 2 * kBlackmanHarrisMainLobeBins); ++m) {
       const std::complex<double> step = std::polar(1.0, kTwoPi * m / segment);
+      const std::size_t shift = static_cast<std::size_t>(d) * static_cast<std::size_t>(hop);
       std::complex<double> phasor = 1.0, overlap = 0.0;
       for (int t = 0; t + d * hop < segment; ++t) {
         overlap += phasor * (window[static_cast<std::size_t>(t)] *
-                             window[static_cast<std::size_t>(t + d * hop)]);
+                             window[static_cast<std::size_t>(t) + shift]);
         phasor *= step;
       }
       sum += std::norm(overlap) / (power * power) * (segments - d) * (bins - m) *
@@ -103,7 +104,7 @@ CrossSpectrum WelchSpectrum(std::span<const double> p, std::span<const double> q
   std::vector<std::complex<double>> z(static_cast<std::size_t>(segment)), transform;
   for (int start = 0; start + segment <= n; start += Hop(segment)) {
     for (int t = 0; t < segment; ++t) {
-      const auto i = static_cast<std::size_t>(start + t);
+      const auto i = static_cast<std::size_t>(start) + static_cast<std::size_t>(t);
       const double w = window[static_cast<std::size_t>(t)];
       z[static_cast<std::size_t>(t)] = {w * p[i], q.empty() ? 0.0 : w * q[i]};
     }
@@ -147,8 +148,8 @@ Blocks Demodulate(std::span<const double> x, double sampling_hz, double frequenc
     std::complex<double> phasor = std::polar(1.0, std::fmod(radians_per_sample * start, kTwoPi));
     std::complex<double> sum = 0.0;
     for (int t = 0; t < length; ++t) {
-      sum +=
-          phasor * (window[static_cast<std::size_t>(t)] * x[static_cast<std::size_t>(start + t)]);
+      sum += phasor * (window[static_cast<std::size_t>(t)] *
+                       x[static_cast<std::size_t>(start) + static_cast<std::size_t>(t)]);
       phasor *= step;
     }
     blocks.amplitude.push_back(sum * (4.0 / length));  // sum of Hann weights: length / 2

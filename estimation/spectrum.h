@@ -19,9 +19,10 @@ namespace howl {
 std::vector<double> HannWindow(int length);            // periodic
 std::vector<double> BlackmanHarrisWindow(int length);  // periodic
 
-inline constexpr double kBlackmanHarrisHalfPowerBins = 1.90;  // full width at half power
-inline constexpr int kBlackmanHarrisMainLobeBins = 4;         // half width to the first null
-inline constexpr double kHannOverlapCorrelation = 1.0 / 6.0;  // of half-overlapping blocks
+inline constexpr double kBlackmanHarrisHalfPowerBins = 1.90;   // full width at half power
+inline constexpr double kBlackmanHarrisVarianceBins2 = 0.619;  // of its power over frequency
+inline constexpr int kBlackmanHarrisMainLobeBins = 4;          // half width to the first null
+inline constexpr double kHannOverlapCorrelation = 1.0 / 6.0;   // of half-overlapping blocks
 
 struct CrossSpectrum {
   double bin_hz = 0.0;

@@ -45,15 +45,10 @@ MeanError ErrorOfMean(std::span<const std::complex<double>> values, double lag_o
 MeanError ErrorOfMean(std::span<const double> values, double lag_one_correlation);
 
 // Slope of a series y_b = a + mu b + random walk + white noise, seen through half-overlapping Hann
-// blocks, with the strengths d and r of walk and noise unknown: generalised least squares on the
-// increments, whose covariance the sine transform diagonalises to
-//
-//   d (v_0 + 2 v_1 cos + 2 v_2 cos 2) + r (2 - 2 cos)(1 + cos / 3)
-//
-// (v: a walk's increments after Hann's average; 1/6: the overlap's correlation), averaged over d /
-// r by its restricted likelihood with probability `kNoWalkPrior` for d = 0. White noise alone is
-// the phase of a pure tone, a walk that of a diffusing limit cycle; the errors of the slope differ
-// by orders of magnitude.
+// blocks (which correlate neighbours), with the strengths d and r of walk and noise unknown:
+// generalised least squares on the increments, averaged over d / r by its restricted likelihood
+// with probability `kNoWalkPrior` for d = 0. White noise alone is the phase of a pure tone, a walk
+// that of a diffusing limit cycle; the errors of the slope differ by orders of magnitude.
 inline constexpr double kNoWalkPrior = 0.8;
 struct TrendFit {
   Estimate slope;             // per step

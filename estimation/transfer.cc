@@ -7,23 +7,29 @@
 namespace howl {
 namespace {
 
-// Mean of q's spectrum over the top tenth of the band, unless q is coherent with p there: then it
-// is signal, and nothing is known of the noise.
+// The lowest level of q's spectrum over any 16 bins: white noise of q's own is at most that. Zero
+// where q is coherent with p even there: then nothing is known of the noise.
 double HeatReleaseNoise(const CrossSpectrum& spectrum) {
-  const int bins = static_cast<int>(spectrum.qq.size());
-  double qq = 0, pp = 0;
-  std::complex<double> qp = 0;
-  const int first = bins * 88 / 100, last = bins * 98 / 100;
-  for (int k = first; k < last; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    qq += spectrum.qq[i];
-    pp += spectrum.pp[i];
-    qp += spectrum.qp[i];
+  constexpr int kBins = 16;
+  const int last = static_cast<int>(spectrum.qq.size()) * 98 / 100;
+  double lowest = std::numeric_limits<double>::infinity();
+  double coherence = 1.0;
+  for (int start = 3; start + kBins <= last; start += kBins / 2) {
+    double qq = 0, pp = 0;
+    std::complex<double> qp = 0;
+    for (int k = start; k < start + kBins; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      qq += spectrum.qq[i];
+      pp += spectrum.pp[i];
+      qp += spectrum.qp[i];
+    }
+    if (qq < lowest) {
+      lowest = qq;
+      coherence = std::norm(qp) / std::max(qq * pp, 1e-300);
+    }
   }
-  if (last <= first || !(qq > 0.0) || !(pp > 0.0)) return 0.0;
-  const double nu = spectrum.degrees_of_freedom * 0.4 * (last - first);
-  if (std::norm(qp) / (qq * pp) > 7.0 / std::max(nu, 8.0)) return 0.0;
-  return qq / (last - first);
+  const double nu = spectrum.degrees_of_freedom * 0.4 * kBins;
+  return std::isfinite(lowest) && coherence < 7.0 / std::max(nu, 8.0) ? lowest / kBins : 0.0;
 }
 
 }  // namespace
@@ -59,7 +65,7 @@ Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const Spectra
   const int last =
       std::min(static_cast<int>(top / spectrum.bin_hz), static_cast<int>(spectrum.pp.size()) - 1);
   for (int start = first; start + count <= last;) {
-    double pp = 0, qq = 0, moment = 0;
+    double pp = 0, qq = 0, moment = 0, second = 0;
     std::complex<double> qp = 0;
     int blocked = -1;
     for (int k = start; k < start + count; ++k) {
@@ -68,7 +74,8 @@ Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const Spectra
       pp += spectrum.pp[i];
       qq += spectrum.qq[i];
       qp += spectrum.qp[i];
-      moment += spectrum.qq[i] * spectrum.Frequency(k);
+      moment += spectrum.qq[i] * k;
+      second += spectrum.qq[i] * k * k;
     }
     if (blocked >= 0) {
       start = blocked + 1;
@@ -79,10 +86,13 @@ Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const Spectra
     const double raw = std::norm(qp) / (pp * qq);
     const double coherence = (nu * raw - 1.0) / (nu - 1.0);
     if (raw < by_chance || coherence < options.min_coherence) continue;
-    const double noise = std::min(count * transfer.q_noise_psd, 0.5 * qq);
+    const double noise = std::min(0.5 * count * transfer.q_noise_psd, 0.5 * qq);
     const std::complex<double> h = qp / (qq - noise);
     TransferPoint point;
-    point.frequency_hz = moment / qq;
+    const double center = moment / qq;
+    point.frequency_hz = center * spectrum.bin_hz;
+    point.spread_hz =
+        std::sqrt(second / qq - center * center + kBlackmanHarrisVarianceBins2) * spectrum.bin_hz;
     point.re = h.real();
     point.im = h.imag();
     point.coherence = std::min(coherence, 1.0 - 1e-9);
@@ -90,8 +100,8 @@ Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const Spectra
     point.q_noise_bias = noise / (qq - noise);
     point.weight = std::norm(h) * (qq - noise);
     const double scatter = std::norm(h) * (1.0 - point.coherence) / (2.0 * nu * point.coherence);
-    // Half of the correction is doubtful, and it lies along H.
-    const std::complex<double> doubt = 0.5 * point.q_noise_bias * h;
+    // The noise is anything from none to S_n, and what it changes lies along H.
+    const std::complex<double> doubt = point.q_noise_bias / std::sqrt(3.0) * h;
     point.variance_re = scatter + doubt.real() * doubt.real();
     point.variance_im = scatter + doubt.imag() * doubt.imag();
     point.covariance = doubt.real() * doubt.imag();

@@ -2,11 +2,11 @@
 // holds whatever drives it, so that noise entering in the flame identifies G, in closed loop as in
 // open:
 //
-//   H(f) = S_qp(f) / (S_qq(f) - S_n),     var Re H = var Im H = |H|^2 (1 - c) / (2 nu c)
+//   H(f) = S_qp(f) / (S_qq(f) - S_n / 2),     var Re H = var Im H = |H|^2 (1 - c) / (2 nu c)
 //
-// c: coherence, nu: independent complex averages in the point, S_n: the floor of q's own noise,
-// white, read off the top of the spectrum where q is not coherent with p. Noise of p's own only
-// scatters H. What is left of q's noise bounds |H| from below; |H| / c is the bound from above.
+// c: coherence, nu: independent complex averages in the point. Noise of p's own only scatters H;
+// white noise of q's own biases it, and is at most the lowest level S_n of q's spectrum: half of
+// that is taken out, and the doubt adds to the variance along H. |H| / c bounds |H| from above.
 //
 // Bins under the main lobe of a strong line are left out (the window keeps the line's leakage 92 dB
 // down elsewhere). Points are means over `bins_per_point` adjacent bins, at the mean frequency that
@@ -16,6 +16,7 @@
 #define HOWL_ESTIMATION_TRANSFER_H_
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,9 @@ Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const Spectra
 struct TransferFitOptions {
   double harmonic_ratio = kSeedHarmonicRatio;
   bool second_mode = true;  // else M is held at a negligible share of N
+  // Points that take part. Two modes claim nothing far above the second one.
+  double min_frequency_hz = 0.0;
+  double max_frequency_hz = std::numeric_limits<double>::infinity();
 };
 
 struct TransferFitPoint {
@@ -55,19 +59,24 @@ struct TransferFitPoint {
   double model_re = 0.0, model_im = 0.0;
   double misfit = 0.0;  // whitened length of G - H: its square is chi-square with two degrees
   double relative_error = 0.0;  // |G - H| / |H|
+  bool fitted = true;           // within the fit's band
 };
 
-// Two-mode acoustics fitted to the transfer.
+// Two-mode acoustics fitted to the transfer. Where the noise alone cannot explain what is left
+// (chi_square_per_dof above one and a half), a relative model error common to all points is added
+// to their variance until it does: then no few sharp points carry the fit, and the intervals are
+// those of a model that is only so good.
 struct TransferFit {
   bool available = false;  // at least four points, and the solver converged
   Acoustics<double> acoustics{0, 0, 0, 0, kSeedHarmonicRatio};
-  Estimate omega_hz, xi, N, M;  // std widened by sqrt(chi_square_per_dof) where above one
-  // Of log omega_hz, log xi, log N, log M: as the points' variances have it, not widened.
+  Estimate omega_hz, xi, N, M;
+  // Of log omega_hz, log xi, log N, log M, model_error included.
   Eigen::Matrix4d log_covariance = Eigen::Matrix4d::Zero();
-  double chi_square_per_dof = 0.0;
-  double explained_power = 0.0;   // 1 - sum S_qq |G - H|^2 / sum S_qq |H|^2 over the points
-  double noise_power = 0.0;       // the share that the points' own variance leaves unexplained
-  double points_within_95 = 0.0;  // share of points whose misfit the noise explains
+  double chi_square_per_dof = 0.0;  // by the points' own variance, before model_error
+  double model_error = 0.0;         // relative to |H|; zero where the noise explains the misfit
+  double explained_power = 0.0;     // 1 - sum S_qq |G - H|^2 / sum S_qq |H|^2 over all points
+  double noise_power = 0.0;         // the share that the points' own variance leaves unexplained
+  double points_within_95 = 0.0;    // share of points whose misfit the noise explains
   std::vector<TransferFitPoint> points;
 };
 

@@ -8,6 +8,7 @@ namespace howl {
 
 struct TransferPoint {
   double frequency_hz = 0.0;
+  double spread_hz = 0.0;     // standard deviation of the frequencies that the point averages
   double re = 0.0, im = 0.0;  // units of p per unit of q
   double variance_re = 0.0, variance_im = 0.0, covariance = 0.0;
   double coherence = 0.0;           // magnitude squared, free of its bias by few averages

@@ -10,76 +10,18 @@
 #include <limits>
 #include <numbers>
 
-#include "model/laplace.h"
+#include "model/loop_phase.h"
 
 namespace howl {
 namespace {
 
+using internal::LoopPhase;
+using internal::MakeLoopPhase;
+using internal::Quadratic;
+using internal::Range;
+
 constexpr double kPi = std::numbers::pi;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-
-struct Range {
-  double lo;
-  double hi;
-};
-
-// Phase in [0, pi] of c0 - c2 w^2 + j c1 w, all coefficients positive: grows with w.
-struct Quadratic {
-  double c0;
-  double c1;
-  double c2;
-
-  double Phase(double w) const { return std::atan2(c1 * w, c0 - c2 * w * w); }
-  double Rate(double w) const {
-    const double re = c0 - c2 * w * w;
-    const double im = c1 * w;
-    return c1 * (c0 + c2 * w * w) / (re * re + im * im);
-  }
-  // Of the rate over [a, b]: it rises to one peak and falls. With x = w^2 c2 / c0 and
-  // k = c1^2 / (c0 c2) the peak is at x = sqrt(4 - k) - 1, or at zero.
-  Range RateRange(double a, double b) const {
-    const double k = c1 * c1 / (c0 * c2);
-    const double x = k < 3.0 ? std::sqrt(4.0 - k) - 1.0 : 0.0;
-    const double peak = std::sqrt(x * c0 / c2);
-    const double at_a = Rate(a);
-    const double at_b = Rate(b);
-    return {std::min(at_a, at_b), peak > a && peak < b ? Rate(peak) : std::max(at_a, at_b)};
-  }
-};
-
-struct LoopPhase {
-  Quadratic numerator;
-  Quadratic first;
-  Quadratic second;
-  double tau;
-
-  double At(double w) const {
-    return kPi + numerator.Phase(w) - first.Phase(w) - second.Phase(w) - tau * w;
-  }
-  double Rate(double w) const { return numerator.Rate(w) - first.Rate(w) - second.Rate(w) - tau; }
-  Range Bounds(double a, double b) const {
-    return {kPi + numerator.Phase(a) - first.Phase(b) - second.Phase(b) - tau * b,
-            kPi + numerator.Phase(b) - first.Phase(a) - second.Phase(a) - tau * a};
-  }
-  Range RateBounds(double a, double b) const {
-    const Range n = numerator.RateRange(a, b);
-    const Range f = first.RateRange(a, b);
-    const Range s = second.RateRange(a, b);
-    return {n.lo - f.hi - s.hi - tau, n.hi - f.lo - s.lo - tau};
-  }
-};
-
-LoopPhase MakeLoopPhase(const LoopParameters<double>& loop) {
-  const Acoustics<double>& a = loop.acoustics;
-  CHECK(a.N >= 0.0 && a.M >= 0.0 && a.N + a.M > 0.0) << "N " << a.N << ", M " << a.M;
-  CHECK(a.omega_hz > 0.0 && a.xi > 0.0 && a.harmonic_ratio > 0.0 && loop.tau_s >= 0.0);
-  const double w1 = kRadPerSPerHz * a.omega_hz;
-  const double w2 = a.harmonic_ratio * w1;
-  return {{a.N * w2 * w2 + a.M * w1 * w1, 2.0 * a.xi * (a.N * w2 + a.M * w1), a.N + a.M},
-          {w1 * w1, 2.0 * a.xi * w1, 1.0},
-          {w2 * w2, 2.0 * a.xi * w2, 1.0},
-          loop.tau_s};
-}
 
 // The root of phase(w) = target in [a, b], on which the phase is monotonic: Newton inside a
 // bracket.

@@ -23,17 +23,19 @@ Decimator::Decimator(int ratio) : ratio_(ratio), half_length_(0), taps_{1.0} {
   if (ratio == 1) return;
   constexpr double kPi = std::numbers::pi;
   const double transition = 2.0 * kPi * (kStopBand - kPassBand) / ratio;  // rad a sample
-  half_length_ = static_cast<int>(std::ceil(0.5 * (kAttenuationDb - 7.95) / (2.285 * transition)));
+  const auto half =
+      static_cast<std::size_t>(std::ceil(0.5 * (kAttenuationDb - 7.95) / (2.285 * transition)));
+  half_length_ = static_cast<int>(half);
   const double beta = 0.1102 * (kAttenuationDb - 8.7);
   const double cutoff = 0.5 * (kPassBand + kStopBand) / ratio;  // cycles a sample
-  taps_.resize(static_cast<std::size_t>(2 * half_length_ + 1));
+  taps_.resize(2 * half + 1);
   double sum = 0.0;
-  for (int i = -half_length_; i <= half_length_; ++i) {
-    const double x = static_cast<double>(i) / half_length_;
-    const double sinc = i == 0 ? 2.0 * cutoff : std::sin(2.0 * kPi * cutoff * i) / (kPi * i);
-    const double window = boost::math::cyl_bessel_i(0, beta * std::sqrt(1.0 - x * x));
-    taps_[static_cast<std::size_t>(i + half_length_)] = sinc * window;
-    sum += sinc * window;
+  for (std::size_t k = 0; k < taps_.size(); ++k) {
+    const double i = static_cast<double>(k) - static_cast<double>(half);
+    const double x = i / static_cast<double>(half);
+    const double sinc = k == half ? 2.0 * cutoff : std::sin(2.0 * kPi * cutoff * i) / (kPi * i);
+    taps_[k] = sinc * boost::math::cyl_bessel_i(0, beta * std::sqrt(1.0 - x * x));
+    sum += taps_[k];
   }
   for (double& tap : taps_) tap /= sum;
 }

@@ -67,7 +67,7 @@ class Monodromy {
       fill_heat(m + kLast);
       auto next_rate = rate.row(rate_row(m + 1));
       next_rate = direct_ * heat.row(heat_row(m + 1));
-      for (int mode = 0; mode < 2; ++mode) {
+      for (Eigen::Index mode = 0; mode < 2; ++mode) {
         const auto& s = modes_[static_cast<std::size_t>(mode)];
         const Eigen::RowVectorXd y = x.row(2 * mode);
         const Eigen::RowVectorXd p = x.row(2 * mode + 1);

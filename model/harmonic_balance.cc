@@ -48,20 +48,38 @@ std::optional<LimitCycle> Solve(const ClosedLoop& model, BalanceState state,
   }
 }
 
-// The amplitude at which |L| D(A) = 1. D falls with A for shapes that saturate.
-double DescribingFunctionAmplitude(const Flame<double>& flame, double loop_magnitude) {
-  double lo = 0.0;
-  double hi = internal::RateScale(flame);
-  const auto gain = [&](double a) {
-    return loop_magnitude * std::abs(DescribingFunction(flame, a, 256));
-  };
-  for (int i = 0; i < 60 && gain(hi) > 1.0; ++i) hi *= 2.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (lo + hi);
-    (gain(middle) > 1.0 ? lo : hi) = middle;
+// The describing function against amplitude, from nearly linear to far in saturation.
+class DescribingTable {
+ public:
+  explicit DescribingTable(const Flame<double>& flame) {
+    const double scale = internal::RateScale(flame);
+    constexpr double kRatio = 1.15;
+    for (double a = 0.003; a < 300.0; a *= kRatio) {
+      const double amplitude = a * scale;
+      amplitudes_.push_back(amplitude);
+      gains_.push_back(std::abs(DescribingFunction(flame, amplitude, 256)));
+    }
   }
-  return hi;
-}
+
+  // Amplitudes at which |L| D(A) = 1: one for flames that only flatten, two where the flame is
+  // steeper at some amplitude than at rest.
+  std::vector<double> Solutions(double loop_magnitude) const {
+    std::vector<double> solutions;
+    for (std::size_t i = 1; i < gains_.size(); ++i) {
+      const double before = std::log(loop_magnitude * gains_[i - 1]);
+      const double after = std::log(loop_magnitude * gains_[i]);
+      if (before * after > 0.0 || before == after) continue;
+      const double share = before / (before - after);
+      solutions.push_back(amplitudes_[i - 1] *
+                          std::pow(amplitudes_[i] / amplitudes_[i - 1], share));
+    }
+    return solutions;
+  }
+
+ private:
+  std::vector<double> amplitudes_;
+  std::vector<double> gains_;
+};
 
 }  // namespace
 
@@ -86,18 +104,21 @@ std::vector<LimitCycle> LimitCycles(const ClosedLoop& model, double frequency_ma
                                     const HarmonicBalanceOptions& options) {
   std::vector<LimitCycle> cycles;
   const double slope = FlameSlope(model.flame, 0.0);
-  for (const PhaseCrossing& crossing : PhaseCrossings(model.loop, slope, frequency_max_hz)) {
-    if (crossing.gain <= 1.0) continue;
-    const double amplitude =
-        DescribingFunctionAmplitude(model.flame, crossing.gain / std::abs(slope));
-    auto cycle = SolveLimitCycle(model, crossing.frequency_hz, amplitude, options);
-    if (!cycle) continue;
+  const DescribingTable table(model.flame);
+  const auto add = [&](LimitCycle cycle) {
+    if (cycle.frequency_hz > 1.05 * frequency_max_hz) return;
     const bool known = std::any_of(cycles.begin(), cycles.end(), [&](const LimitCycle& other) {
-      return std::abs(other.frequency_hz - cycle->frequency_hz) < 1e-6 * cycle->frequency_hz &&
-             std::abs(other.rate_amplitude() - cycle->rate_amplitude()) <
-                 1e-6 * cycle->rate_amplitude();
+      return std::abs(other.frequency_hz - cycle.frequency_hz) < 1e-6 * cycle.frequency_hz &&
+             std::abs(other.rate_amplitude() - cycle.rate_amplitude()) <
+                 1e-6 * cycle.rate_amplitude();
     });
-    if (!known) cycles.push_back(std::move(*cycle));
+    if (!known) cycles.push_back(std::move(cycle));
+  };
+  for (const PhaseCrossing& crossing : PhaseCrossings(model.loop, slope, frequency_max_hz)) {
+    for (const double amplitude : table.Solutions(crossing.gain / std::abs(slope))) {
+      auto cycle = SolveLimitCycle(model, crossing.frequency_hz, amplitude, options);
+      if (cycle) add(std::move(*cycle));
+    }
   }
   std::sort(cycles.begin(), cycles.end(), [](const LimitCycle& l, const LimitCycle& r) {
     return l.frequency_hz < r.frequency_hz;

@@ -49,8 +49,10 @@ std::optional<LimitCycle> SolveLimitCycle(const ClosedLoop& model, double freque
 std::optional<LimitCycle> RefineLimitCycle(const ClosedLoop& model, const LimitCycle& start,
                                            const HarmonicBalanceOptions& options = {});
 
-// One start at each phase crossing with gain above one, from its describing function; duplicates
-// removed. In order of frequency.
+// One start for each phase crossing and each amplitude at which the describing function closes the
+// loop there: with a flame that is steeper away from rest, also cycles of a loop that is stable at
+// rest. Duplicates are removed; in order of frequency. What no describing function
+// sees is not found: follow a branch to it (model/continuation.h).
 std::vector<LimitCycle> LimitCycles(const ClosedLoop& model, double frequency_max_hz,
                                     const HarmonicBalanceOptions& options = {});
 

@@ -12,26 +12,6 @@ namespace {
 constexpr int kChunk = 16 * kLoopBlock;  // steps between visits of the recorders
 constexpr double kAmplitudeMemory_s = 0.02;
 
-struct ModeParameters {
-  double omega_rad_s;
-  double xi;
-  double coefficient;
-};
-
-std::array<ModeParameters, kMaxModes> Modes(const RigParameters& rig,
-                                            const LoopParameters<double>& loop) {
-  const Acoustics<double>& a = loop.acoustics;
-  const double omega = kRadPerSPerHz * a.omega_hz;
-  std::array<ModeParameters, kMaxModes> modes{};
-  modes[0] = {omega, a.xi, a.N};
-  modes[1] = {a.harmonic_ratio * omega, a.xi, a.M};
-  for (std::size_t k = 0; k < rig.extra_modes.size(); ++k) {
-    const ExtraMode& extra = rig.extra_modes[k];
-    modes[2 + k] = {kRadPerSPerHz * extra.frequency_hz, extra.xi, extra.coefficient};
-  }
-  return modes;
-}
-
 bool SameLoop(const LoopParameters<double>& a, const LoopParameters<double>& b) {
   return a.acoustics.omega_hz == b.acoustics.omega_hz && a.acoustics.xi == b.acoustics.xi &&
          a.acoustics.N == b.acoustics.N && a.acoustics.M == b.acoustics.M &&
@@ -66,11 +46,10 @@ class LaneGroup {
     }
     has_effects_ = W == 1 && !first.effects.empty();
     past_ = (has_effects_ ? 4 : 1) * most_delay_steps + kOrder + kLoopBlock;
-    const auto rows = static_cast<std::size_t>(past_ + kChunk + 2 * kLoopBlock);
+    const std::size_t rows = static_cast<std::size_t>(past_) + kChunk + kLoopBlock + kLoopBlock;
     rate_.assign(rows * W, 0.0);
     heat_.assign(rows * W, 0.0);
     pressure_.assign(rows * W, 0.0);
-    flame_.assign(static_cast<std::size_t>(kLoopBlock) * W, 0.0);
     for (std::size_t l = 0; l < cases.size(); ++l) {
       recorders_.emplace_back(*cases[l], options, ratio);
       const Noise& noise = cases[l]->rig.noise;
@@ -80,7 +59,7 @@ class LaneGroup {
     }
     half_length_ = recorders_[0].half_length();
     settle_steps_ = std::llround(options.settle_s * internal_hz);
-    samples_ = std::llround(options.duration_s * options.sampling_hz) * ratio + 2 * half_length_;
+    samples_ = std::llround(options.duration_s * options.sampling_hz) * ratio + 2LL * half_length_;
     // The recorders' first sample is the one at step `settle_steps_`, counted from the initial
     // state; the record's first half_length_ later.
     if (has_effects_) StartEffects();
@@ -183,13 +162,11 @@ class LaneGroup {
     } else {
       for (int l = 0; l < W; ++l) {
         const double* from =
-            rate_.data() +
-            static_cast<std::ptrdiff_t>(fill_row_ - delay_steps_[static_cast<std::size_t>(l)] +
-                                        kFirstNode<kOrder>) *
-                W +
+            Row(rate_, fill_row_ - delay_steps_[static_cast<std::size_t>(l)] + kFirstNode<kOrder>) +
             l;
         double* to = block_.window.data() + l;
-        for (int i = 0; i < count + kOrder - 1; ++i) to[i * W] = from[i * W];
+        const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(count + kOrder - 1) * W;
+        for (std::ptrdiff_t i = 0; i < end; i += W) to[i] = from[i];
       }
       Interpolate(block_, count, heat);
     }
@@ -323,7 +300,6 @@ class LaneGroup {
   std::vector<double> rate_;
   std::vector<double> heat_;
   std::vector<double> pressure_;
-  std::vector<double> flame_;
   std::vector<double> line_p_;
   std::vector<double> line_q_;
   std::vector<Recorder> recorders_;
@@ -341,32 +317,6 @@ class LaneGroup {
 };
 
 }  // namespace
-
-int NumModes(const RigParameters& rig) {
-  CHECK_LE(rig.extra_modes.size(), 2u);
-  return 2 + static_cast<int>(rig.extra_modes.size());
-}
-
-LaneCoefficients MakeCoefficients(const RigParameters& rig, const LoopParameters<double>& loop,
-                                  const Flame<double>& flame, double step_s) {
-  const auto modes = Modes(rig, loop);
-  LaneCoefficients c;
-  for (int k = 0; k < NumModes(rig); ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    c.steps[at] =
-        MakeModeStep<kOrder>(modes[at].omega_rad_s, modes[at].xi, modes[at].coefficient, step_s);
-    c.omega_rad_s[at] = modes[at].omega_rad_s;
-    c.damping_rad_s[at] = 2.0 * modes[at].omega_rad_s * modes[at].xi;
-    c.direct += modes[at].coefficient;
-  }
-  const DelaySteps delay = SplitDelay(loop.tau_s, step_s);
-  c.delay_steps = delay.steps;
-  c.delay_weights = delay.weights;
-  c.flame_gain = flame.slope / flame.saturation;
-  c.flame_offset = flame.offset;
-  c.saturation = flame.saturation;
-  return c;
-}
 
 void RunLanes(std::span<const SimulationCase* const> cases, const SimulationOptions& options,
               double internal_hz, std::span<SimulatedRecord*> records) {

@@ -3,9 +3,9 @@
 #ifndef HOWL_MODEL_LANE_GROUP_H_
 #define HOWL_MODEL_LANE_GROUP_H_
 
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +25,14 @@ enum class StreamKey : std::uint64_t {
   kDigitisers = 3000
 };
 
+struct ModeParameters {
+  double omega_rad_s;
+  double xi;
+  double coefficient;
+};
+
+std::array<ModeParameters, kMaxModes> Modes(const RigParameters& rig,
+                                            const LoopParameters<double>& loop);
 LaneCoefficients MakeCoefficients(const RigParameters& rig, const LoopParameters<double>& loop,
                                   const Flame<double>& flame, double step_s);
 int NumModes(const RigParameters& rig);

@@ -4,7 +4,8 @@
 //   S(f) = S0 / (1 + (f / f_c)^2)    in (units of q)^2 / Hz
 //
 // an Ornstein-Uhlenbeck process of variance S0 f_c pi / 2, sampled exactly at the internal rate
-// f_i. With f_c infinite it is white up to f_i / 2, of variance S0 f_i / 2: since q acts on p'
+// f_i: what it has beyond f_i / 2 folds back, (pi f_c / f_i)^2 / 3 of S0 (3 % for f_c = f_i / 10).
+// With f_c infinite it is white up to f_i / 2, of variance S0 f_i / 2: since q acts on p'
 // directly, white noise without a band has no meaning for this loop, and the internal rate is then
 // a part of the model.
 //

@@ -28,8 +28,8 @@ Recorder::Recorder(const SimulationCase& one, const SimulationOptions& options, 
       seed_(one.seed) {
   record_.sampling_hz = options.sampling_hz;
   record_.internal_hz = options.sampling_hz * ratio;
-  record_.pressure.reserve(wanted_ + 1);
-  record_.heat_release.reserve(wanted_ + 1);
+  record_.pressure.reserve(wanted_ + 1024);  // the last chunk goes beyond
+  record_.heat_release.reserve(wanted_ + 1024);
   for (const auto& instrument : one.rig.instruments) {
     instruments_.push_back(instrument->Clone());
     instruments_.back()->Start(record_.internal_hz,

@@ -44,20 +44,57 @@ void SwitchOff(MembershipTest& test, Condition condition) {
   }
 }
 
-Feasibility DecideWith(FamilyProblem problem, unsigned kept) {
-  for (std::size_t k = 0; k < kNumConditions; ++k) {
-    if (!((kept >> k) & 1u)) SwitchOff(problem.test, kConditions[k]);
+// A search draws best within tolerances of a moderate size, and a member at those is one without
+// them: they stand for "switched off", from narrow to wide, before the real thing.
+constexpr MembershipTest kModerate[] = {{0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false},
+                                        {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false},
+                                        {0.6, 30.0, 90.0, 0.0, 180.0, 1.5, 1.0, false}};
+
+void Widen(MembershipTest& test, Condition condition, const MembershipTest& to) {
+  MembershipTest wide = to;
+  double* const value = Tolerance(test, condition);
+  const double* const target = Tolerance(wide, condition);
+  if (value == nullptr || target == nullptr) {
+    test.xi_increasing = false;
+  } else if (condition == Condition::kLoopGain) {
+    *value = 0.0;
+  } else {
+    *value = std::max(*value, *target);
   }
-  return DecideFeasible(problem);
 }
 
-Relaxation Relax(const FamilyProblem& problem, Condition condition, bool searching) {
+// The problem with only the conditions in `kept`. A member that was found is told.
+Feasibility DecideWith(const FamilyProblem& problem, unsigned kept,
+                       const std::vector<Member>& known, std::optional<Member>& member) {
+  FamilyProblem at = problem;
+  const auto each_other = [&](const auto& change) {
+    for (std::size_t k = 0; k < kNumConditions; ++k) {
+      if (!((kept >> k) & 1u)) change(kConditions[k]);
+    }
+  };
+  each_other([&](Condition condition) { SwitchOff(at.test, condition); });
+  if (HasExactWindows(at)) return DecideFeasible(at);
+  for (const Member& candidate : known) {
+    if (Holds(at, candidate)) return Feasibility::kMember;
+  }
+  for (const MembershipTest& level : kModerate) {
+    FamilyProblem moderate = problem;
+    each_other([&](Condition condition) { Widen(moderate.test, condition, level); });
+    member = FindMember(moderate);
+    if (member) return Feasibility::kMember;
+  }
+  return DecideFeasible(at);
+}
+
+Relaxation Relax(const FamilyProblem& problem, Condition condition, bool searching,
+                 const std::vector<Member>& known) {
   Relaxation relaxation{.condition = condition, .value = 1.0, .needed = std::nullopt};
   FamilyProblem at = problem;
   double* const value = Tolerance(at.test, condition);
   if (value != nullptr) relaxation.value = *value;
-  SwitchOff(at.test, condition);
-  relaxation.suffices = DecideFeasible(at) == Feasibility::kMember;
+  std::optional<Member> member;
+  const unsigned others = ~(1u << static_cast<unsigned>(condition));
+  relaxation.suffices = DecideWith(problem, others, known, member) == Feasibility::kMember;
   if (value == nullptr) return relaxation;
   if (!relaxation.suffices) return relaxation;
   // The family only grows with a tolerance: bisection between too tight and wide enough.
@@ -97,6 +134,7 @@ Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
   if (!conflict.is_empty) return conflict;
 
   std::vector<unsigned> minimal;
+  std::vector<Member> known;  // found so far, to be tried first
   for (int size = 0; size <= static_cast<int>(kNumConditions); ++size) {
     std::vector<unsigned> candidates;
     for (unsigned set = 0; set < (1u << kNumConditions); ++set) {
@@ -107,8 +145,13 @@ Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
       if (!contains_smaller) candidates.push_back(set);
     }
     std::vector<Feasibility> answers(candidates.size());
-    RunUnits(candidates.size(), threads,
-             [&](std::size_t k) { answers[k] = DecideWith(problem, candidates[k]); });
+    std::vector<std::optional<Member>> found(candidates.size());
+    RunUnits(candidates.size(), threads, [&](std::size_t k) {
+      answers[k] = DecideWith(problem, candidates[k], known, found[k]);
+    });
+    for (const std::optional<Member>& member : found) {
+      if (member) known.push_back(*member);
+    }
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       if (answers[k] == Feasibility::kMember) continue;
       conflict.proved &= answers[k] == Feasibility::kEmpty;
@@ -127,7 +170,7 @@ Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
   for (std::size_t k = 0; k < kNumConditions && !minimal.empty(); ++k) {
     if ((in_all >> k) & 1u) {
       conflict.relaxations.push_back(
-          Relax(problem, kConditions[k], whole == Feasibility::kNotFound));
+          Relax(problem, kConditions[k], whole == Feasibility::kNotFound, known));
     }
   }
   return conflict;

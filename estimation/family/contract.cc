@@ -24,8 +24,56 @@ bool NarrowProduct(Interval& product, Interval& a, Interval& b) {
          Narrow(b, Quotient(product, a));
 }
 
-bool NarrowOmega(const ContractTarget& target, const Interval& detuning,
-                 ExperimentBox& box) {
+// g = (4 z xi^2 + (1 - z)^2) / (1 + r z), z > 0: rises with xi, and is convex in z, as it is
+// z / r + a + c / (1 + r z) with c = 1 + 2 b / r + 1 / r^2 > 0, b = 1 - 2 xi^2.
+Interval ModeShape(const Interval& z, const Interval& xi, const Interval& r) {
+  if (!std::isfinite(z.upper()) || !std::isfinite(xi.upper())) return {0.0, kUnbounded};
+  const auto at = [&](double point, double damping) {
+    const Interval x(point);
+    return (4.0 * x * square(Interval(damping)) + square(1.0 - x)) / (1.0 + r * x);
+  };
+  const double hi = std::max(at(z.lower(), xi.upper()).upper(), at(z.upper(), xi.upper()).upper());
+  const Interval b = 1.0 - 2.0 * square(Interval(xi.lower()));
+  const Interval c = 1.0 + 2.0 * b / r + 1.0 / square(r);
+  if (!(c.lower() > 0.0)) {  // strong damping: no use is made of convexity
+    return Interval((4.0 * z * square(xi) + square(1.0 - z)) / (1.0 + r * z));
+  }
+  // Least near (1 + r z)^2 = r^2 c; the tangent there bounds a convex function from below.
+  const double near = (std::sqrt(c.lower()) * r.lower() - 1.0) / r.lower();
+  const double point = std::clamp(near, z.lower(), z.upper());
+  const Interval slope = 1.0 / r - r * c / square(1.0 + r * Interval(point));
+  const Interval tangent = at(point, xi.lower()) + slope * (z - Interval(point));
+  return {std::max(tangent.lower(), 0.0), hi};
+}
+
+// F = (y / xi - t) g about the middle of the box (mean value form): its error falls with the square
+// of the box, where the plain product's falls with the box alone. y' is negative; f is the
+// frequency at which y vanishes, scale = z / (omega / f)^2.
+Interval CentredProduct(const Interval& f, const Interval& scale, const Interval& ratio,
+                        const ExperimentBox& box, const Interval& y, const Interval& g) {
+  const Interval& omega = box[kCellOmega];
+  const Interval& xi = box[kCellXi];
+  const Interval& t = box[kCellTangent];
+  if (!(xi.lower() > 0.0) || !std::isfinite(omega.upper())) return {-kUnbounded, kUnbounded};
+  const auto middle = [](const Interval& x) { return Interval(0.5 * (x.lower() + x.upper())); };
+  const Interval omega_m = middle(omega), xi_m = middle(xi), t_m = middle(t);
+  const Interval z_m = scale * square(omega_m / f);
+  const Interval g_m = (4.0 * z_m * square(xi_m) + square(1.0 - z_m)) / (1.0 + ratio * z_m);
+  const Interval y_m = 0.5 * (f / omega_m - omega_m / f);
+  const Interval z = scale * square(omega / f);
+  const Interval h = y / xi - t;
+  const Interval lift = 1.0 + ratio * z;
+  const Interval b = 1.0 - 2.0 * square(xi);
+  const Interval g_z =
+      1.0 / ratio - ratio * (1.0 + 2.0 * b / ratio + 1.0 / square(ratio)) / square(lift);
+  const Interval y_omega = -0.5 * (f / square(omega) + 1.0 / f);
+  const Interval f_omega = y_omega / xi * g + h * g_z * (2.0 * scale * omega / square(f));
+  const Interval f_xi = h * 8.0 * z * xi / lift - y / square(xi) * g;
+  return (y_m / xi_m - t_m) * g_m + f_omega * (omega - omega_m) + f_xi * (xi - xi_m) -
+         g * (t - t_m);
+}
+
+bool NarrowOmega(const ContractTarget& target, const Interval& detuning, ExperimentBox& box) {
   return Narrow(box[kCellOmega], OmegaOf(target.frequency_hz, detuning));
 }
 
@@ -77,40 +125,45 @@ bool ContractTwoModes(const ContractTarget& target, ExperimentBox& box) {
       !NarrowLower(y, across.lower()) || !NarrowUpper(y_r, across.upper())) {
     return false;
   }
-  Interval D = y - across;
-  Interval E = across - y_r;
-  if (!NarrowLower(D, 0.0) || !NarrowLower(E, 0.0)) return false;
-  const Interval x = omega / target.frequency_hz;
-  // B = 4 r x^2 w |G| cos(theta) / ((r - 1) (1 + r x^2)); x^2 / (1 + r x^2) = 1 / (1 / x^2 + r)
-  const Interval B = 4.0 * r * target.w_rad_s * box[kCellGain] /
-                     (Secant(tangent) * (r - 1.0) * (Quotient(Interval(1.0), square(x)) + r));
-  const Interval across_r = square(xi) + square(y_r);
-  const Interval across_1 = square(xi) + square(y);
-  // M xi = r B D (xi^2 + y_r^2),  N xi = B E (xi^2 + y^2)
-  const Interval scale_M = r * B * across_r;
-  const Interval scale_N = B * across_1;
-  if (!Narrow(box[kCellM], Quotient(scale_M * D, xi)) ||
-      !Narrow(D, Quotient(box[kCellM] * xi, scale_M)) ||
-      !Narrow(box[kCellN], Quotient(scale_N * E, xi)) ||
-      !Narrow(E, Quotient(box[kCellN] * xi, scale_N))) {
+  // H_1 = t - y_r / xi >= 0,  H_r = y / xi - t >= 0
+  Interval h_1 = tangent - Quotient(y_r, xi);
+  Interval h_r = Quotient(y, xi) - tangent;
+  if (!NarrowLower(h_1, 0.0) || !NarrowLower(h_r, 0.0)) return false;
+  const Interval z = square(omega / target.frequency_hz);
+  const Interval g_1 = ModeShape(z, xi, r);
+  const Interval g_r = ModeShape(square(r) * z, xi, 1.0 / r);
+  // N = r K H_1 g_1,  M = K H_r g_r,  K = w |G| cos(theta) / (r - 1)
+  const Interval rate = target.w_rad_s / (Secant(tangent) * (r - 1.0));
+  const Interval k = rate * box[kCellGain];
+  Interval& n = box[kCellN];
+  Interval& m = box[kCellM];
+  Interval& relative = box[kCellRelative];
+  Interval product_1 = h_1 * g_1;
+  Interval product_r = h_r * g_r;
+  const Interval f_r = target.frequency_hz / r;
+  if (!Narrow(product_1, -CentredProduct(f_r, 1.0 / square(r), r, box, y_r, g_1)) ||
+      !Narrow(product_r, CentredProduct(target.frequency_hz, square(r), 1.0 / r, box, y, g_r))) {
     return false;
   }
-  // M / N = r D (xi^2 + y_r^2) / (E (xi^2 + y^2))
-  if (!Narrow(box[kCellRelative], Quotient(r * D * across_r, E * across_1)) ||
-      !Narrow(box[kCellRelative], Quotient(box[kCellM], box[kCellN])) ||
-      !Narrow(box[kCellM], box[kCellRelative] * box[kCellN]) ||
-      !Narrow(box[kCellN], Quotient(box[kCellM], box[kCellRelative])) ||
-      !Narrow(D, Quotient(box[kCellRelative] * E * across_1, r * across_r)) ||
-      !Narrow(E, Quotient(r * D * across_r, box[kCellRelative] * across_1))) {
+  if (!Narrow(n, r * k * product_1) || !Narrow(m, k * product_r) ||
+      !Narrow(relative, Quotient(product_r, r * product_1)) || !Narrow(relative, Quotient(m, n)) ||
+      !Narrow(m, relative * n) || !Narrow(n, Quotient(m, relative))) {
     return false;
   }
-  if (!Narrow(y, across + D) || !Narrow(y_r, across - E) || !Narrow(across, y - D) ||
-      !Narrow(across, y_r + E)) {
+  if (!Narrow(h_1, Quotient(n, r * k * g_1)) || !Narrow(h_r, Quotient(m, k * g_r)) ||
+      !Narrow(h_r, relative * r * h_1 * g_1 / g_r) ||
+      !Narrow(h_1, Quotient(h_r * g_r, relative * r * g_1)) ||
+      !Narrow(box[kCellGain], Quotient(n, r * rate * h_1 * g_1)) ||
+      !Narrow(box[kCellGain], Quotient(m, rate * h_r * g_r))) {
+    return false;
+  }
+  if (!Narrow(y, xi * (h_r + tangent)) || !Narrow(y_r, xi * (tangent - h_1)) ||
+      !Narrow(tangent, Quotient(y, xi) - h_r) || !Narrow(tangent, Quotient(y_r, xi) + h_1) ||
+      !Narrow(xi, Quotient(y, h_r + tangent)) || !Narrow(xi, Quotient(y_r, tangent - h_1))) {
     return false;
   }
   return Narrow(omega, OmegaOf(target.frequency_hz, y)) &&
-         Narrow(omega, OmegaOf(target.frequency_hz / r, y_r)) &&
-         NarrowProduct(across, tangent, xi);
+         Narrow(omega, OmegaOf(target.frequency_hz / r, y_r));
 }
 
 bool ContractDelay(const ContractTarget& target, ExperimentBox& box) {

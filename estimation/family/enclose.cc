@@ -16,8 +16,9 @@ namespace howl {
 
 namespace {
 
-constexpr double kRounding = 1e-12;   // of a bound: the test itself is evaluated in doubles
-constexpr double kFinest = 1e-9;      // of a root cell: no split below
+constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated in doubles
+constexpr double kFinest = 1e-9;     // of a root cell: no split below
+constexpr std::size_t kTrials = 12;  // candidates for a split
 constexpr std::size_t kBaseMembers = 1000;
 
 CellVariable VariableOf(FamilyParameter parameter) {
@@ -38,12 +39,17 @@ CellVariable VariableOf(FamilyParameter parameter) {
   return kCellOmega;
 }
 
+// A variable that is split by ratios rather than by differences.
+constexpr double kDecadesFloor = 1e-3;
+bool SpansDecades(const Interval& x) { return x.upper() > 10.0 * x.lower(); }
+
 enum class SearchState { kNew, kRunning, kClosed, kBudget };
 
 struct BoundSearch {
   std::size_t experiment = 0;
   FamilyParameter parameter = FamilyParameter::kOmega;
-  double sign = 1.0;  // +1: upper end
+  double sign = 1.0;                       // +1: upper end
+  const Expression* expression = nullptr;  // in the parameter's place
   SearchState state = SearchState::kNew;
   double inner = -kUnbounded;    // sign * value, of a member
   double settled = -kUnbounded;  // sign * reach of cells too fine to split
@@ -94,40 +100,63 @@ struct Enclosure::Impl {
   MemberDrawer drawer;
   std::vector<BoundSearch> searches;
   std::vector<double> range;  // of each search's parameter over the base members
+  Enumeration base;
+  std::size_t first_expression = 0;
   Cell root;
   bool root_empty;
 
   Impl(const FamilyProblem& p, const EncloseOptions& o)
       : problem(p), options(o), contractor(p), drawer(p), root(contractor.Root()) {
     root_empty = !contractor.Contract(root);
-    const Enumeration base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
-    for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    if (options.max_cells == 0) {
+      options.max_cells = problem.model.modes == 1
+                              ? 4000
+                              : std::max<std::size_t>(60, 400 / problem.experiments.size());
+    }
+    base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
+    for (std::size_t i = 0; options.parameters && i < problem.experiments.size(); ++i) {
       for (const FamilyParameter parameter : kFamilyParameters) {
-        if (!Has(i, parameter)) continue;
-        double lo = kUnbounded, hi = -kUnbounded;
-        std::size_t lowest = 0, highest = 0;
-        for (std::size_t k = 0; k < base.members.size(); ++k) {
-          const double value =
-              ParameterValue(problem.experiments[i], base.members[k][i], parameter);
-          if (value < lo) lo = value, lowest = k;
-          if (value > hi) hi = value, highest = k;
-        }
-        for (const double sign : {-1.0, 1.0}) {
-          BoundSearch search;
-          search.experiment = i;
-          search.parameter = parameter;
-          search.sign = sign;
-          search.random = UnitRandom(options.seed, 0x100000 + searches.size());
-          search.focus.experiment = i;
-          if (lo <= hi) {
-            search.inner = sign > 0.0 ? hi : -lo;
-            search.witness = base.members[sign > 0.0 ? highest : lowest];
-          }
-          range.push_back(lo < hi ? hi - lo : 1e-6 * std::abs(lo));
-          searches.push_back(std::move(search));
-        }
+        BoundSearch search;
+        search.experiment = i;
+        search.parameter = parameter;
+        if (Has(i, parameter)) Add(search);
       }
     }
+    first_expression = searches.size();
+    for (const BoundedExpression& bounded : options.expressions) {
+      BoundSearch search;
+      search.experiment = bounded.experiment;
+      search.expression = &bounded.expression;
+      Add(search);
+    }
+  }
+
+  // Both ends.
+  void Add(BoundSearch search) {
+    double lo = kUnbounded, hi = -kUnbounded;
+    std::size_t lowest = 0, highest = 0;
+    for (std::size_t k = 0; k < base.members.size(); ++k) {
+      const double value = Value(search, base.members[k]);
+      if (value < lo) lo = value, lowest = k;
+      if (value > hi) hi = value, highest = k;
+    }
+    search.focus.experiment = search.experiment;
+    for (const double sign : {-1.0, 1.0}) {
+      search.sign = sign;
+      search.random = UnitRandom(options.seed, 0x100000 + searches.size());
+      if (lo <= hi) {
+        search.inner = sign > 0.0 ? hi : -lo;
+        search.witness = base.members[sign > 0.0 ? highest : lowest];
+      }
+      range.push_back(lo < hi ? hi - lo : (lo == hi ? 1e-6 * std::abs(lo) : 0.0));
+      searches.push_back(search);
+    }
+  }
+
+  double Value(const BoundSearch& search, const Member& models) const {
+    const std::size_t i = search.experiment;
+    return search.expression ? search.expression->Evaluate(problem.experiments, models, i)
+                             : ParameterValue(problem.experiments[i], models[i], search.parameter);
   }
 
   bool Has(std::size_t i, FamilyParameter parameter) const {
@@ -140,6 +169,12 @@ struct Enclosure::Impl {
 
   // The sign * value that the cell reaches.
   double Reach(const BoundSearch& search, const Cell& cell) const {
+    if (search.expression) {
+      const RoundingGuard guard;
+      const Interval value = search.expression->Evaluate(
+          problem.experiments, cell, problem.model.harmonic_ratio, search.experiment);
+      return search.sign > 0.0 ? value.upper() : -value.lower();
+    }
     Interval value = cell.boxes[search.experiment][VariableOf(search.parameter)];
     if (search.parameter == FamilyParameter::kLoopGain) {
       const RoundingGuard guard;
@@ -155,9 +190,7 @@ struct Enclosure::Impl {
     if (!drawer.HasSupport() || !drawer.DrawFocused(search.random, focus, models, globals)) {
       return false;
     }
-    const std::size_t i = search.experiment;
-    const double value =
-        search.sign * ParameterValue(problem.experiments[i], models[i], search.parameter);
+    const double value = search.sign * Value(search, models);
     if (!(value > search.inner)) return false;
     search.inner = value;
     search.witness = models;
@@ -172,6 +205,10 @@ struct Enclosure::Impl {
     for (double* const end : {&focus.xi_end, &focus.phase_end, &focus.gain_end,
                               &focus.loop_phase_end, &focus.omega_end}) {
       if (search.random.Uniform() < 0.3) *end = kEnds[search.random.Index(3)];
+    }
+    if (search.expression && search.random.Uniform() < 0.7) {
+      const unsigned at = 6u * static_cast<unsigned>(search.random.Index(10));
+      focus.pattern ^= (search.random.Next() & 63u) << at;
     }
     return focus;
   }
@@ -246,22 +283,24 @@ struct Enclosure::Impl {
     std::push_heap(search.heap.begin(), search.heap.end(), ReachesLess);
   }
 
-  // The variable whose width, relative to the root's, matters most; nullptr below the finest.
+  // The variable to split; nullptr below the finest. Of the widest, relative to the root's, the one
+  // whose halves reach least far (an expression may depend on many), or simply the widest.
   Interval* ChooseSplit(const BoundSearch& search, Cell& cell, const Cell& start) const {
-    Interval* best = nullptr;
-    double best_score = kFinest;
+    std::array<std::pair<double, Interval*>, kTrials> widest{};
+    const std::size_t kept = search.expression || contractor.TwoModes() ? kTrials : 1;
     const auto offer = [&](Interval& x, const Interval& from, double weight) {
       const double width = Width(x);
       if (!std::isfinite(width) || !(width > 4e-16 * std::abs(x.upper()))) return;
       double score = width / Width(from);
-      if (!std::isfinite(Width(from))) score = width / x.upper();
-      if (x.lower() > 0.0 && from.lower() > 0.0 && from.upper() > 8.0 * from.lower() &&
-          std::isfinite(from.upper())) {
-        score = std::log(x.upper() / x.lower()) / std::log(from.upper() / from.lower());
+      if (SpansDecades(from)) {
+        const double floor = kDecadesFloor * (std::isfinite(from.upper()) ? from.upper() : 1e9);
+        score = std::log((x.upper() + floor) / (x.lower() + floor)) /
+                std::log((std::min(from.upper(), 1e9) + floor) / (from.lower() + floor));
       }
-      if (weight * score > best_score) {
-        best_score = weight * score;
-        best = &x;
+      std::pair<double, Interval*> next{weight * score, &x};
+      if (next.first <= kFinest) return;
+      for (std::size_t k = 0; k < kept; ++k) {
+        if (next.first > widest[k].first) std::swap(next, widest[k]);
       }
     };
     const bool two_modes = contractor.TwoModes();
@@ -269,31 +308,49 @@ struct Enclosure::Impl {
       offer(cell.window_hz, start.window_hz, 1.0);
     }
     for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
-      const bool own = i == search.experiment;
+      const bool own = search.expression ? search.expression->DependsOn(i, search.experiment)
+                                         : i == search.experiment;
       ExperimentBox& box = cell.boxes[i];
       const ExperimentBox& from = start.boxes[i];
-      const double rest = two_modes ? 0.4 : 0.1;
+      const double rest = search.expression ? 1e-3 : (two_modes ? 0.4 : 0.1);
       offer(box[kCellXi], from[kCellXi], own ? 1.0 : rest);
       offer(box[kCellOmega], from[kCellOmega], own ? 1.0 : rest);
       offer(box[kCellTangent], from[kCellTangent], own ? 0.7 : 0.5 * rest);
       offer(box[kCellGain], from[kCellGain], own ? 0.3 : 0.1 * rest);
-      if (two_modes && own) {
-        offer(box[kCellM], from[kCellM], 0.5);
-        offer(box[kCellRelative], from[kCellRelative], 0.5);
+      if (!contractor.Targets()[i].lines_hz.empty()) {
+        offer(box[kCellTau], from[kCellTau], own ? 0.4 : 0.1);
       }
-      if (two_modes) offer(box[kCellTau], from[kCellTau], own ? 0.4 : 0.1);
       if (i == 0) {
         for (const CellVariable shared : contractor.Shared()) {
           offer(box[shared], from[shared], 1.0);
         }
       }
     }
+    if (kept == 1) return widest[0].second;
+    Interval* best = nullptr;
+    double best_reach = kUnbounded;
+    for (const auto& [score, variable] : widest) {
+      if (variable == nullptr) break;
+      const Interval whole = *variable;
+      const double middle = Middle(whole);
+      double reach = -kUnbounded;
+      for (const bool low : {true, false}) {
+        *variable = low ? Interval(whole.lower(), middle) : Interval(middle, whole.upper());
+        Cell child = cell;
+        if (contractor.Contract(child)) reach = std::max(reach, Reach(search, child));
+      }
+      *variable = whole;
+      if (best == nullptr || reach < best_reach) {
+        best = variable;
+        best_reach = reach;
+      }
+    }
     return best;
   }
 
   static double Middle(const Interval& x) {
-    return x.lower() > 0.0 && x.upper() > 4.0 * x.lower() ? std::sqrt(x.lower() * x.upper())
-                                                          : 0.5 * (x.lower() + x.upper());
+    if (x.lower() > 0.0 && x.upper() > 4.0 * x.lower()) return std::sqrt(x.lower() * x.upper());
+    return (x.lower() == 0.0 ? 0.25 : 0.5) * (x.lower() + x.upper());
   }
 
   void Start(BoundSearch& search) const {
@@ -310,7 +367,7 @@ struct Enclosure::Impl {
     search.state = state;
     double outer = std::max(search.inner, search.settled);
     if (!search.heap.empty()) outer = std::max(outer, search.heap.front().bound);
-    search.outer = outer + kRounding * std::abs(outer);
+    search.outer = std::isfinite(outer) ? outer + kRounding * std::abs(outer) : outer;
     (state == SearchState::kClosed ? search.counts.undecided : search.counts.pending) +=
         search.heap.size();
     search.heap.clear();
@@ -347,6 +404,33 @@ struct Enclosure::Impl {
     }
   }
 
+  // Of the two searches from `first`: the lower and the upper end.
+  EnclosedBound BoundAt(std::size_t first) const {
+    EnclosedBound bound;
+    bound.closed = true;
+    for (std::size_t k = first; k < first + 2; ++k) {
+      const BoundSearch& search = searches[k];
+      bound.closed &= search.state == SearchState::kClosed;
+      // Of an interrupted search: what its cells still reach.
+      double outer = search.outer;
+      if (search.state == SearchState::kNew) {
+        outer = root_empty ? -kUnbounded : Reach(search, root);
+      } else if (search.state == SearchState::kRunning) {
+        outer = std::max(search.inner, search.settled);
+        if (!search.heap.empty()) outer = std::max(outer, search.heap.front().bound);
+        if (std::isfinite(outer)) outer += kRounding * std::abs(outer);
+      }
+      if (search.sign > 0.0) {
+        bound.outer.hi = outer;
+        bound.inner.hi = search.inner;
+      } else {
+        bound.outer.lo = 0.0 - outer;
+        bound.inner.lo = 0.0 - search.inner;
+      }
+    }
+    return bound;
+  }
+
   bool IsDone(const BoundSearch& search) const {
     return search.state == SearchState::kClosed || search.state == SearchState::kBudget;
   }
@@ -378,29 +462,15 @@ bool Enclosure::IsBounded(std::size_t experiment, FamilyParameter parameter) con
 }
 
 EnclosedBound Enclosure::Bound(std::size_t experiment, FamilyParameter parameter) const {
-  EnclosedBound bound;
-  bound.closed = true;
-  for (const BoundSearch& search : impl_->searches) {
-    if (search.experiment != experiment || search.parameter != parameter) continue;
-    bound.closed &= search.state == SearchState::kClosed;
-    // Of an interrupted search: what its cells still reach.
-    double outer = search.outer;
-    if (search.state == SearchState::kNew) {
-      outer = impl_->root_empty ? -kUnbounded : impl_->Reach(search, impl_->root);
-    } else if (search.state == SearchState::kRunning) {
-      outer = std::max(search.inner, search.settled);
-      if (!search.heap.empty()) outer = std::max(outer, search.heap.front().bound);
-      outer += kRounding * std::abs(outer);
-    }
-    if (search.sign > 0.0) {
-      bound.outer.hi = outer;
-      bound.inner.hi = search.inner;
-    } else {
-      bound.outer.lo = 0.0 - outer;
-      bound.inner.lo = -search.inner;
-    }
+  for (std::size_t k = 0; k < impl_->first_expression; k += 2) {
+    const BoundSearch& search = impl_->searches[k];
+    if (search.experiment == experiment && search.parameter == parameter) return impl_->BoundAt(k);
   }
-  return bound;
+  return {};
+}
+
+EnclosedBound Enclosure::BoundOfExpression(std::size_t k) const {
+  return impl_->BoundAt(impl_->first_expression + 2 * k);
 }
 
 CellCounts Enclosure::Counts() const {
@@ -409,8 +479,8 @@ CellCounts Enclosure::Counts() const {
     sum.inside += search.counts.inside;
     sum.outside += search.counts.outside;
     sum.undecided += search.counts.undecided;
-    sum.pending += search.counts.pending + search.heap.size() +
-                   (search.state == SearchState::kNew ? 1 : 0);
+    sum.pending +=
+        search.counts.pending + search.heap.size() + (search.state == SearchState::kNew ? 1 : 0);
   }
   return sum;
 }
@@ -478,7 +548,8 @@ void Enclosure::Save(std::ostream& out) const {
   for (const BoundSearch& search : impl_->searches) {
     out << static_cast<int>(search.state) << ' ' << search.random.State() << ' ' << search.cells
         << ' ' << search.counts.inside << ' ' << search.counts.outside << ' '
-        << search.counts.undecided << ' ' << search.counts.pending << ' ';
+        << search.counts.undecided << ' ' << search.counts.pending << ' ' << search.focus.pattern
+        << ' ';
     for (const double value :
          {search.inner, search.settled, search.outer, search.focus.xi_end, search.focus.phase_end,
           search.focus.gain_end, search.focus.loop_phase_end, search.focus.omega_end}) {
@@ -512,14 +583,13 @@ bool Enclosure::Load(std::istream& in) {
     std::uint64_t random = 0;
     std::size_t witness = 0, heap = 0;
     in >> state >> random >> search.cells >> search.counts.inside >> search.counts.outside >>
-        search.counts.undecided >> search.counts.pending;
+        search.counts.undecided >> search.counts.pending >> search.focus.pattern;
     if (!in || state < 0 || state > static_cast<int>(SearchState::kBudget)) return false;
     search.state = static_cast<SearchState>(state);
     search.random.SetState(random);
-    for (double* const value :
-         {&search.inner, &search.settled, &search.outer, &search.focus.xi_end,
-          &search.focus.phase_end, &search.focus.gain_end, &search.focus.loop_phase_end,
-          &search.focus.omega_end}) {
+    for (double* const value : {&search.inner, &search.settled, &search.outer, &search.focus.xi_end,
+                                &search.focus.phase_end, &search.focus.gain_end,
+                                &search.focus.loop_phase_end, &search.focus.omega_end}) {
       if (!Read(in, *value)) return false;
     }
     if (!(in >> witness) || (witness != 0 && witness != experiments)) return false;

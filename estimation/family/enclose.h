@@ -2,9 +2,9 @@
 //
 // For each bound (one end of one parameter of one experiment) a best-first search over cells
 // (estimation/family/cell.h): the cell that reaches farthest is split and contracted
-// (estimation/family/contract.h) until it reaches no farther than a member that was found, to within
-// half the stated width. So no member lies outside `outer`, and members were found at both ends of
-// `inner`.
+// (estimation/family/contract.h) until it reaches no farther than a member that was found, to
+// within half the stated width. So no member lies outside `outer`, and members were found at both
+// ends of `inner`.
 //
 // A cell ends in one of four states, never mixed: outside (no member), inside (members only),
 // undecided (it may hold members, and at the precision asked it cannot move a bound), pending (not
@@ -22,6 +22,7 @@
 #include <string_view>
 #include <vector>
 
+#include "estimation/family/expression.h"
 #include "estimation/family/problem.h"
 
 namespace howl {
@@ -42,11 +43,20 @@ constexpr std::string_view FamilyParameterName(FamilyParameter parameter) {
 double ParameterValue(const Experiment& experiment, const LoopModel& model,
                       FamilyParameter parameter);
 
+// An expression to be bounded, for the model of one experiment.
+struct BoundedExpression {
+  Expression expression;
+  std::size_t experiment = 0;
+};
+
 struct EncloseOptions {
-  double width = 0.01;           // (outer - inner) / inner range of the parameter, both ends together
-  std::size_t max_cells = 4000;  // a bound
+  double width = 0.01;  // (outer - inner) / inner range of the parameter, both ends together
+  std::size_t max_cells =
+      0;  // a bound; 0: 4000 with one mode, 400 / experiments (60 at least) with two
   std::uint64_t seed = 0;
   int threads = 1;
+  bool parameters = true;  // false: the expressions alone
+  std::vector<BoundedExpression> expressions;
 };
 
 struct CellCounts {
@@ -82,6 +92,7 @@ class Enclosure {
   bool Load(std::istream& in);
 
   EnclosedBound Bound(std::size_t experiment, FamilyParameter parameter) const;
+  EnclosedBound BoundOfExpression(std::size_t k) const;  // of options.expressions
   bool IsBounded(std::size_t experiment, FamilyParameter parameter) const;  // has bounds at all
   CellCounts Counts() const;
   // Proved: the search left no cell.

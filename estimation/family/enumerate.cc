@@ -18,7 +18,8 @@ constexpr std::size_t kAttemptsPer = 400;  // attempts a member before a unit gi
 constexpr int kRootCells = 12;
 constexpr int kMaxRoots = 4;
 constexpr double kXiCap = 10.0;  // stands for "no upper limit"
-constexpr double kTinyXi = 1e-9;
+// Below it, omega is so close to f that the phase of G loses the digits that the test needs.
+constexpr double kTinyXi = 1e-5;
 constexpr double kThreeHalvesPi = 1.5 * std::numbers::pi;
 
 Range Intersection(const Range& a, const Range& b) {
@@ -188,8 +189,8 @@ struct MemberDrawer::Impl {
   }
 
   // The interval of xi of each experiment, before the chain.
-  bool XiIntervals(const DrawGlobals& globals, const Range& window_hz, const std::vector<Range>& phases,
-                   std::vector<Range>& xis) const {
+  bool XiIntervals(const DrawGlobals& globals, const Range& window_hz,
+                   const std::vector<Range>& phases, std::vector<Range>& xis) const {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       ExperimentTarget target = targets[i];
       target.phase_rad = phases[i];
@@ -261,8 +262,7 @@ struct MemberDrawer::Impl {
     if (!PropagateChain(targets, increasing, xis)) return false;
     if (focus) {
       const std::size_t i = focus->experiment;
-      const Range asked =
-          IsEmpty(focus->xi) ? xis[i] : Intersection(xis[i], focus->xi);
+      const Range asked = IsEmpty(focus->xi) ? xis[i] : Intersection(xis[i], focus->xi);
       if (IsEmpty(asked)) return false;
       FixInChain(targets, increasing, i, Pick(random, asked, focus->xi_end), xis);
     }
@@ -271,7 +271,8 @@ struct MemberDrawer::Impl {
     const bool up = random.Uniform() < 0.5;
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = up ? (start + k) % n : (start + n - k) % n;
-      FixInChain(targets, increasing, i, random.Uniform(xis[i]), xis);
+      const double end = focus && i != focus->experiment ? focus->OtherEnd(i, 0) : 0.5;
+      FixInChain(targets, increasing, i, Pick(random, xis[i], end), xis);
     }
     return true;
   }
@@ -333,9 +334,57 @@ struct MemberDrawer::Impl {
         model.M = second_kind == ParameterKind::kM ? globals.second : globals.second * model.N;
       }
     }
-    model.tau_s = shared_tau ? globals.tau_s
-                             : TauFromPhase(f, theta, Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
-                                            problem.domain.delay_periods);
+    return SetTau(random, i, theta, globals, focus, model);
+  }
+
+  // tau within the loop phase tolerance; with lines, within the part of it that closes the loop at
+  // every line (w tau = arg G - pi / 2 - error + 2 pi k there), false where there is none.
+  bool SetTau(UnitRandom& random, std::size_t i, double theta, const DrawGlobals& globals,
+              const DrawFocus& focus, LoopModel& model) const {
+    if (shared_tau) {
+      model.tau_s = globals.tau_s;
+      return true;
+    }
+    const ExperimentTarget& target = targets[i];
+    if (!two_modes || problem.experiments[i].lines.empty()) {
+      model.tau_s = TauFromPhase(target.frequency_hz, theta,
+                                 Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
+                                 problem.domain.delay_periods);
+      return true;
+    }
+    const auto tau_at = [&](double error) {
+      return TauFromPhase(target.frequency_hz, theta, error, problem.domain.delay_periods);
+    };
+    std::vector<Range> allowed{
+        {tau_at(target.loop_phase_error_rad.hi), tau_at(target.loop_phase_error_rad.lo)}};
+    const double tolerance = problem.test.second_crossing_tolerance_deg * kRadPerDeg * (1.0 - 1e-9);
+    if (two_modes && tolerance < std::numbers::pi) {
+      for (const ObservedLine& line : problem.experiments[i].lines) {
+        const double w = kRadPerSPerHz * line.frequency_hz;
+        const double turned = Angle(AcousticResponse(model.Loop().acoustics, line.frequency_hz)) -
+                              0.5 * std::numbers::pi;
+        std::vector<Range> narrowed;
+        for (const Range& part : allowed) {
+          const double turn = 2.0 * std::numbers::pi;
+          const double last = std::floor((part.hi * w - turned + tolerance) / turn);
+          for (double k = std::ceil((part.lo * w - turned - tolerance) / turn); k <= last; ++k) {
+            const Range here = Intersection(
+                part, {(turned - tolerance + k * turn) / w, (turned + tolerance + k * turn) / w});
+            if (!IsEmpty(here)) narrowed.push_back(here);
+          }
+        }
+        allowed = std::move(narrowed);
+      }
+    }
+    if (allowed.empty()) return false;
+    // An end of 0 is the least loop phase error, and so the largest tau.
+    if (focus.loop_phase_end == 0.0) {
+      model.tau_s = allowed.back().hi;
+    } else if (focus.loop_phase_end == 1.0) {
+      model.tau_s = allowed.front().lo;
+    } else {
+      model.tau_s = random.Uniform(allowed[random.Index(allowed.size())]);
+    }
     return true;
   }
 
@@ -363,11 +412,7 @@ struct MemberDrawer::Impl {
       model.N = shared_N ? globals.N : (std::sqrt(discriminant) - b) / SquaredMagnitude(first);
     }
     const double theta = Angle(model.N * first + model.M * other);
-    model.tau_s = shared_tau ? globals.tau_s
-                             : TauFromPhase(target.frequency_hz, theta,
-                                            Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
-                                            problem.domain.delay_periods);
-    return true;
+    return SetTau(random, i, theta, globals, focus, model);
   }
 
   bool InDomain(const Member& models) const {
@@ -394,7 +439,9 @@ struct MemberDrawer::Impl {
     phases.resize(targets.size());
     xis.resize(targets.size());
     for (std::size_t i = 0; i < targets.size(); ++i) phases[i] = targets[i].phase_rad;
-    if (shared_tau && !DrawTau(random, Intersection(tau, within(tau, where.tau_s)), globals, phases)) return false;
+    if (shared_tau &&
+        !DrawTau(random, Intersection(tau, within(tau, where.tau_s)), globals, phases))
+      return false;
     globals.window_hz = random.Uniform(within(window_support, where.window_hz));
     Range window_hz = omega;
     if (std::isfinite(window.factor)) {
@@ -411,8 +458,10 @@ struct MemberDrawer::Impl {
     if (!DrawXi(random, focus, xis)) return false;
     for (std::size_t i = 0; i < targets.size(); ++i) {
       bool found = false;
-      for (int tries = two_modes ? 4 : 1; tries > 0 && !found; --tries) {
-        const DrawFocus& here = i == where.experiment ? where : kNoFocus;
+      for (int tries = two_modes ? 6 : 1; tries > 0 && !found; --tries) {
+        DrawFocus other;
+        other.phase_end = where.OtherEnd(i, 3);
+        const DrawFocus& here = focus && i == where.experiment ? where : other;
         found =
             DrawExperiment(random, i, window_hz, phases[i], xis[i].lo, globals, here, models[i]);
       }

@@ -49,11 +49,20 @@ struct DrawFocus {
   double gain_end = 0.5;
   double loop_phase_end = 0.5;
   double omega_end = 0.5;  // where omega is free (M per experiment)
+  // Ends for the other experiments too, six bits each (three for xi, three for the phase); zero
+  // leaves them to chance.
+  std::uint64_t pattern = 0;
   Range xi = kUnset;  // of this experiment
   Range window_hz = kUnset;
   Range second = kUnset;
   Range N = kUnset;
   Range tau_s = kUnset;
+
+  double OtherEnd(std::size_t other, unsigned shift) const {
+    if (pattern == 0) return 0.5;
+    const std::uint64_t bits = (pattern >> (6 * (other % 10) + shift)) & 7u;
+    return bits < 3 ? 0.0 : (bits < 6 ? 1.0 : 0.5);
+  }
 };
 
 // Draws one candidate member at a time. Immutable after construction: one object serves all

@@ -15,6 +15,12 @@ bool HasExactWindows(const FamilyProblem& problem) {
          is_free(ParameterKind::kTau) && is_free(ParameterKind::kOmega);
 }
 
+std::optional<Member> FindMember(const FamilyProblem& problem) {
+  const Enumeration enumeration = EnumerateMembers(problem, 1, 0, 1);
+  if (enumeration.members.empty()) return std::nullopt;
+  return enumeration.members[0];
+}
+
 Feasibility DecideFeasible(const FamilyProblem& problem) {
   if (HasExactWindows(problem)) {
     return FeasibleWindows(MakeWindowProblem(problem, 0.0)) ? Feasibility::kMember

@@ -2,6 +2,8 @@
 #ifndef HOWL_ESTIMATION_FAMILY_FEASIBLE_H_
 #define HOWL_ESTIMATION_FAMILY_FEASIBLE_H_
 
+#include <optional>
+
 #include "estimation/family/problem.h"
 
 namespace howl {
@@ -15,6 +17,9 @@ enum class Feasibility {
 // One mode without a shared N or tau and without bounds on N, tau or omega: the windows of
 // estimation/family/window.h decide, exactly and in microseconds.
 bool HasExactWindows(const FamilyProblem& problem);
+
+// A member, by search.
+std::optional<Member> FindMember(const FamilyProblem& problem);
 
 // kEmpty and kMember up to rounding (1e-9 of a tolerance).
 Feasibility DecideFeasible(const FamilyProblem& problem);

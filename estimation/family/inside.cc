@@ -41,8 +41,8 @@ void TestAngle(const Complex<Interval>& z, double tolerance_deg, Verdict& verdic
 
 // e^(-j 2 pi f tau), widened: the library's sine and cosine are good to an ulp or two.
 Complex<Interval> Delayed(const Interval& tau, double frequency_hz) {
-  const Interval angle = Interval(Below(kRadPerSPerHz), Above(kRadPerSPerHz)) *
-                         Interval(frequency_hz) * tau;
+  const Interval angle =
+      Interval(Below(kRadPerSPerHz), Above(kRadPerSPerHz)) * Interval(frequency_hz) * tau;
   if (!(Width(angle) < 1.0)) return {{-1.0, 1.0}, {-1.0, 1.0}};
   // Around the middle: |cos(a + d) - cos(a)| <= |d|, the same for the sine.
   const double middle = 0.5 * (angle.lower() + angle.upper());

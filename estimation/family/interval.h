@@ -2,6 +2,9 @@
 // contractors need. Rounding stays switched to upward while a RoundingGuard lives; interval
 // arithmetic is valid only then, and other floating-point work should not be done under it.
 //
+// A source file that computes with intervals must be compiled with -frounding-math (as
+// estimation/CMakeLists.txt does): otherwise the compiler moves operations across the switch.
+//
 // Elementary functions come from the C library, good to an ulp or two in any rounding mode; their
 // results are widened by four.
 #ifndef HOWL_ESTIMATION_FAMILY_INTERVAL_H_
@@ -14,11 +17,11 @@
 namespace howl {
 
 using GuardedInterval = boost::numeric::interval<
-    double, boost::numeric::interval_lib::policies<
-                boost::numeric::interval_lib::save_state<
-                    boost::numeric::interval_lib::rounded_transc_std<
-                        double, boost::numeric::interval_lib::rounded_arith_opp<double>>>,
-                boost::numeric::interval_lib::checking_base<double>>>;
+    double,
+    boost::numeric::interval_lib::policies<
+        boost::numeric::interval_lib::save_state<boost::numeric::interval_lib::rounded_transc_std<
+            double, boost::numeric::interval_lib::rounded_arith_opp<double>>>,
+        boost::numeric::interval_lib::checking_base<double>>>;
 using Interval = boost::numeric::interval_lib::unprotect<GuardedInterval>::type;
 
 class RoundingGuard {
@@ -27,6 +30,9 @@ class RoundingGuard {
 };
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+// The same as a value rather than a constant, for the two arms of a conditional.
+inline double Unbounded() { return std::numeric_limits<double>::infinity(); }
 
 // x becomes its intersection with `other`; false when that is empty. A NaN bound, as of 0 * inf,
 // narrows nothing.
@@ -38,18 +44,18 @@ inline bool Narrow(Interval& x, const Interval& other) {
   return true;
 }
 
-inline bool NarrowLower(Interval& x, double lo) { return Narrow(x, Interval(lo, kUnbounded)); }
-inline bool NarrowUpper(Interval& x, double hi) { return Narrow(x, Interval(-kUnbounded, hi)); }
+inline bool NarrowLower(Interval& x, double lo) { return Narrow(x, Interval(lo, Unbounded())); }
+inline bool NarrowUpper(Interval& x, double hi) { return Narrow(x, Interval(-Unbounded(), hi)); }
 
 // {a / b : b != 0}; the whole line where b has zero inside.
 inline Interval Quotient(const Interval& a, const Interval& b) {
   if (b.upper() < 0.0 || (b.upper() == 0.0 && b.lower() < 0.0)) return -Quotient(a, -b);
   if (b.lower() > 0.0) return a / b;
-  if (b.lower() < 0.0 || b.upper() == 0.0) return {-kUnbounded, kUnbounded};
+  if (b.lower() < 0.0 || b.upper() == 0.0) return Interval(-Unbounded(), Unbounded());
   // b = [0, b.upper]
   const Interval at_end = a / Interval(b.upper());
-  return {a.lower() >= 0.0 ? at_end.lower() : -kUnbounded,
-          a.upper() <= 0.0 ? at_end.upper() : kUnbounded};
+  return Interval(a.lower() >= 0.0 ? at_end.lower() : -Unbounded(),
+                  a.upper() <= 0.0 ? at_end.upper() : Unbounded());
 }
 
 // Bounds of a value that is good to a few ulp.
@@ -67,8 +73,8 @@ inline Interval Arctangent(const Interval& x) {
 // For x within (-pi / 2, pi / 2); unbounded where x reaches an end.
 inline Interval Tangent(const Interval& x) {
   constexpr double kHalfPi = 1.5707963267948966;
-  return {x.lower() <= -kHalfPi ? -kUnbounded : Below(std::tan(x.lower())),
-          x.upper() >= kHalfPi ? kUnbounded : Above(std::tan(x.upper()))};
+  return Interval(x.lower() <= -kHalfPi ? -Unbounded() : Below(std::tan(x.lower())),
+                  x.upper() >= kHalfPi ? Unbounded() : Above(std::tan(x.upper())));
 }
 
 // y = sinh(ln(f / omega)): falls with omega > 0.
@@ -77,8 +83,8 @@ inline Interval DetuningOf(const Interval& frequency_hz, const Interval& omega_h
     const Interval x(omega);
     return 0.5 * (frequency_hz / x - x / frequency_hz);
   };
-  return {std::isfinite(omega_hz.upper()) ? at(omega_hz.upper()).lower() : -kUnbounded,
-          omega_hz.lower() > 0.0 ? at(omega_hz.lower()).upper() : kUnbounded};
+  return Interval(std::isfinite(omega_hz.upper()) ? at(omega_hz.upper()).lower() : -Unbounded(),
+                  omega_hz.lower() > 0.0 ? at(omega_hz.lower()).upper() : Unbounded());
 }
 
 // Its inverse, omega = f (sqrt(1 + y^2) - y).
@@ -88,8 +94,8 @@ inline Interval OmegaOf(const Interval& frequency_hz, const Interval& detuning) 
     const Interval root = sqrt(1.0 + x * x);
     return y > 0.0 ? frequency_hz / (root + x) : frequency_hz * (root - x);
   };
-  return {std::isfinite(detuning.upper()) ? at(detuning.upper()).lower() : 0.0,
-          std::isfinite(detuning.lower()) ? at(detuning.lower()).upper() : kUnbounded};
+  return Interval(std::isfinite(detuning.upper()) ? at(detuning.upper()).lower() : 0.0,
+                  std::isfinite(detuning.lower()) ? at(detuning.lower()).upper() : Unbounded());
 }
 
 inline double Width(const Interval& x) { return x.upper() - x.lower(); }

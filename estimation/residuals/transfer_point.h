@@ -1,9 +1,14 @@
 // One point of the measured q-to-p transfer as a residual of the joint fit: the full form (5a) at
 // any frequency where p and q are coherent, not at the limit cycle alone,
 //
-//   r = L^-1 [Re; Im] (G(j 2 pi f) - H),      L L^T = covariance of [Re H; Im H]
+//   r = L^-1 [Re; Im] (G - H),      G = (G(j 2 pi (f - d)) + G(j 2 pi (f + d))) / 2
 //
-// Two residuals. Parameters: log omega_hz, log xi, log N, log M, one block of size 1 each.
+// with L L^T the covariance of [Re H; Im H]. The point averages frequencies of standard deviation
+// d: the mean of two at that distance has their second moment, so that a narrow resonance is not
+// taken for a more damped one.
+//
+// Two residuals. Parameters, one block of size 1 each: log omega_hz, log xi, log N for one mode;
+// and log M or log(M / N) for two.
 #ifndef HOWL_ESTIMATION_RESIDUALS_TRANSFER_POINT_H_
 #define HOWL_ESTIMATION_RESIDUALS_TRANSFER_POINT_H_
 
@@ -13,6 +18,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "estimation/residuals/log_parameters.h"
 #include "estimation/transfer_point.h"
 #include "model/acoustics.h"
 
@@ -20,40 +26,55 @@ namespace howl {
 
 class TransferPointResidual {
  public:
-  TransferPointResidual(const TransferPoint& point, double harmonic_ratio)
+  explicit TransferPointResidual(const TransferPoint& point, SecondMode second_mode = {})
       : frequency_hz_(point.frequency_hz),
+        spread_hz_(point.spread_hz),
         response_(point.re, point.im),
-        harmonic_ratio_(harmonic_ratio) {
+        second_mode_(second_mode) {
     const Eigen::LLT<Eigen::Matrix2d> factor(point.Covariance());
     CHECK(factor.info() == Eigen::Success) << "covariance of a transfer point is not positive";
     whitening_ = factor.matrixL().solve(Eigen::Matrix2d::Identity());
   }
 
-  static ceres::CostFunction* Create(const TransferPoint& point,
-                                     double harmonic_ratio = kSeedHarmonicRatio) {
+  static ceres::CostFunction* CreateReduced(const TransferPoint& point) {
+    return new ceres::AutoDiffCostFunction<TransferPointResidual, 2, 1, 1, 1>(
+        new TransferPointResidual(point));
+  }
+
+  static ceres::CostFunction* CreateFull(const TransferPoint& point, SecondMode second_mode) {
     return new ceres::AutoDiffCostFunction<TransferPointResidual, 2, 1, 1, 1, 1>(
-        new TransferPointResidual(point, harmonic_ratio));
+        new TransferPointResidual(point, second_mode));
   }
 
   template <typename T>
-  bool operator()(const T* log_omega_hz, const T* log_xi, const T* log_N, const T* log_M,
+  bool operator()(const T* log_omega_hz, const T* log_xi, const T* log_N, T* residual) const {
+    Evaluate(OneModeFromLogs(log_omega_hz, log_xi, log_N), residual);
+    return true;
+  }
+
+  template <typename T>
+  bool operator()(const T* log_omega_hz, const T* log_xi, const T* log_N, const T* log_second,
                   T* residual) const {
-    using std::exp;
-    const Acoustics<T> acoustics{exp(*log_omega_hz), exp(*log_xi), exp(*log_N), exp(*log_M),
-                                 T(harmonic_ratio_)};
-    const Complex<T> model = AcousticResponse(acoustics, T(frequency_hz_));
-    const T re = model.re - response_(0);
-    const T im = model.im - response_(1);
-    residual[0] = whitening_(0, 0) * re + whitening_(0, 1) * im;
-    residual[1] = whitening_(1, 0) * re + whitening_(1, 1) * im;
+    Evaluate(TwoModesFromLogs(second_mode_, log_omega_hz, log_xi, log_N, log_second), residual);
     return true;
   }
 
  private:
+  template <typename T>
+  void Evaluate(const Acoustics<T>& acoustics, T* residual) const {
+    const Complex<T> model = T(0.5) * (AcousticResponse(acoustics, T(frequency_hz_ - spread_hz_)) +
+                                       AcousticResponse(acoustics, T(frequency_hz_ + spread_hz_)));
+    const T re = model.re - response_(0);
+    const T im = model.im - response_(1);
+    residual[0] = whitening_(0, 0) * re + whitening_(0, 1) * im;
+    residual[1] = whitening_(1, 0) * re + whitening_(1, 1) * im;
+  }
+
   double frequency_hz_;
+  double spread_hz_;
   Eigen::Vector2d response_;
   Eigen::Matrix2d whitening_;
-  double harmonic_ratio_;
+  SecondMode second_mode_;
 };
 
 }  // namespace howl

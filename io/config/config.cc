@@ -56,6 +56,7 @@ Config LoadConfig(const std::filesystem::path& path) {
   ReadSolver(root, config);
   ReadFamily(root, config);
   ReadAnalysis(root, config);
+  ReadSimulation(root, config);
   return config;
 }
 

@@ -15,6 +15,7 @@
 #include "estimation/parameters.h"
 #include "estimation/residual_spec.h"
 #include "estimation/solver_spec.h"
+#include "io/config/simulation_spec.h"
 #include "io/record_spec.h"
 
 namespace howl {
@@ -36,6 +37,7 @@ struct Config {
   SolverSpec solver;
   FamilySpec family;
   AnalysisSpec analysis;
+  SimulationSpec simulation;
 };
 
 // Throws UserError at the first mistake, in the order of the file's lines for what the schema

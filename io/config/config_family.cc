@@ -30,8 +30,21 @@ void ReadFamily(const ConfigCursor& root, Config& config) {
   const auto family = root.Find("family");
   if (!family) return;
   family->Read("members", config.family.members);
+  if (const auto draw = family->Find("draw")) {
+    config.family.draw =
+        draw->Node().text == "uniform" ? MemberDraw::kUniform : MemberDraw::kSpread;
+  }
   family->Read("width", config.family.width);
   if (const auto test = family->Find("test")) ReadTest(*test, config.family.test);
+  if (const auto predictions = family->Find("predictions")) {
+    for (const ConfigCursor& item : predictions->Items()) {
+      PredictionSpec prediction;
+      item.Read("name", prediction.name);
+      item.Read("expression", prediction.expression);
+      prediction.line = item.Find("expression")->Node().line;
+      config.family.predictions.push_back(std::move(prediction));
+    }
+  }
 }
 
 void ReadSolver(const ConfigCursor& root, Config& config) {
@@ -45,12 +58,17 @@ void ReadAnalysis(const ConfigCursor& root, Config& config) {
   const auto analysis = root.Find("analysis");
   if (!analysis) return;
   if (const auto method = analysis->Find("method")) {
-    for (const AnalysisMethod each : kAnalysisMethods) {
+    for (const CharacteristicsMethod each : kAnalysisMethods) {
       if (method->Node().text == AnalysisMethodName(each)) config.analysis.method = each;
     }
   }
-  analysis->Read("harmonics", config.analysis.harmonics);
-  analysis->Read("max_lines", config.analysis.max_lines);
+  analysis->Read("min_frequency_hz", config.analysis.min_frequency_hz);
+  analysis->Read("max_frequency_hz", config.analysis.max_frequency_hz);
+  if (config.analysis.max_frequency_hz &&
+      *config.analysis.max_frequency_hz <= config.analysis.min_frequency_hz) {
+    analysis->Find("max_frequency_hz")
+        ->Fail("is not above min_frequency_hz, expected min_frequency_hz < max_frequency_hz");
+  }
   analysis->Read("delay_branch", config.analysis.delay_branch);
 }
 

@@ -57,6 +57,7 @@ void ReadResidual(const ConfigCursor& cursor, ResidualKind kind,
 const char* ResidualStdKey(ResidualKind kind) {
   switch (kind) {
     case ResidualKind::kGainEquality:
+    case ResidualKind::kTransfer:
     case ResidualKind::kOmegaPrior:
     case ResidualKind::kDampingPrior:
     case ResidualKind::kTauPrior:

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "estimation/family/membership.h"
+#include "io/results/csv_writer.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -31,13 +32,6 @@ constexpr std::array kNumbers = {"phi",
                                  "loop_phase_error_deg"};
 constexpr std::size_t kOmegaColumn = 1;
 constexpr std::size_t kXiColumn = 2;
-
-void AppendNumber(std::string& text, double value) {
-  if (std::isnan(value)) return;  // an empty cell: not known
-  std::array<char, 32> buffer;
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  text.append(buffer.data(), end);
-}
 
 std::vector<std::string> Split(const std::string& line) {
   std::vector<std::string> cells;
@@ -77,23 +71,21 @@ void AddSummary(FamilyTable& table) {
 
 std::string FamilyCsv(std::span<const Experiment> experiments,
                       std::span<const std::vector<LoopModel>> members) {
-  std::string text = kHeader;
-  text += '\n';
+  CsvWriter csv(kHeader);
   for (std::size_t m = 0; m < members.size(); ++m) {
     for (std::size_t i = 0; i < experiments.size(); ++i) {
       const LoopModel& model = members[m][i];
       const ExperimentErrors errors = ComputeErrors(experiments[i], model);
-      text += std::to_string(m + 1) + "," + experiments[i].name;
+      csv.Cell(std::to_string(m + 1)).Cell(experiments[i].name);
       for (const double value : {experiments[i].phi, model.omega_hz, model.xi, model.N, model.M,
                                  model.tau_s, errors.loop_gain, errors.gain_error,
                                  errors.phase_error_deg, errors.loop_phase_error_deg}) {
-        text += ',';
-        AppendNumber(text, value);
+        csv.Cell(value);
       }
-      text += '\n';
+      csv.EndRow();
     }
   }
-  return text;
+  return csv.Text();
 }
 
 std::size_t FamilyTable::Column(const std::string& name) const {

@@ -1,5 +1,6 @@
 #include "io/results/family_json.h"
 
+#include "io/results/csv_writer.h"
 #include "io/results/solution_json.h"
 
 namespace howl {
@@ -58,12 +59,14 @@ Json BoundsJson(const FamilyProblem& problem, const Enclosure& enclosure) {
   return bounds;
 }
 
-Json CountsJson(const Enumeration& enumeration, const Enclosure& enclosure) {
-  const CellCounts cells = enclosure.Counts();
-  return {{"members", enumeration.counts.members},
-          {"requested", enumeration.counts.requested},
-          {"drawn", enumeration.counts.drawn},
-          {"tested", enumeration.counts.complete},
+Json CountsJson(const FamilyReport& report) {
+  const CellCounts cells = report.enclosure.Counts();
+  const SampleDiagnostics& what = report.diagnostics;
+  return {{"members", report.members},
+          {"requested", report.requested},
+          {"effective_sample_size", NumberOrNull(what.effective_sample_size)},
+          {"split_r_hat", NumberOrNull(what.split_r_hat)},
+          {"largest_hole", NumberOrNull(what.largest_hole)},
           {"boxes",
            {{"inside", cells.inside},
             {"outside", cells.outside},
@@ -71,29 +74,43 @@ Json CountsJson(const Enumeration& enumeration, const Enclosure& enclosure) {
             {"pending", cells.pending}}}};
 }
 
+Json PredictionsJson(const std::vector<ExperimentPrediction>& predictions) {
+  Json json = Json::array();
+  for (const ExperimentPrediction& each : predictions) {
+    const bool guaranteed = each.prediction.kind == IntervalKind::kGuaranteed;
+    json.push_back({{"name", each.prediction.name},
+                    {"experiment", each.experiment.empty() ? Json(nullptr) : Json(each.experiment)},
+                    {"interval", RangeJson(each.prediction.interval)},
+                    {"kind", guaranteed ? "guaranteed" : "sampled"},
+                    {"members", each.prediction.members}});
+  }
+  return json;
+}
+
 }  // namespace
 
-Json FamilyJson(const FamilyProblem& problem, const Enumeration& enumeration,
-                const Enclosure& enclosure, const Conflict& conflict) {
+Json FamilyJson(const FamilyReport& report) {
+  const bool has_members = report.members > 0;
   Json empty_because = Json::array();
-  for (const std::string_view name : ConflictNames(conflict)) empty_because.push_back(name);
-  const bool has_members = !enumeration.members.empty();
-  Json json = {{"schema", "howl.family/1"},
-               {"test", TestJson(problem.test)},
-               {"counts", CountsJson(enumeration, enclosure)},
-               {"bounds", has_members ? BoundsJson(problem, enclosure) : Json::object()},
-               {"empty_because", empty_because}};
-  if (conflict.is_empty) json["conflict"] = ConflictJson(conflict);
+  for (const std::string_view name : ConflictNames(report.conflict)) empty_because.push_back(name);
+  Json json = {
+      {"schema", "howl.family/1"},
+      {"test", TestJson(report.problem.test)},
+      {"counts", CountsJson(report)},
+      {"bounds", has_members ? BoundsJson(report.problem, report.enclosure) : Json::object()},
+      {"predictions", PredictionsJson(report.predictions)},
+      {"empty_because", empty_because}};
+  if (report.conflict.is_empty) json["conflict"] = ConflictJson(report.conflict);
   return json;
 }
 
 std::string TradeoffCsv(std::span<const TradeoffPoint> points) {
-  std::string text = "omega_spread,xi_max\n";
+  CsvWriter csv("omega_spread,xi_max");
   for (const TradeoffPoint& point : points) {
     if (!point.xi_max) continue;
-    text += Json(point.omega_spread).dump() + "," + Json(*point.xi_max).dump() + "\n";
+    csv.Cell(point.omega_spread).Cell(*point.xi_max).EndRow();
   }
-  return text;
+  return csv.Text();
 }
 
 }  // namespace howl

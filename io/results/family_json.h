@@ -5,16 +5,32 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "estimation/family/conflict.h"
 #include "estimation/family/enclose.h"
-#include "estimation/family/enumerate.h"
+#include "estimation/family/predict.h"
+#include "estimation/family/sample.h"
 #include "estimation/family/tradeoff.h"
 
 namespace howl {
 
-nlohmann::ordered_json FamilyJson(const FamilyProblem& problem, const Enumeration& enumeration,
-                                  const Enclosure& enclosure, const Conflict& conflict);
+struct ExperimentPrediction {
+  std::string experiment;  // empty where the prediction joins several
+  Prediction prediction;
+};
+
+struct FamilyReport {
+  const FamilyProblem& problem;
+  const Enclosure& enclosure;
+  std::size_t members = 0;    // listed
+  std::size_t requested = 0;  // by the config
+  SampleDiagnostics diagnostics;
+  const Conflict& conflict;
+  const std::vector<ExperimentPrediction>& predictions;
+};
+
+nlohmann::ordered_json FamilyJson(const FamilyReport& report);
 
 // omega_spread,xi_max: the smallest largest-xi that any member has at that spread. Spreads without
 // any member are left out.

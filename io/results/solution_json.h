@@ -13,6 +13,9 @@ namespace howl {
 nlohmann::ordered_json SolutionJson(const JointProblem& problem, const JointFit& fit,
                                     const VanishingPhi& vanishing_phi);
 
+// {"value", "lo", "hi"}, or null where the line through the loop gains says nothing.
+nlohmann::ordered_json VanishingJson(const VanishingPhi& vanishing_phi);
+
 // A number, or null where it is not finite.
 nlohmann::ordered_json NumberOrNull(double value);
 

@@ -56,9 +56,18 @@ Defaults StructDefaults() {
       {"family.test.omega_spread_max", Dump(config.family.test.omega_spread_max)},
       {"family.test.xi_max", Dump(config.family.test.xi_max)},
       {"family.test.xi_increasing", Dump(config.family.test.xi_increasing)},
+      {"family.draw", Dump(config.family.draw == MemberDraw::kSpread ? "spread" : "uniform")},
+      {"simulate.duration_s", Dump(config.simulation.duration_s)},
+      {"simulate.sampling_hz", Dump(config.simulation.sampling_hz)},
+      {"simulate.settle_s", Dump(config.simulation.settle_s)},
+      {"simulate.flame_shape", Dump(std::string(FlameShapeName(config.simulation.flame_shape)))},
+      {"simulate.saturation", Dump(config.simulation.saturation)},
+      {"simulate.combustion_noise_relative", Dump(config.simulation.combustion_noise_relative)},
+      {"simulate.combustion_noise_corner_hz", Dump(config.simulation.combustion_noise_corner_hz)},
+      {"simulate.sensor_noise_relative", Dump(config.simulation.sensor_noise_relative)},
+      {"simulate.loop_gain_min", Dump(config.simulation.loop_gain_min)},
+      {"analysis.min_frequency_hz", Dump(config.analysis.min_frequency_hz)},
       {"analysis.method", Dump(std::string(AnalysisMethodName(config.analysis.method)))},
-      {"analysis.harmonics", Dump(config.analysis.harmonics)},
-      {"analysis.max_lines", Dump(config.analysis.max_lines)},
   };
   for (const ParameterKind kind : kParameterKinds) {
     const ParameterSpec& spec = config.model[kind];

@@ -211,7 +211,7 @@ TEST(Config, SolverFamilyAnalysis) {
       "  test: {gain_tolerance: 0.02, phase_tolerance_deg: 0.6, loop_phase_tolerance_deg: 2,\n"
       "         loop_gain_min: 1.1, second_crossing_tolerance_deg: 12, omega_spread_max: 0.15,\n"
       "         xi_max: 0.4, xi_increasing: false}\n"
-      "analysis: {method: seed, harmonics: 7, max_lines: 0, delay_branch: 1}\n");
+      "analysis: {method: seed, delay_branch: 1, min_frequency_hz: 50, max_frequency_hz: 400}\n");
   EXPECT_EQ(config.solver.starts, 3);
   EXPECT_EQ(config.solver.max_iterations, 1000);
   EXPECT_EQ(config.family.members, 50);
@@ -225,10 +225,10 @@ TEST(Config, SolverFamilyAnalysis) {
   EXPECT_EQ(test.omega_spread_max, 0.15);
   EXPECT_EQ(test.xi_max, 0.4);
   EXPECT_FALSE(test.xi_increasing);
-  EXPECT_EQ(config.analysis.method, AnalysisMethod::kSeed);
-  EXPECT_EQ(config.analysis.harmonics, 7);
-  EXPECT_EQ(config.analysis.max_lines, 0);
+  EXPECT_EQ(config.analysis.method, CharacteristicsMethod::kSeed);
   EXPECT_EQ(config.analysis.delay_branch, 1);
+  EXPECT_EQ(config.analysis.min_frequency_hz, 50.0);
+  EXPECT_EQ(config.analysis.max_frequency_hz, 400.0);
 }
 
 TEST(Config, NullSwitchesAConditionOff) {

@@ -1,5 +1,5 @@
-// Measured and practice records for tests, from the folders that HOWL_DATA and HOWL_PRACTICE name. A
-// reader of its own, so that these tests depend on no file format code.
+// Measured and practice records for tests, from the folders that HOWL_DATA and HOWL_PRACTICE name.
+// A reader of its own, so that these tests depend on no file format code.
 #ifndef HOWL_TESTS_ESTIMATION_ANALYSIS_MEASURED_DATA_H_
 #define HOWL_TESTS_ESTIMATION_ANALYSIS_MEASURED_DATA_H_
 
@@ -23,8 +23,8 @@ inline std::optional<std::string> DataFolder(const char* variable) {
   return std::string(value);
 }
 
-// Numbers of a plain or gzip text file with white space or commas between columns; lines that do not
-// begin with a number are skipped.
+// Numbers of a plain or gzip text file with white space or commas between columns; lines that do
+// not begin with a number are skipped.
 inline std::vector<std::vector<double>> ReadColumns(const std::string& path) {
   std::string text;
   gzFile file = gzopen(path.c_str(), "rb");
@@ -63,8 +63,7 @@ inline Record RijkeRecord(const std::string& folder, const std::string& name) {
   auto columns = ReadColumns(folder + "/rijke_tube/" + name + ".txt.gz");
   if (columns.size() != 2) return {};
   const auto& time = columns[0];
-  const double sampling_hz =
-      static_cast<double>(time.size() - 1) / (time.back() - time.front());
+  const double sampling_hz = static_cast<double>(time.size() - 1) / (time.back() - time.front());
   return {sampling_hz, columns[1], {}};
 }
 

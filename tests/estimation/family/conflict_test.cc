@@ -54,7 +54,7 @@ TEST(ConflictTest, RelaxationsAreTheEdges) {
       if (relaxation.condition == Condition::kOmegaSpread) test.omega_spread_max = value;
       if (relaxation.condition == Condition::kXiMax) test.xi_max = value;
     };
-    set(beyond.test, *relaxation.needed * (1.0 + 1e-4));
+    set(beyond.test, *relaxation.needed * (1.0 + 1e-3));
     set(before.test, *relaxation.needed * (1.0 - 1e-4));
     EXPECT_EQ(EnumerateMembers(beyond, 20, 1, 1).members.size(), 20u);
     EXPECT_EQ(DecideFeasible(before), Feasibility::kEmpty);

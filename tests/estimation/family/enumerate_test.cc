@@ -104,14 +104,11 @@ TEST(EnumerateTest, TwoModeMembersWithSharedMPassTheIndependentTest) {
   ExpectMembers(problem, 500, "M / N shared");
 }
 
-// A line near 750 Hz as the seed's section 4 has it. At the default 10 degrees no M / N was found
-// that serves all four: the published phases put tau of exp1 3.5 % below the others', which is 32
-// degrees at 750 Hz.
+// A line near 750 Hz as the seed's section 4 has it, at the default tolerances.
 TEST(EnumerateTest, NonHarmonicLineNarrowsMOverN) {
   FamilyProblem problem = Problem(R228Reliable(), 2);
   problem.model.second_mode_relative = true;
   for (Experiment& experiment : problem.experiments) experiment.lines = {{750.0, 2.0}};
-  problem.test.second_crossing_tolerance_deg = 20.0;
   ExpectMembers(problem, 200, "lines");
 }
 

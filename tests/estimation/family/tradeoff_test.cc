@@ -96,7 +96,7 @@ TEST(TradeoffTest, CurveIsTheEdgeOfTheFamily) {
     const TradeoffPoint point = ComputeTradeoff(problem, spread);
     ASSERT_TRUE(point.xi_max.has_value());
     problem.test.omega_spread_max = spread;
-    problem.test.xi_max = *point.xi_max * (1.0 + 1e-5);
+    problem.test.xi_max = *point.xi_max * (1.0 + 1e-3);
     EXPECT_EQ(EnumerateMembers(problem, 10, 1, 1).members.size(), 10u);
     problem.test.xi_max = *point.xi_max * (1.0 - 1e-5);
     EXPECT_TRUE(EnumerateMembers(problem, 10, 1, 1).members.empty());

@@ -1,0 +1,147 @@
+#include <cmath>
+#include <cstdio>
+
+#include "app/command.h"
+#include "app/record_input.h"
+#include "app/text_table.h"
+#include "app/vanishing_text.h"
+#include "io/results/analysis_files.h"
+#include "io/results/whole_file.h"
+#include "io/user_error.h"
+
+namespace howl {
+namespace {
+
+constexpr double kPerCent = 100.0;
+constexpr std::size_t kShownLines = 4;
+
+// "219.87 +- 0.02"
+std::string WithStd(const Estimate& estimate, int decimals) {
+  if (!std::isfinite(estimate.value)) return "-";
+  std::string text = Fixed(estimate.value, decimals);
+  if (std::isfinite(estimate.std)) text += " +- " + Fixed(estimate.std, decimals);
+  return text;
+}
+
+std::string StateText(const Analysis& analysis) {
+  const Characteristics& cycle = analysis.characteristics;
+  if (cycle.state == CycleState::kLimitCycle && !cycle.stationary) return "not stationary";
+  return std::string(CycleStateName(cycle.state));
+}
+
+void PrintCharacteristics(const AnalysisSet& set, const std::string& operating_parameter) {
+  TextTable table({"experiment", operating_parameter, "state", "f Hz", "phase deg", "gain",
+                   "tau ms", "loop gain"});
+  for (const Analysis& analysis : set.analyses) {
+    const Characteristics& cycle = analysis.characteristics;
+    const bool has_cycle = cycle.state != CycleState::kNoLimitCycle;
+    const auto shown = [&](const Estimate& estimate, int decimals) {
+      return has_cycle ? WithStd(estimate, decimals) : std::string("-");
+    };
+    Estimate tau_ms = analysis.tau_s.value_or(Estimate{});
+    tau_ms.value *= 1e3;
+    tau_ms.std *= 1e3;
+    table.AddRow({analysis.name, Significant(analysis.phi, 4), StateText(analysis),
+                  shown(cycle.frequency_hz, 2), shown(cycle.phase_deg, 2), shown(cycle.gain, 3),
+                  shown(tau_ms, 3), shown(analysis.loop_gain.value_or(Estimate{}), 3)});
+  }
+  std::printf("%s", table.Text().c_str());
+}
+
+void PrintLines(const AnalysisSet& set) {
+  TextTable table({"experiment", "line Hz", "harmonic", "p", "q", "width Hz", "coherence"});
+  for (const Analysis& analysis : set.analyses) {
+    std::size_t shown = 0;
+    for (const SpectralLine& line : analysis.lines) {
+      if (++shown > kShownLines) break;
+      table.AddRow({analysis.name, WithStd(line.frequency_hz, 2),
+                    line.harmonic > 0 ? std::to_string(line.harmonic) : "no",
+                    Significant(line.p_amplitude, 3), Significant(line.q_amplitude, 3),
+                    line.width_hz < line.resolution_hz ? "< " + Significant(line.resolution_hz, 2)
+                                                       : Significant(line.width_hz, 2),
+                    analysis.has_heat_release ? Fixed(line.coherence, 2) : "-"});
+    }
+  }
+  std::printf("\nstrongest lines (all in lines.csv):\n%s", table.Text().c_str());
+}
+
+void PrintTransfers(const AnalysisSet& set) {
+  TextTable table(
+      {"experiment", "points", "omega Hz", "xi", "N", "M/N", "chi2/dof", "explained %", "noise %"});
+  bool any = false;
+  for (const Analysis& analysis : set.analyses) {
+    if (!analysis.transfer_fit) continue;
+    any = true;
+    const TransferFit& fit = *analysis.transfer_fit;
+    table.AddRow({analysis.name, std::to_string(fit.points.size()), WithStd(fit.omega_hz, 2),
+                  WithStd(fit.xi, 4), WithStd(fit.N, 0), Significant(fit.M.value / fit.N.value, 3),
+                  Fixed(fit.chi_square_per_dof, 2), Fixed(kPerCent * fit.explained_power, 1),
+                  Fixed(kPerCent * fit.noise_power, 1)});
+  }
+  if (any) {
+    std::printf("\nq-to-p transfer where p and q are coherent, two modes fitted:\n%s",
+                table.Text().c_str());
+  }
+}
+
+void PrintGrowth(const AnalysisSet& set) {
+  for (const Analysis& analysis : set.analyses) {
+    if (!analysis.growth) continue;
+    const Growth& growth = *analysis.growth;
+    std::printf("%s: grows at %s 1/s near %s Hz, from %.2f to %.2f s\n", analysis.name.c_str(),
+                WithStd(growth.rate_per_s, 3).c_str(), WithStd(growth.frequency_hz, 2).c_str(),
+                growth.start_s, growth.end_s);
+  }
+}
+
+bool AnyHeatRelease(const AnalysisSet& set) {
+  for (const Analysis& analysis : set.analyses) {
+    if (analysis.has_heat_release) return true;
+  }
+  return false;
+}
+
+int Run(const Options& options) {
+  const Config config = LoadConfig(options.config);
+  const std::vector<NamedRecord> records = LoadRecords(config);
+  if (records.empty()) {
+    throw UserError(config.source.string(), config.experiments.front().line, "experiments",
+                    "no experiment has a record, expected at least one to analyse");
+  }
+  const AnalysisSet set = AnalyseRecords(records, MakeAnalysisOptions(config, options));
+  WriteWholeFile(options.out / "characteristics.csv", CharacteristicsCsv(set));
+  WriteWholeFile(options.out / "lines.csv", LinesCsv(set));
+  WriteWholeFile(options.out / "transfer.csv", TransferCsv(set));
+  WriteWholeFile(options.out / "flame_curve.csv", FlameCurveCsv(set));
+  WriteWholeFile(options.out / "analysis.json", AnalysisJson(set).dump(2) + "\n");
+  if (options.quiet) return kDone;
+  PrintCharacteristics(set, config.operating_parameter);
+  PrintLines(set);
+  PrintTransfers(set);
+  PrintGrowth(set);
+  if (!AnyHeatRelease(set)) {
+    std::printf("phase, gain, delay, flame curve and transfer need heat release: not available\n");
+  }
+  std::printf("%s", VanishingText(set.vanishing_phi, config.operating_parameter).c_str());
+  std::printf(
+      "written: characteristics.csv, lines.csv, transfer.csv, flame_curve.csv and "
+      "analysis.json in %s\n",
+      options.out.c_str());
+  return kDone;
+}
+
+}  // namespace
+
+Command AnalyseCommand() {
+  return {"analyse",
+          "turn records into characteristics with their uncertainty",
+          "Reads the records that the config names and estimates, for each: the limit cycle's\n"
+          "frequency, q-to-p phase and gain, delay, flame curve and loop gain; all significant\n"
+          "spectral lines; whether the record is stationary; and the q-to-p transfer wherever the\n"
+          "two are coherent. Writes characteristics.csv, lines.csv, transfer.csv, flame_curve.csv\n"
+          "and analysis.json. Standard deviations are 95 % intervals' half widths over 1.96.",
+          {},
+          Run};
+}
+
+}  // namespace howl

@@ -1,0 +1,80 @@
+#include "app/bounds_run.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "app/interruption.h"
+#include "estimation/unit_seed.h"
+#include "io/results/whole_file.h"
+#include "model/version.h"
+
+namespace howl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kBetweenSaves{2};
+
+// What the state belongs to: this config, seed and program.
+std::string Key(const Config& config, const Options& options) {
+  std::ifstream file(config.source, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::uint64_t hash = UnitSeed(options.seed, text.str());
+  return "howl.bounds " + std::string(Version()) + " " + std::to_string(hash);
+}
+
+bool LoadState(const std::filesystem::path& path, const std::string& key, Enclosure& enclosure) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  return std::getline(file, line) && line == key && enclosure.Load(file);
+}
+
+void SaveState(const std::filesystem::path& path, const std::string& key,
+               const Enclosure& enclosure) {
+  std::ostringstream text;
+  text << key << "\n";
+  enclosure.Save(text);
+  WriteWholeFile(path, text.str());
+}
+
+void ShowProgress(const Enclosure& enclosure, Clock::time_point start) {
+  const CellCounts cells = enclosure.Counts();
+  const auto seconds =
+      std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - start).count();
+  std::fprintf(stderr, "\rbounds: %zu boxes left, %lld s ", cells.pending + cells.undecided,
+               static_cast<long long>(seconds));
+}
+
+}  // namespace
+
+void RunBounds(const Config& config, const Options& options, Enclosure& enclosure) {
+  const std::filesystem::path path = options.out / "bounds.state";
+  const std::string key = Key(config, options);
+  const bool shown = !options.quiet && isatty(STDERR_FILENO) != 0;
+  if (LoadState(path, key, enclosure) && !options.quiet) {
+    std::fprintf(stderr, "bounds: going on from %s\n", path.c_str());
+  }
+  const Clock::time_point start = Clock::now();
+  bool was_shown = false;
+  while (true) {
+    const Clock::time_point until = Clock::now() + kBetweenSaves;
+    const bool complete = enclosure.Run([&] { return IsInterrupted() || Clock::now() >= until; });
+    if (complete) break;
+    SaveState(path, key, enclosure);
+    if (IsInterrupted()) {
+      throw Interrupted("interrupted: the same command goes on from " + path.string());
+    }
+    if (shown) ShowProgress(enclosure, start);
+    was_shown = shown;
+  }
+  if (was_shown) std::fprintf(stderr, "\r%60s\r", "");
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+}
+
+}  // namespace howl

@@ -1,0 +1,18 @@
+// Runs the search for guaranteed bounds so that nothing it has found is lost: the state is saved
+// beside the results every few seconds and when the user interrupts, and a later run of the same
+// problem goes on from it.
+#ifndef HOWL_APP_BOUNDS_RUN_H_
+#define HOWL_APP_BOUNDS_RUN_H_
+
+#include "app/options.h"
+#include "estimation/family/enclose.h"
+#include "io/config/config.h"
+
+namespace howl {
+
+// Throws Interrupted after saving. The state file goes when the search is complete.
+void RunBounds(const Config& config, const Options& options, Enclosure& enclosure);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_BOUNDS_RUN_H_

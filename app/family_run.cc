@@ -1,0 +1,106 @@
+#include "app/family_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/bounds_run.h"
+#include "app/problem_input.h"
+#include "io/user_error.h"
+
+namespace howl {
+namespace {
+
+// A list this short is meant to be looked at: its members are chosen far apart from each other.
+constexpr std::size_t kShortList = 50;
+constexpr std::size_t kChooseFrom = 2000;
+
+std::vector<BoundedExpression> ParsePredictions(const Config& config,
+                                                const FamilyProblem& problem) {
+  std::vector<BoundedExpression> bounded;
+  for (std::size_t k = 0; k < config.family.predictions.size(); ++k) {
+    const PredictionSpec& spec = config.family.predictions[k];
+    ExpressionError error;
+    const auto expression = Expression::Parse(spec.expression, problem.experiments, error);
+    if (!expression) {
+      throw UserError(config.source.string(), spec.line,
+                      "family.predictions[" + std::to_string(k) + "].expression",
+                      "at character " + std::to_string(error.position + 1) + ": " + error.message);
+    }
+    const std::size_t last = expression->IsPerExperiment() ? problem.experiments.size() : 1;
+    for (std::size_t i = 0; i < last; ++i) bounded.push_back({*expression, i});
+  }
+  return bounded;
+}
+
+void TakePredictions(const Config& config, const std::vector<BoundedExpression>& bounded,
+                     FamilyRun& run) {
+  std::size_t next = 0;
+  for (const PredictionSpec& spec : config.family.predictions) {
+    const bool per_experiment = bounded[next].expression.IsPerExperiment();
+    const std::size_t last = per_experiment ? run.problem.experiments.size() : 1;
+    for (std::size_t i = 0; i < last; ++i, ++next) {
+      Prediction prediction;
+      prediction.name = spec.name;
+      prediction.kind = IntervalKind::kGuaranteed;
+      prediction.interval = run.enclosure->BoundOfExpression(next).outer;
+      prediction.members = run.sample.size();
+      run.predictions.push_back(
+          {per_experiment ? run.problem.experiments[i].name : "", prediction});
+    }
+  }
+}
+
+std::vector<Member> DrawUniformly(const Options& options, std::size_t count, FamilyRun& run) {
+  SampleOptions sampling;
+  sampling.count = count;
+  sampling.seed = options.seed;
+  sampling.threads = options.threads;
+  MemberSample sample = SampleMembers(run.problem, sampling);
+  run.diagnostics = sample.diagnostics;
+  return std::move(sample.members);
+}
+
+void DrawMembers(const Config& config, const Options& options, FamilyRun& run) {
+  const auto listed = static_cast<std::size_t>(config.family.members);
+  const bool is_short = listed <= kShortList;
+  const std::size_t drawn = is_short ? kChooseFrom : listed;
+  run.sample = DrawUniformly(options, std::min(drawn, kChooseFrom), run);
+  std::vector<Member> members;
+  if (config.family.draw == MemberDraw::kUniform) {
+    members = drawn <= kChooseFrom ? run.sample : DrawUniformly(options, drawn, run);
+  } else {
+    members = EnumerateMembers(run.problem, drawn, options.seed, options.threads).members;
+  }
+  if (!is_short || members.size() <= listed) {
+    run.members = std::move(members);
+    return;
+  }
+  for (const std::size_t index : SpreadMembers(members, listed)) {
+    run.members.push_back(members[index]);
+  }
+}
+
+}  // namespace
+
+FamilyRun RunFamily(const Config& config, const Options& options) {
+  FamilyRun run;
+  run.problem = MakeFamilyProblem(config, LoadExperiments(config, options));
+  const std::vector<BoundedExpression> bounded = ParsePredictions(config, run.problem);
+  run.enclosure =
+      std::make_unique<Enclosure>(run.problem, EncloseOptions{.width = config.family.width,
+                                                              .seed = options.seed,
+                                                              .threads = options.threads,
+                                                              .expressions = bounded});
+  RunBounds(config, options, *run.enclosure);
+  if (!run.enclosure->IsProvedEmpty()) DrawMembers(config, options, run);
+  if (run.members.empty()) {
+    run.conflict = ExplainEmpty(run.problem, options.threads);
+  } else {
+    TakePredictions(config, bounded, run);
+  }
+  run.tradeoff =
+      ComputeTradeoff(run.problem, DefaultSpreads(run.problem), options.threads, options.seed);
+  return run;
+}
+
+}  // namespace howl

@@ -1,0 +1,38 @@
+// What `howl family` finds, before it is written and printed.
+#ifndef HOWL_APP_FAMILY_RUN_H_
+#define HOWL_APP_FAMILY_RUN_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "estimation/family/conflict.h"
+#include "estimation/family/enclose.h"
+#include "estimation/family/enumerate.h"
+#include "estimation/family/predict.h"
+#include "estimation/family/sample.h"
+#include "estimation/family/tradeoff.h"
+#include "io/config/config.h"
+#include "io/results/family_json.h"
+
+namespace howl {
+
+struct FamilyRun {
+  FamilyProblem problem;
+  std::unique_ptr<Enclosure> enclosure;
+  std::vector<Member> members;  // as listed
+  SampleDiagnostics diagnostics;
+  std::vector<Member> sample;  // drawn uniformly, for predictions and advice
+  Conflict conflict;           // when there is no member
+  std::vector<TradeoffPoint> tradeoff;
+  std::vector<ExperimentPrediction> predictions;
+};
+
+// Bounds, members, trade-off, predictions. Throws UserError for an expression that does not parse
+// and Interrupted when the user asks for a stop.
+FamilyRun RunFamily(const Config& config, const Options& options);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_FAMILY_RUN_H_

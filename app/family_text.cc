@@ -1,0 +1,131 @@
+#include "app/family_text.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "app/text_table.h"
+
+namespace howl {
+namespace {
+
+void PrintConflict(const Conflict& conflict) {
+  std::printf("the family is empty%s\n",
+              conflict.proved ? "" : " as far as the search went; this is not a proof");
+  for (const std::vector<Condition>& set : conflict.minimal_sets) {
+    std::string names;
+    for (const Condition condition : set) {
+      names += (names.empty() ? "" : ", ") + std::string(ConditionName(condition));
+    }
+    std::printf("  exclude each other: %s\n", names.c_str());
+  }
+  for (const Relaxation& relaxation : conflict.relaxations) {
+    if (!relaxation.suffices) continue;
+    std::printf("  %s is %s; %s\n", std::string(ConditionName(relaxation.condition)).c_str(),
+                Significant(relaxation.value).c_str(),
+                relaxation.needed
+                    ? ("with " + Significant(*relaxation.needed) + " there is a member").c_str()
+                    : "without it there is a member");
+  }
+}
+
+std::string RangeText(const Range& range, double factor, int digits) {
+  return Significant(factor * range.lo, digits) + " .. " + Significant(factor * range.hi, digits);
+}
+
+void PrintBounds(const FamilyProblem& problem, const Enclosure& enclosure) {
+  std::vector<std::string> header = {"experiment", "omega Hz", "xi", "N"};
+  std::vector<FamilyParameter> shown = {FamilyParameter::kOmega, FamilyParameter::kXi,
+                                        FamilyParameter::kN};
+  if (problem.model.modes == 2) {
+    header.emplace_back("M");
+    shown.push_back(FamilyParameter::kM);
+  }
+  header.emplace_back("tau ms");
+  shown.push_back(FamilyParameter::kTau);
+  header.emplace_back("loop gain");
+  shown.push_back(FamilyParameter::kLoopGain);
+  TextTable table(std::move(header));
+  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    std::vector<std::string> cells = {problem.experiments[i].name};
+    for (const FamilyParameter parameter : shown) {
+      if (!enclosure.IsBounded(i, parameter)) {
+        cells.emplace_back("-");
+        continue;
+      }
+      const double factor = parameter == FamilyParameter::kTau ? 1e3 : 1.0;
+      cells.push_back(RangeText(enclosure.Bound(i, parameter).outer, factor, 4));
+    }
+    table.AddRow(std::move(cells));
+  }
+  std::printf("no member lies outside (guaranteed):\n%s", table.Text().c_str());
+}
+
+// The parameter whose guaranteed bound exceeds the members found by most, relative to their range.
+void PrintTightness(const FamilyProblem& problem, const Enclosure& enclosure) {
+  double widest = -1.0;
+  double tightest = std::numeric_limits<double>::infinity();
+  std::string widest_name;
+  std::string tightest_name;
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    for (const FamilyParameter parameter : kFamilyParameters) {
+      if (!enclosure.IsBounded(i, parameter)) continue;
+      const EnclosedBound bound = enclosure.Bound(i, parameter);
+      const std::string name =
+          problem.experiments[i].name + "." + std::string(FamilyParameterName(parameter));
+      if (!bound.closed) ++open;
+      if (bound.Excess() > widest) {
+        widest = bound.Excess();
+        widest_name = name;
+      }
+      if (bound.Excess() < tightest) {
+        tightest = bound.Excess();
+        tightest_name = name;
+      }
+    }
+  }
+  std::printf("members reach the bounds to within %s %% (%s) .. %s %% (%s) of their range\n",
+              Significant(100.0 * tightest, 2).c_str(), tightest_name.c_str(),
+              Significant(100.0 * widest, 2).c_str(), widest_name.c_str());
+  if (open > 0) std::printf("%zu bounds are not as tight as asked: the budget ran out\n", open);
+}
+
+void PrintDiagnostics(const FamilyRun& run) {
+  const SampleDiagnostics& what = run.diagnostics;
+  std::printf("%zu members listed that the data cannot reject\n", run.members.size());
+  if (what.effective_sample_size > 0.0) {
+    std::printf(
+        "%zu more drawn uniformly: effective sample size %s, split R-hat %s, largest hole %s\n",
+        run.sample.size(), Significant(what.effective_sample_size, 3).c_str(),
+        Significant(what.split_r_hat, 4).c_str(), Significant(what.largest_hole, 2).c_str());
+  }
+  if (what.split_r_hat > 1.05) {
+    std::printf("  their chains have not mixed: they are in the family, but not uniform\n");
+  }
+}
+
+void PrintPredictions(const FamilyRun& run) {
+  for (const ExperimentPrediction& each : run.predictions) {
+    const std::string owner = each.experiment.empty() ? "" : " of " + each.experiment;
+    std::printf("%s%s: %s (%s)\n", each.prediction.name.c_str(), owner.c_str(),
+                RangeText(each.prediction.interval, 1.0, 5).c_str(),
+                each.prediction.kind == IntervalKind::kGuaranteed ? "guaranteed" : "sampled");
+  }
+}
+
+}  // namespace
+
+void PrintFamily(const FamilyRun& run) {
+  if (run.members.empty()) {
+    PrintConflict(run.conflict);
+    return;
+  }
+  PrintDiagnostics(run);
+  PrintBounds(run.problem, *run.enclosure);
+  PrintTightness(run.problem, *run.enclosure);
+  PrintPredictions(run);
+}
+
+}  // namespace howl

@@ -1,0 +1,13 @@
+// What `howl family` prints.
+#ifndef HOWL_APP_FAMILY_TEXT_H_
+#define HOWL_APP_FAMILY_TEXT_H_
+
+#include "app/family_run.h"
+
+namespace howl {
+
+void PrintFamily(const FamilyRun& run);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_FAMILY_TEXT_H_

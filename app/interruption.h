@@ -1,0 +1,25 @@
+// Ctrl-C asks for a stop; long work looks here between units, saves what it has, and goes.
+#ifndef HOWL_APP_INTERRUPTION_H_
+#define HOWL_APP_INTERRUPTION_H_
+
+#include <stdexcept>
+#include <string>
+
+namespace howl {
+
+// As a shell reports a program that Ctrl-C ended.
+inline constexpr int kInterrupted = 130;
+
+// Catches SIGINT and SIGTERM from now on; a second one ends the program at once.
+void WatchForInterruption();
+bool IsInterrupted();
+
+// Thrown when work stops early; what() says where it goes on from.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_APP_INTERRUPTION_H_

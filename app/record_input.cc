@@ -1,0 +1,28 @@
+#include "app/record_input.h"
+
+#include "io/records/records.h"
+
+namespace howl {
+
+std::vector<NamedRecord> LoadRecords(const Config& config) {
+  std::vector<NamedRecord> records;
+  for (const ExperimentConfig& each : config.experiments) {
+    if (!each.record) continue;
+    records.push_back({each.experiment.name, each.experiment.phi,
+                       LoadRecord(*each.record, config.source.string(), each.record_line)});
+  }
+  return records;
+}
+
+AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options) {
+  AnalysisOptions analysis;
+  analysis.characteristics.method = config.analysis.method;
+  analysis.characteristics.min_frequency_hz = config.analysis.min_frequency_hz;
+  analysis.characteristics.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
+  analysis.delay_branch = config.analysis.delay_branch;
+  analysis.transfer_fit.harmonic_ratio = config.model.harmonic_ratio;
+  analysis.threads = options.threads;
+  return analysis;
+}
+
+}  // namespace howl

@@ -1,0 +1,154 @@
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "app/command.h"
+#include "app/problem_input.h"
+#include "app/text_table.h"
+#include "estimation/family/membership.h"
+#include "estimation/joint_fit.h"
+#include "estimation/unit_seed.h"
+#include "io/records/records.h"
+#include "io/results/family_csv.h"
+#include "io/results/records_yaml.h"
+#include "io/results/whole_file.h"
+#include "model/harmonic_balance.h"
+#include "model/simulate.h"
+
+namespace howl {
+namespace {
+
+// The loop of one experiment, ready to run, and what was decided about it.
+struct Rig {
+  RigParameters parameters;
+  double loop_gain = 0.0;
+  bool slope_raised = false;
+  bool on_cycle = false;
+};
+
+// The stable solution's models, or one listed member's.
+std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& options,
+                                        const std::vector<Experiment>& experiments) {
+  const auto number = options.Count("--member", 1, 100000000);
+  if (!number) {
+    const JointProblem problem(experiments, config.model, config.residuals);
+    return SolveJoint(problem, config.solver, options.seed, options.threads).models;
+  }
+  const FamilyTable table = ReadFamilyCsv(options.out / "family.csv");
+  if (*number > static_cast<int>(table.rows.size())) {
+    throw UsageError("--member: " + std::to_string(*number) + ", expected at most " +
+                     std::to_string(table.rows.size()) + ", the members of family.csv");
+  }
+  const std::vector<double>& row = table.rows[static_cast<std::size_t>(*number - 1)];
+  std::vector<LoopModel> models;
+  for (const Experiment& experiment : experiments) {
+    const auto value = [&](const char* column) {
+      return row[table.Column(experiment.name + "." + column)];
+    };
+    models.push_back({.omega_hz = value("omega_hz"),
+                      .xi = value("xi"),
+                      .N = value("N"),
+                      .M = value("M"),
+                      .tau_s = value("tau_s"),
+                      .harmonic_ratio = config.model.harmonic_ratio});
+  }
+  return models;
+}
+
+// The cycle nearest to the one that was observed.
+std::optional<LimitCycle> ObservedCycle(const ClosedLoop& model, double frequency_hz) {
+  std::optional<LimitCycle> nearest;
+  for (const LimitCycle& cycle : LimitCycles(model, 2.0 * frequency_hz)) {
+    if (!nearest || std::abs(cycle.frequency_hz - frequency_hz) <
+                        std::abs(nearest->frequency_hz - frequency_hz)) {
+      nearest = cycle;
+    }
+  }
+  return nearest;
+}
+
+Rig MakeRig(const Experiment& experiment, const LoopModel& model, const SimulationSpec& spec) {
+  Rig rig;
+  const LoopParameters<double> loop = model.Loop();
+  const double response = Magnitude(LoopResponse(loop, experiment.frequency_hz));
+  double slope = experiment.flame_slope.value_or(0.0);
+  rig.loop_gain = response * std::abs(slope);
+  if (rig.loop_gain < spec.loop_gain_min) {
+    rig.loop_gain = spec.loop_gain_min;
+    slope = -rig.loop_gain / response;
+    rig.slope_raised = true;
+  }
+  rig.parameters.model = {loop, {spec.flame_shape, slope, spec.saturation, 0.0}};
+  Noise& noise = rig.parameters.noise;
+  const double combustion_std = spec.combustion_noise_relative * spec.saturation;
+  noise.combustion_corner_hz = spec.combustion_noise_corner_hz;
+  noise.combustion_density =
+      2.0 * combustion_std * combustion_std / (std::numbers::pi * spec.combustion_noise_corner_hz);
+  if (const auto cycle = ObservedCycle(rig.parameters.model, experiment.frequency_hz)) {
+    rig.on_cycle = true;
+    rig.parameters.past = PastOnCycle(*cycle);
+    noise.pressure_sensor_std = spec.sensor_noise_relative * cycle->pressure_amplitude();
+    noise.heat_release_sensor_std = spec.sensor_noise_relative * cycle->heat_release_amplitude();
+  }
+  return rig;
+}
+
+void Print(const std::vector<Experiment>& experiments, const std::vector<Rig>& rigs) {
+  TextTable table({"experiment", "loop gain", "starts", "file"});
+  bool any_raised = false;
+  for (std::size_t i = 0; i < rigs.size(); ++i) {
+    any_raised = any_raised || rigs[i].slope_raised;
+    table.AddRow({experiments[i].name,
+                  Fixed(rigs[i].loop_gain, 3) + (rigs[i].slope_raised ? " *" : ""),
+                  rigs[i].on_cycle ? "on the cycle" : "at rest", experiments[i].name + ".csv"});
+  }
+  std::printf("%s", table.Text().c_str());
+  if (any_raised) {
+    std::printf("* the flame slope was raised to simulate.loop_gain_min: a cycle was observed\n");
+  }
+}
+
+int Run(const Options& options) {
+  const Config config = LoadConfig(options.config);
+  const std::vector<Experiment> experiments = LoadExperiments(config, options);
+  const std::vector<LoopModel> models = ModelsToSimulate(config, options, experiments);
+  std::vector<Rig> rigs;
+  std::vector<SimulationCase> cases;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    rigs.push_back(MakeRig(experiments[i], models[i], config.simulation));
+    cases.push_back({rigs.back().parameters, UnitSeed(options.seed, experiments[i].name)});
+  }
+  const std::vector<SimulatedRecord> records =
+      SimulateBatch(cases, {.duration_s = config.simulation.duration_s,
+                            .sampling_hz = config.simulation.sampling_hz,
+                            .settle_s = config.simulation.settle_s,
+                            .threads = options.threads});
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    WriteRecordCsv(options.out / (experiments[i].name + ".csv"),
+                   {records[i].sampling_hz, records[i].pressure, records[i].heat_release});
+  }
+  WriteWholeFile(options.out / "records.yaml",
+                 RecordsYaml(config, experiments, config.simulation.sampling_hz));
+  if (!options.quiet) {
+    Print(experiments, rigs);
+    std::printf("written: records and records.yaml, a config of their own, in %s\n",
+                options.out.c_str());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command SimulateCommand() {
+  return {
+      "simulate",
+      "simulate the fitted loop into records",
+      "Fits the config (or takes a listed member of its family), closes the loop with a flame\n"
+      "that saturates, and integrates it with noise, each experiment from its observed cycle on.\n"
+      "Writes NAME.csv (p,q) for each experiment and records.yaml, a config that analyse, fit\n"
+      "and family take as it is. The config's `simulate:` has duration, sampling, flame, noise.",
+      {{"--member", "K", "member K of family.csv, which howl family wrote to DIR, not the fit"}},
+      Run};
+}
+
+}  // namespace howl

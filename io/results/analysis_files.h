@@ -1,0 +1,30 @@
+// What `howl analyse` writes for a set of records:
+//
+//   characteristics.csv
+//   name,phi,frequency_hz,frequency_std_hz,phase_deg,phase_std_deg,gain,gain_std,
+//                        tau_s,flame_slope,flame_slope_std,loop_gain,stationary (the seed's tables)
+//   lines.csv            every significant spectral line (figure 10)
+//   transfer.csv         the coherent q-to-p transfer, and the fitted acoustics at each point
+//   flame_curve.csv      q against the delayed derivative of p, in bins (figures 5 and 6)
+//   analysis.json        all of it but the curves, schema howl.analysis/1
+//
+// Cells that do not apply (no limit cycle, no heat release) are empty; in JSON they are null.
+#ifndef HOWL_IO_RESULTS_ANALYSIS_FILES_H_
+#define HOWL_IO_RESULTS_ANALYSIS_FILES_H_
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "estimation/analyse.h"
+
+namespace howl {
+
+std::string CharacteristicsCsv(const AnalysisSet& set);
+std::string LinesCsv(const AnalysisSet& set);
+std::string TransferCsv(const AnalysisSet& set);
+std::string FlameCurveCsv(const AnalysisSet& set);
+nlohmann::ordered_json AnalysisJson(const AnalysisSet& set);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_RESULTS_ANALYSIS_FILES_H_

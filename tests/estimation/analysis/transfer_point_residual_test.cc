@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "estimation/residuals/transfer_point.h"
+#include "tests/residual_jacobian.h"
+
+namespace howl {
+namespace {
+
+TEST(TransferPointResidual, HasExactDerivatives) {
+  TransferPoint point;
+  point.frequency_hz = 180.0;
+  point.spread_hz = 2.0;
+  point.re = 10.0;
+  point.im = -7.0;
+  point.variance_re = 0.5;
+  point.variance_im = 0.3;
+  point.covariance = 0.1;
+  const std::unique_ptr<ceres::CostFunction> cost(TransferPointResidual::CreateFull(point, {}));
+  EXPECT_CORRECT_JACOBIAN(
+      *cost, (std::vector<double>{std::log(210.0), std::log(0.1), std::log(5e3), std::log(2e3)}));
+}
+
+// By hand: one mode at its natural frequency, G = N / (2 xi w) = 5, against H = 3j.
+TEST(TransferPointResidual, IsTheWhitenedDifference) {
+  TransferPoint point;
+  point.frequency_hz = 100.0;
+  point.im = 3.0;
+  point.variance_re = 4.0;
+  point.variance_im = 1.0;
+  const double omega = std::log(100.0), xi = std::log(0.1);
+  const double n = std::log(5.0 * 0.2 * 200.0 * M_PI), m = std::log(1e-12);
+  const std::unique_ptr<ceres::CostFunction> cost(TransferPointResidual::CreateFull(point, {}));
+  const double* parameters[] = {&omega, &xi, &n, &m};
+  double residual[2] = {NAN, NAN};
+  ASSERT_TRUE(cost->Evaluate(parameters, residual, nullptr));
+  EXPECT_NEAR(residual[0], 5.0 / 2.0, 1e-9);
+  EXPECT_NEAR(residual[1], -3.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace howl
