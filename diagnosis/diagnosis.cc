@@ -1,6 +1,5 @@
 #include "diagnosis/diagnosis.h"
 
-#include <glog/logging.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -38,6 +37,8 @@ constexpr double kClassProbability = 0.05;
 constexpr double kGainDataSize = 500.0;  // independent bins that a shared parameter draws on
 constexpr double kOverdispersion = 2.5;
 constexpr double kFlagGain = 1e6;
+constexpr double kPlateauNoise = 0.45;
+constexpr double kConfirmedUnknownShare = 0.35;
 constexpr double kTwoSigma = 1.96;
 
 // A candidate before probabilities, and what its gap needs.
@@ -47,11 +48,14 @@ struct Attempt {
   bool without_lines = false;
   std::optional<EffectFit> fit;
   double parameters = 1.0;
+  // Evidence beside the likelihood: what slack is left over may be the effect's own crude form.
+  bool confirmed = false;
 };
 
 struct Setting {
   const std::vector<CutRecord>* records = nullptr;
   const EffectFit* base = nullptr;
+  const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
 };
 
@@ -168,8 +172,22 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
   for (std::size_t e = 0; e < out.held_out.size(); ++e) {
     out.held_out[e].acoustic_residual = clipping.fit.experiments[e].acoustic_residual;
   }
-  // Two excesses in each experiment.
-  out.parameters = 2.0 * static_cast<double>(out.held_out.size());
+  out.confirmed = clipping.sharp_edge || clipping.plateau_noise < kPlateauNoise;
+  if (pressure && clipping.sharp_edge) {
+    // The flame too is driven by the repaired signal.
+    std::vector<DiagnosisExperiment> repaired = *at.experiments;
+    for (std::size_t e = 0; e < repaired.size(); ++e) {
+      const Eigen::VectorXd& signal = clipping.repaired[e];
+      repaired[e].record.pressure.assign(signal.data(), signal.data() + signal.size());
+      repaired[e].record.heat_release.resize(static_cast<std::size_t>(signal.size()));
+    }
+    const std::vector<CutRecord> records = MakeCutRecords(repaired);
+    const EffectFit fit = FitBase(records);
+    for (std::size_t e = 0; e < out.held_out.size(); ++e)
+      out.held_out[e] = HeldOut(records, fit, e);
+  }
+  // Four bumps in each experiment.
+  out.parameters = 4.0 * static_cast<double>(out.held_out.size());
   return out;
 }
 
@@ -312,7 +330,7 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   const std::vector<CoherentLine> lines = FindCoherentLines(records);
   MaskLines(lines, &records);
   const EffectFit base = FitBase(records);
-  Setting at{&records, &base, {}};
+  Setting at{&records, &base, &experiments, {}};
   for (std::size_t e = 0; e < records.size(); ++e) {
     at.base_held_out.push_back(HeldOut(records, base, e));
   }
@@ -430,7 +448,8 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   double unknown = 0.0;
   const bool flagged = largest >= 0.5 * kFlagGain;
   if (!flagged && rest > 20.0) {
-    unknown = Logistic((rest / (rest + largest) - kUnknownShare) / kUnknownWidth);
+    const double share = top && top->confirmed ? kConfirmedUnknownShare : kUnknownShare;
+    unknown = Logistic((rest / (rest + largest) - share) / kUnknownWidth);
   }
   out.probability_none = nothing;
   out.probability_unknown = (1.0 - nothing) * unknown;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/noise_fit.h"
+
 namespace howl {
 namespace {
 
@@ -49,12 +51,15 @@ GapParts ComputeGapParts(const std::vector<CutRecord>& records,
 double Gap(const GapParts& parts) { return Gap(parts, parts.acoustic.size()); }
 
 double GapFloor(const std::vector<CutRecord>& records) {
-  // Mean positive part of a normal deviate is 0.4 standard deviations.
+  // V comes from the same record: what is left of the mean's scatter is the part that V's own
+  // freedom takes up, three terms for each block of 48 bins in cut A and a few for all in cut B.
+  // The mean positive part of a normal deviate is 0.4 standard deviations.
   double sum = 0.0;
   for (const CutRecord& record : records) {
-    for (const Eigen::Index count : {record.acoustic_count, record.flame_count}) {
-      sum += 0.4 * std::sqrt(kBinCorrelation / static_cast<double>(count));
-    }
+    const double a = static_cast<double>(record.acoustic_count) / kBinCorrelation;
+    const double b = static_cast<double>(record.flame_count) / kBinCorrelation;
+    sum += 0.4 * std::sqrt(3.0 * kBinCorrelation / 48.0 / a);
+    sum += 0.4 * std::sqrt(static_cast<double>(kFlameNoiseTerms)) / b;
   }
   return std::sqrt(0.5 * sum / static_cast<double>(records.size()));
 }

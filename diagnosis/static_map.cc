@@ -11,7 +11,8 @@ namespace howl {
 namespace {
 
 constexpr double kTopQuantile = 0.995;
-constexpr double kDepth = 0.04;  // of the threshold below the top, over the amplitude
+constexpr double kDepth = 0.06;  // of the plateau's threshold below the top, over the amplitude
+constexpr Eigen::Index kBumps = 4;
 constexpr int kIterations = 5;
 constexpr int kRounds = 3;
 constexpr double kEdgeWidth = 0.02;
@@ -42,17 +43,63 @@ bool SharpEdge(const Eigen::VectorXd& x) {
   return EdgeAt(x, range) && EdgeAt(-x, range);
 }
 
-Eigen::MatrixXcd ExcessColumns(const CutRecord& record, bool pressure) {
+struct Bumps {
+  Eigen::MatrixXcd spectrum;  // extended band x kBumps
+  Eigen::VectorXd mean;       // of each column over the record, outwards
+  double plateau = 0.0;
+  Eigen::MatrixXd signal;  // samples x kBumps
+  Eigen::ArrayXd on;       // one on either plateau
+};
+
+Bumps MakeBumps(const CutRecord& record, bool pressure) {
   const Eigen::VectorXd& x = pressure ? record.pressure : record.heat_release;
+  Eigen::VectorXcd near = pressure ? record.pressure_spectrum : record.heat_release_spectrum;
+  for (Eigen::Index k = 0; k < near.size(); ++k) {
+    const double f = static_cast<double>(k) * record.bin_hz;
+    if (std::abs(f - record.at.cycle_frequency_hz) > 0.4 * record.at.cycle_frequency_hz)
+      near[k] = 0.0;
+  }
+  const Eigen::VectorXd cycle = InverseFft(near, record.samples);
   const double amplitude = 0.5 * (Quantile(x, kTopQuantile) - Quantile(x, 1.0 - kTopQuantile));
-  Eigen::MatrixXcd columns(record.extended(), 2);
+  Bumps out;
+  out.plateau = amplitude;
+  out.spectrum.resize(record.extended(), kBumps);
+  out.mean.resize(kBumps);
+  out.signal.resize(record.samples, kBumps);
+  out.on.setZero(record.samples);
   for (const int sign : {1, -1}) {
     const double threshold = Quantile(sign * x, kTopQuantile) - kDepth * amplitude;
-    const Eigen::VectorXd excess = sign * (sign * x.array() - threshold).max(0.0).matrix();
-    columns.col(sign > 0 ? 0 : 1) =
-        ForwardFft(excess).segment(record.first - kTapReach, record.extended());
+    const Eigen::ArrayXd on = (sign * x.array() > threshold).cast<double>();
+    const Eigen::Index first = sign > 0 ? 0 : 2;
+    const Eigen::ArrayXd flat = sign * amplitude * on;
+    const Eigen::ArrayXd round = on * cycle.array();
+    const double count = std::max(on.sum(), 1.0);
+    out.spectrum.col(first) =
+        ForwardFft(flat.matrix()).segment(record.first - kTapReach, record.extended());
+    out.spectrum.col(first + 1) =
+        ForwardFft(round.matrix()).segment(record.first - kTapReach, record.extended());
+    out.signal.col(first) = flat;
+    out.signal.col(first + 1) = round;
+    out.on += on;
+    out.mean[first] = amplitude;
+    out.mean[first + 1] = sign * round.sum() / count;
   }
-  return columns;
+  return out;
+}
+
+Eigen::ArrayXd FlameResidualInTime(const CutRecord& record, const EffectFit& base, std::size_t e) {
+  const FlameColumns columns = MakeFlameColumns(record, *base.effect, {}, base.tau_s);
+  const Eigen::VectorXcd phi = FlameMultiplier(record, *base.effect, {}, base.tau_s)
+                                   .cwiseProduct(columns.spectrum * base.experiments[e].flame);
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.heat_release_spectrum.size());
+  const Eigen::Index start = record.first - kTapReach;
+  spectrum.segment(start, phi.size()) =
+      record.heat_release_spectrum.segment(start, phi.size()) - phi;
+  Eigen::ArrayXd residual = InverseFft(spectrum, record.samples).array();
+  const auto ends = static_cast<Eigen::Index>(0.02 * static_cast<double>(record.samples));
+  residual.head(ends) = 0.0;
+  residual.tail(ends) = 0.0;
+  return residual;
 }
 
 }  // namespace
@@ -63,21 +110,22 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
   out.fit = base;
   double cost = 0.0;
   double expansion = 0.0;
+  double plateau_noise = 0.0;
   std::size_t edges = 0;
   const Effect& none = *base.effect;
   for (std::size_t e = 0; e < records.size(); ++e) {
     const CutRecord& record = records[e];
     ExperimentFit& at = out.fit.experiments[e];
     if (SharpEdge(pressure ? record.pressure : record.heat_release)) ++edges;
-    const Eigen::MatrixXcd excess = ExcessColumns(record, pressure);
-    Eigen::Vector2d c = Eigen::Vector2d::Zero();
+    const Bumps bumps = MakeBumps(record, pressure);
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(kBumps);
     const auto columns = [&]() {
-      Eigen::MatrixXcd windowed(record.acoustic_count, 2);
+      Eigen::MatrixXcd windowed(record.acoustic_count, kBumps);
       const Eigen::VectorXcd r = RecordedTransfer(record, none, {}, at.acoustics);
-      for (int j = 0; j < 2; ++j) {
-        windowed.col(j) = pressure
-                              ? ApplyWindow(excess.col(j), record.acoustic_count)
-                              : ApplyWindow(-r.cwiseProduct(excess.col(j)), record.acoustic_count);
+      for (Eigen::Index j = 0; j < kBumps; ++j) {
+        windowed.col(j) =
+            pressure ? ApplyWindow(bumps.spectrum.col(j), record.acoustic_count)
+                     : ApplyWindow(-r.cwiseProduct(bumps.spectrum.col(j)), record.acoustic_count);
       }
       return windowed;
     };
@@ -90,10 +138,10 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
         const Eigen::VectorXcd bare = AcousticResidual(record, none, {}, at.acoustics);
         const Eigen::MatrixXcd extra = columns();
         const Eigen::VectorXcd residual = bare + extra * c;
-        Eigen::MatrixXcd jacobian(record.acoustic_count, 6);
+        Eigen::MatrixXcd jacobian(record.acoustic_count, 4 + kBumps);
         jacobian.leftCols(4) =
             AcousticJacobian(record, none, {}, at.acoustics, bare, Eigen::VectorXd());
-        jacobian.rightCols(2) = extra;
+        jacobian.rightCols(kBumps) = extra;
         const Eigen::MatrixXcd weighted = weight.asDiagonal() * jacobian;
         Eigen::MatrixXd gram = (weighted.adjoint() * jacobian).real();
         const Eigen::VectorXd right = (weighted.adjoint() * residual).real();
@@ -104,7 +152,7 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
         step[0] = std::clamp(step[0], -0.1, 0.1);
         step[1] = std::clamp(step[1], -0.5, 0.5);
         at.acoustics += step.head<4>();
-        c += step.tail<2>();
+        c += step.tail(kBumps);
       }
       at.acoustic_residual = AcousticResidual(record, none, {}, at.acoustics) + columns() * c;
       const Eigen::VectorXcd r = RecordedTransfer(record, none, {}, at.acoustics);
@@ -112,13 +160,23 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
           AcousticNoise(at.acoustic_residual,
                         r.segment(kTapReach, record.acoustic_count).cwiseAbs2(), record.masked);
     }
+    out.repaired.push_back((pressure ? record.pressure : record.heat_release) + bumps.signal * c);
+    if (!pressure) {
+      const Eigen::ArrayXd noise = FlameResidualInTime(record, base, e);
+      const double on = (noise.square() * bumps.on).sum() / std::max(bumps.on.sum(), 1.0);
+      const double off =
+          (noise.square() * (1.0 - bumps.on)).sum() / std::max((1.0 - bumps.on).sum(), 1.0);
+      plateau_noise += on / off / static_cast<double>(records.size());
+    }
     cost += WhittleCost(at.acoustic_residual, at.acoustic_noise, record.masked);
-    expansion += c.mean() / static_cast<double>(records.size());
+    // The mean height of the bumps over the plateau.
+    expansion += 0.5 * c.dot(bumps.mean) / bumps.plateau / static_cast<double>(records.size());
   }
   out.fit.acoustic_cost = cost;
   out.gain = expansion > 0.0 ? std::max(0.0, base.acoustic_cost - cost) : 0.0;
-  // The lost top is c times the threshold's depth.
-  out.fraction = 1.0 / (1.0 + std::max(expansion, 0.0) * kDepth);
+  // A bump's top is half as high again as its mean.
+  out.fraction = 1.0 / (1.0 + 1.5 * std::max(expansion, 0.0));
+  if (!pressure) out.plateau_noise = plateau_noise;
   out.sharp_edge = 2 * edges > records.size();
   return out;
 }
