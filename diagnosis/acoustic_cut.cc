@@ -73,6 +73,9 @@ Eigen::VectorXcd ModulatedResidual(const CutRecord& record, const Effect& effect
     log_omega[i] = std::log(factor);
     xi_add[i] = add;
   }
+  if (log_omega.abs().maxCoeff() == 0.0 && xi_add.abs().maxCoeff() == 0.0) {
+    return Bare(record, RecordedTransfer(record, effect, x, locals));
+  }
   const double xi = std::exp(locals[1]);
   // Expanded about the means, which keeps the moves small.
   AcousticLocals centre = locals;

@@ -30,6 +30,8 @@ constexpr double kAcousticAllowance = 40.0;
 constexpr double kFlameAllowance = 120.0;
 constexpr double kUnknownShare = 0.10;
 constexpr double kUnknownWidth = 0.02;
+constexpr double kUnknownGapShare = 0.016;  // of the squared gap
+constexpr double kUnknownGapWidth = 0.004;
 // Models are never exact: gains count by their share of the largest too.
 constexpr double kTemperature = 3.0;
 constexpr double kTemperatureShare = 0.02;
@@ -447,9 +449,16 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
       Logistic((kDetectionGain - largest) / kDetectionWidth) * Logistic((40.0 - rest) / 5.0);
   double unknown = 0.0;
   const bool flagged = largest >= 0.5 * kFlagGain;
+  const bool confirmed = top && top->confirmed;
   if (!flagged && rest > 20.0) {
-    const double share = top && top->confirmed ? kConfirmedUnknownShare : kUnknownShare;
+    const double share = confirmed ? kConfirmedUnknownShare : kUnknownShare;
     unknown = Logistic((rest / (rest + largest) - share) / kUnknownWidth);
+  }
+  if (!flagged && !confirmed && top) {
+    // Nor may the held-out gap stay well above the floor.
+    const double above = std::pow(top->candidate.gap_after, 2) - 4.0 * std::pow(out.gap_floor, 2);
+    const double left = std::max(0.0, above) / std::pow(out.gap_before, 2);
+    unknown = std::max(unknown, Logistic((left - kUnknownGapShare) / kUnknownGapWidth));
   }
   out.probability_none = nothing;
   out.probability_unknown = (1.0 - nothing) * unknown;

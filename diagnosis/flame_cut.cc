@@ -18,6 +18,11 @@ double DelayOf(const CutRecord& record, const Effect& effect, EffectValues x, do
   return tau_s * effect.DelayFactor(record.at, x);
 }
 
+// At its null a delay that could move is a delay like any other.
+bool DelayMoves(const Effect& effect, EffectValues x) {
+  return effect.ModulatesDelay() && effect.DelayPerAmplitude(x) != 0.0;
+}
+
 // v in time. `delayed` by the experiment's delay, with its slow part.
 Eigen::VectorXd FlameInput(const CutRecord& record, const Effect& effect, EffectValues x,
                            double tau_s) {
@@ -29,7 +34,7 @@ Eigen::VectorXd FlameInput(const CutRecord& record, const Effect& effect, Effect
       spectrum[k] *= effect.FlameIn(f, record.at, x) / effect.PressureInstrument(f, x);
     }
   }
-  if (!effect.ModulatesDelay()) return InverseFft(spectrum, record.samples);
+  if (!DelayMoves(effect, x)) return InverseFft(spectrum, record.samples);
   const double tau = DelayOf(record, effect, x, tau_s);
   Eigen::VectorXcd first(spectrum.size());
   Eigen::VectorXcd second(spectrum.size());
@@ -72,7 +77,7 @@ FlameColumns MakeFlameColumns(const CutRecord& record, const Effect& effect, Eff
 Eigen::VectorXcd FlameMultiplier(const CutRecord& record, const Effect& effect, EffectValues x,
                                  double tau_s) {
   const Eigen::Index n = record.flame_count + 2 * kTapReach;
-  const double tau = effect.ModulatesDelay() ? 0.0 : DelayOf(record, effect, x, tau_s);
+  const double tau = DelayMoves(effect, x) ? 0.0 : DelayOf(record, effect, x, tau_s);
   Eigen::VectorXcd out(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const double f = record.frequency_hz[k];

@@ -12,7 +12,7 @@ class Dependence final : public NamedEffect {
  public:
   Dependence()
       : NamedEffect("amplitude_dependent_delay", LoopBlock::kDelay,
-                    {{"rel_at_cycle", "", 0.0, -0.6, 0.6, {0.0}}}) {}
+                    {{"rel_at_cycle", "", 0.0, -0.6, 0.6, {0.01}}}) {}
   bool ChangesFlameCut() const override { return true; }
   bool ModulatesDelay() const override { return true; }
   double DelayFactor(const EffectContext& at, EffectValues x) const override {
