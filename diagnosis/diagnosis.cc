@@ -41,6 +41,7 @@ constexpr double kOverdispersion = 2.5;
 constexpr double kFlagGain = 1e6;
 constexpr double kPlateauNoise = 0.45;
 constexpr double kConfirmedUnknownShare = 0.35;
+constexpr double kUnexplainedLines = 0.9;
 constexpr double kTwoSigma = 1.96;
 
 // A candidate before probabilities, and what its gap needs.
@@ -445,7 +446,12 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   const double largest = top ? std::max(0.0, top->candidate.gain) : 0.0;
   const double rest = std::max(0.0, out.slack_acoustic_after - kAcousticAllowance) +
                       std::max(0.0, out.slack_flame_after - kFlameAllowance);
-  const double nothing =
+  // Lines that no candidate accounts for are a fact, whatever else fits.
+  const bool unexplained_lines =
+      !lines.empty() && std::none_of(attempts.begin(), attempts.end(), [](const Attempt& attempt) {
+        return attempt.without_lines && attempt.candidate.gain > kDetectionGain;
+      });
+  double nothing =
       Logistic((kDetectionGain - largest) / kDetectionWidth) * Logistic((40.0 - rest) / 5.0);
   double unknown = 0.0;
   const bool flagged = largest >= 0.5 * kFlagGain;
@@ -459,6 +465,10 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
     const double above = std::pow(top->candidate.gap_after, 2) - 4.0 * std::pow(out.gap_floor, 2);
     const double left = std::max(0.0, above) / std::pow(out.gap_before, 2);
     unknown = std::max(unknown, Logistic((left - kUnknownGapShare) / kUnknownGapWidth));
+  }
+  if (unexplained_lines) {
+    nothing = 0.0;
+    unknown = std::max(unknown, kUnexplainedLines);
   }
   out.probability_none = nothing;
   out.probability_unknown = (1.0 - nothing) * unknown;

@@ -1,6 +1,7 @@
 // The parts of the diagnosis against closed forms and synthetic signals of known make.
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <complex>
 #include <random>
