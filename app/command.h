@@ -25,6 +25,7 @@ struct Command {
 const std::vector<Command>& Commands();
 
 Command AnalyseCommand();
+Command DiagnoseCommand();
 Command FitCommand();
 Command FamilyCommand();
 Command ListCommand();

@@ -3,9 +3,9 @@
 namespace howl {
 
 const std::vector<Command>& Commands() {
-  static const std::vector<Command> commands = {AnalyseCommand(),  FitCommand(),
-                                                FamilyCommand(),   ListCommand(),
-                                                SimulateCommand(), RegressCommand()};
+  static const std::vector<Command> commands = {
+      AnalyseCommand(), DiagnoseCommand(), FitCommand(),    FamilyCommand(),
+      ListCommand(),    SimulateCommand(), RegressCommand()};
   return commands;
 }
 

@@ -1,0 +1,190 @@
+#include "diagnosis/acoustic_cut.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/real_fft.h"
+
+namespace howl {
+namespace {
+
+// Transfer functions are smooth over several bins: evaluated on every kStride-th and interpolated
+// by cubic Lagrange polynomials.
+constexpr Eigen::Index kStride = 4;
+constexpr double kLogStep = 1e-5;
+constexpr double kModulationStep = 1e-3;
+
+template <typename F>
+Eigen::VectorXcd OnBand(const CutRecord& record, F&& transfer) {
+  const Eigen::Index n = record.extended();
+  const Eigen::Index nodes = n / kStride + 4;
+  Eigen::VectorXcd coarse(nodes);
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    coarse[i] =
+        transfer(record.frequency_hz[0] + static_cast<double>((i - 1) * kStride) * record.bin_hz);
+  }
+  Eigen::VectorXcd fine(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::Index i = k / kStride;  // nodes i ... i + 3 around it
+    const double u = static_cast<double>(k % kStride) / static_cast<double>(kStride);
+    fine[k] = -u * (u - 1.0) * (u - 2.0) / 6.0 * coarse[i] +
+              (u + 1.0) * (u - 1.0) * (u - 2.0) / 2.0 * coarse[i + 1] -
+              (u + 1.0) * u * (u - 2.0) / 2.0 * coarse[i + 2] +
+              (u + 1.0) * u * (u - 1.0) / 6.0 * coarse[i + 3];
+  }
+  return fine;
+}
+
+Eigen::VectorXcd Bare(const CutRecord& record, const Eigen::VectorXcd& transfer) {
+  const Eigen::Index start = record.first - kTapReach;
+  const Eigen::Index n = record.extended();
+  return ApplyWindow(record.pressure_spectrum.segment(start, n) -
+                         transfer.cwiseProduct(record.heat_release_spectrum.segment(start, n)),
+                     record.acoustic_count);
+}
+
+AcousticLocals Moved(AcousticLocals locals, int which, double by) {
+  locals[which] += by;
+  return locals;
+}
+
+// p(t) of a transfer on the band.
+Eigen::VectorXd Pressure(const CutRecord& record, const Eigen::VectorXcd& transfer) {
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.pressure_spectrum.size());
+  const Eigen::Index start = record.first - kTapReach;
+  spectrum.segment(start, record.extended()) =
+      transfer.cwiseProduct(record.heat_release_spectrum.segment(start, record.extended()));
+  return InverseFft(spectrum, record.samples);
+}
+
+Eigen::VectorXcd ModulatedResidual(const CutRecord& record, const Effect& effect, EffectValues x,
+                                   const AcousticLocals& locals) {
+  const Eigen::Index n = record.samples;
+  Eigen::ArrayXd log_omega(n);
+  Eigen::ArrayXd xi_add(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double factor = 1.0;
+    double add = 0.0;
+    effect.ModulateAcoustics(static_cast<double>(i) / static_cast<double>(n) - 0.5,
+                             record.amplitude[i], x, &factor, &add);
+    log_omega[i] = std::log(factor);
+    xi_add[i] = add;
+  }
+  if (log_omega.abs().maxCoeff() == 0.0 && xi_add.abs().maxCoeff() == 0.0) {
+    return Bare(record, RecordedTransfer(record, effect, x, locals));
+  }
+  const double xi = std::exp(locals[1]);
+  // Expanded about the means, which keeps the moves small.
+  AcousticLocals centre = locals;
+  centre[0] += log_omega.mean();
+  centre[1] = std::log(std::max(xi + xi_add.mean(), 1e-4));
+  log_omega -= log_omega.mean();
+  Eigen::ArrayXd log_xi = ((xi + xi_add) / std::exp(centre[1])).max(1e-3).log();
+  const auto transfer = [&](int which, double by) {
+    return RecordedTransfer(record, effect, x, Moved(centre, which, by));
+  };
+  const Eigen::VectorXcd r = transfer(0, 0.0);
+  Eigen::ArrayXd moved = Eigen::ArrayXd::Zero(n);
+  for (int which : {0, 1}) {
+    const Eigen::ArrayXd& by = which == 0 ? log_omega : log_xi;
+    if (by.abs().maxCoeff() == 0.0) continue;
+    const Eigen::VectorXcd up = transfer(which, kModulationStep);
+    const Eigen::VectorXcd down = transfer(which, -kModulationStep);
+    moved += by * Pressure(record, (up - down) / (2.0 * kModulationStep)).array();
+    moved += 0.5 * by.square() *
+             Pressure(record, (up + down - 2.0 * r) / (kModulationStep * kModulationStep)).array();
+  }
+  Eigen::VectorXcd residual = Bare(record, r);
+  if (moved.abs().maxCoeff() == 0.0) return residual;
+  residual -=
+      ApplyWindow(ForwardFft(moved.matrix()).segment(record.first - kTapReach, record.extended()),
+                  record.acoustic_count);
+  return residual;
+}
+
+}  // namespace
+
+Acoustics<double> ToAcoustics(const AcousticLocals& locals) {
+  return {std::exp(locals[0]), std::exp(locals[1]), locals[2], locals[3], kSeedHarmonicRatio};
+}
+
+Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
+                                  const AcousticLocals& locals) {
+  const Acoustics<double> acoustics = ToAcoustics(locals);
+  return OnBand(record, [&](double f) {
+    const Response k = effect.Acoustics(acoustics, f, x) * effect.PressureInstrument(f, x) /
+                       effect.HeatReleaseInstrument(f, x);
+    const Response leak = effect.PressureLeak(f, record.at, x);
+    return leak == 0.0 ? k : k / (1.0 + leak * k);
+  });
+}
+
+Eigen::VectorXcd AcousticResidual(const CutRecord& record, const Effect& effect, EffectValues x,
+                                  const AcousticLocals& locals) {
+  if (effect.ModulatesAcoustics()) return ModulatedResidual(record, effect, x, locals);
+  return Bare(record, RecordedTransfer(record, effect, x, locals));
+}
+
+Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect, EffectValues x,
+                                  const AcousticLocals& locals, const Eigen::VectorXcd& residual,
+                                  const Eigen::VectorXd& steps) {
+  Eigen::MatrixXcd jacobian(record.acoustic_count, 4 + steps.size());
+  const Eigen::Index start = record.first - kTapReach;
+  const auto q = record.heat_release_spectrum.segment(start, record.extended());
+  // Modulations hardly change how the residual moves with the locals.
+  const Eigen::VectorXcd r = RecordedTransfer(record, effect, x, locals);
+  for (int i = 0; i < 4; ++i) {
+    const double step = i < 2 ? kLogStep : kLogStep * std::max(std::abs(locals[2]), 1e-12);
+    const Eigen::VectorXcd moved = RecordedTransfer(record, effect, x, Moved(locals, i, step));
+    jacobian.col(i) = ApplyWindow(((r - moved) / step).cwiseProduct(q), record.acoustic_count);
+  }
+  std::vector<double> at(x.begin(), x.end());
+  for (Eigen::Index j = 0; j < steps.size(); ++j) {
+    at[static_cast<std::size_t>(j)] = x[static_cast<std::size_t>(j)] + steps[j];
+    if (effect.ModulatesAcoustics()) {
+      jacobian.col(4 + j) = (AcousticResidual(record, effect, at, locals) - residual) / steps[j];
+    } else {
+      const Eigen::VectorXcd moved = RecordedTransfer(record, effect, at, locals);
+      jacobian.col(4 + j) =
+          ApplyWindow(((r - moved) / steps[j]).cwiseProduct(q), record.acoustic_count);
+    }
+    at[static_cast<std::size_t>(j)] = x[static_cast<std::size_t>(j)];
+  }
+  return jacobian;
+}
+
+AcousticLocals StartAcoustics(const CutRecord& record, const Effect& effect, EffectValues x) {
+  constexpr std::array kOmega = {0.78, 0.85, 0.92, 0.96, 1.0, 1.05};
+  constexpr std::array kXi = {0.05, 0.1, 0.17, 0.28};
+  double best = std::numeric_limits<double>::infinity();
+  AcousticLocals start;
+  const Eigen::Index n = record.acoustic_count;
+  for (const double omega : kOmega) {
+    for (const double xi : kXi) {
+      AcousticLocals locals(std::log(omega * record.at.cycle_frequency_hz), std::log(xi), 0.0, 0.0);
+      Eigen::MatrixXd columns(2 * n, 2);
+      Eigen::VectorXd y(2 * n);
+      const Eigen::VectorXcd target = AcousticResidual(record, effect, x, locals);
+      y << target.real(), target.imag();
+      for (int i = 0; i < 2; ++i) {
+        const Eigen::VectorXcd column =
+            target - Bare(record, RecordedTransfer(record, effect, x, Moved(locals, 2 + i, 1.0)));
+        columns.col(i) << column.real(), column.imag();
+      }
+      const Eigen::Matrix2d gram = columns.transpose() * columns;
+      const Eigen::Vector2d solution = gram.ldlt().solve(columns.transpose() * y);
+      const double cost = (y - columns * solution).squaredNorm();
+      if (cost < best) {
+        best = cost;
+        start = locals;
+        start.tail<2>() = solution;
+      }
+    }
+  }
+  return start;
+}
+
+}  // namespace howl

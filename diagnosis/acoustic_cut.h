@@ -1,0 +1,42 @@
+// Cut A: acoustics and instruments driven by measured q (seed, (5a), and the places of
+// model/effects/effect.h):
+//
+//   E_A = P - R Q,    R = K / (1 + leak K),    K = G PressureInstrument / HeatReleaseInstrument
+//
+// Slow modulations of the acoustics enter by the quasi-static expansion to second order,
+//   p(t) = [R q] + d(t) [R' q] + d(t)^2 / 2 [R'' q].
+#ifndef HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_
+#define HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_
+
+#include <Eigen/Core>
+
+#include "diagnosis/cut_record.h"
+
+namespace howl {
+
+// One experiment's own parameters in cut A: log omega (Hz), log xi, N, M.
+using AcousticLocals = Eigen::Vector4d;
+
+// ratio: of the second mode's frequency, where no effect moves it.
+Acoustics<double> ToAcoustics(const AcousticLocals& locals);
+
+// R on the extended band.
+Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
+                                  const AcousticLocals& locals);
+
+// E_A on the band.
+Eigen::VectorXcd AcousticResidual(const CutRecord& record, const Effect& effect, EffectValues x,
+                                  const AcousticLocals& locals);
+
+// Derivatives of E_A: four columns for the locals, then one for each of `steps`, the effect's
+// parameters moved by that much.
+Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect, EffectValues x,
+                                  const AcousticLocals& locals, const Eigen::VectorXcd& residual,
+                                  const Eigen::VectorXd& steps);
+
+// A start: grid over omega and xi with N and M by least squares.
+AcousticLocals StartAcoustics(const CutRecord& record, const Effect& effect, EffectValues x);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_

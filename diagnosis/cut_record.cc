@@ -1,0 +1,145 @@
+#include "diagnosis/cut_record.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "diagnosis/real_fft.h"
+#include "diagnosis/sensor_noise.h"
+
+namespace howl {
+namespace {
+
+constexpr double kLowestOfCycle = 0.15;
+constexpr double kHighestOfCycleAcoustic = 8.0;
+constexpr double kHighestOfCycleFlame = 6.4;
+constexpr double kHighestOfSamplingAcoustic = 0.33;
+constexpr double kHighestOfSamplingFlame = 0.26;
+constexpr double kLowestSearched_hz = 20.0;
+constexpr double kEnvelopeBand = 0.15;  // of the cycle's frequency
+
+Eigen::VectorXd WithoutMean(const std::vector<double>& signal, Eigen::Index samples) {
+  Eigen::VectorXd out = Eigen::Map<const Eigen::VectorXd>(signal.data(), samples);
+  out.array() -= out.mean();
+  return out;
+}
+
+Eigen::VectorXd Hertz(Eigen::Index first, Eigen::Index count, double bin_hz) {
+  return Eigen::VectorXd::LinSpaced(count, static_cast<double>(first),
+                                    static_cast<double>(first + count - 1)) *
+         bin_hz;
+}
+
+// |analytic signal| in a Gaussian band around the cycle.
+Eigen::VectorXd SlowAmplitude(const CutRecord& record) {
+  const double f0 = record.at.cycle_frequency_hz;
+  Eigen::VectorXcd band = record.pressure_spectrum;
+  for (Eigen::Index k = 0; k < band.size(); ++k) {
+    const double x = (static_cast<double>(k) * record.bin_hz - f0) / (kEnvelopeBand * f0);
+    band[k] *= std::exp(-x * x);
+  }
+  const Eigen::VectorXd in_phase = InverseFft(band, record.samples);
+  band *= std::complex<double>(0.0, -1.0);
+  band[0] = 0.0;
+  const Eigen::VectorXd quadrature = InverseFft(band, record.samples);
+  return (in_phase.array().square() + quadrature.array().square()).sqrt();
+}
+
+// s times a low-pass: one up to `edge`, falling to zero over the next quarter.
+Eigen::VectorXcd DerivativeFilter(const CutRecord& record, double edge_hz) {
+  Eigen::VectorXcd filter(record.pressure_spectrum.size());
+  for (Eigen::Index k = 0; k < filter.size(); ++k) {
+    const double f = static_cast<double>(k) * record.bin_hz;
+    const double over = std::clamp((f - edge_hz) / (0.25 * edge_hz), 0.0, 1.0);
+    filter[k] = LaplaceVariable(f) * 0.5 * (1.0 + std::cos(std::numbers::pi * over));
+  }
+  return filter;
+}
+
+CutRecord Spectra(const DiagnosisExperiment& experiment) {
+  CutRecord out;
+  const Record& record = experiment.record;
+  CHECK_EQ(record.pressure.size(), record.heat_release.size()) << experiment.name;
+  CHECK_GE(record.pressure.size(), 1024u) << experiment.name;
+  out.name = experiment.name;
+  out.samples = SmoothLength(static_cast<Eigen::Index>(record.pressure.size()));
+  out.sampling_hz = record.sampling_hz;
+  out.bin_hz = record.sampling_hz / static_cast<double>(out.samples);
+  out.pressure = WithoutMean(record.pressure, out.samples);
+  out.heat_release = WithoutMean(record.heat_release, out.samples);
+  out.pressure_spectrum = ForwardFft(out.pressure);
+  out.heat_release_spectrum = ForwardFft(out.heat_release);
+  const auto lowest = static_cast<Eigen::Index>(kLowestSearched_hz / out.bin_hz);
+  const Eigen::Index count = out.pressure_spectrum.size() - lowest - 4;
+  Eigen::Index peak = 0;
+  ApplyWindow(out.pressure_spectrum.segment(lowest, count + 4), count).cwiseAbs().maxCoeff(&peak);
+  out.at.cycle_frequency_hz = static_cast<double>(peak + lowest + 2) * out.bin_hz;
+  return out;
+}
+
+void SetBand(double cycle_hz, CutRecord* record) {
+  const double high_a = std::min(kHighestOfCycleAcoustic * cycle_hz,
+                                 kHighestOfSamplingAcoustic * record->sampling_hz);
+  const double high_b =
+      std::min(kHighestOfCycleFlame * cycle_hz, kHighestOfSamplingFlame * record->sampling_hz);
+  record->first = static_cast<Eigen::Index>(std::ceil(kLowestOfCycle * cycle_hz / record->bin_hz));
+  CHECK_GE(record->first, kTapReach);
+  record->acoustic_count =
+      static_cast<Eigen::Index>(std::floor(high_a / record->bin_hz)) - record->first;
+  record->flame_count =
+      static_cast<Eigen::Index>(std::floor(high_b / record->bin_hz)) - record->first;
+  const Eigen::Index start = record->first - kTapReach;
+  record->frequency_hz = Hertz(start, record->extended(), record->bin_hz);
+  record->windowed_pressure = ApplyWindow(
+      record->pressure_spectrum.segment(start, record->extended()), record->acoustic_count);
+  record->windowed_heat_release = ApplyWindow(
+      record->heat_release_spectrum.segment(start, record->extended()), record->acoustic_count);
+  record->derivative_filter = DerivativeFilter(*record, 1.05 * high_b);
+  record->masked.assign(static_cast<std::size_t>(record->acoustic_count), 0);
+  const SensorNoise noise = EstimateSensorNoise(*record);
+  record->sensor_noise = noise.variance;
+  record->derivative_filter =
+      record->derivative_filter.cwiseProduct(PressureShrinkage(*record, noise.pressure_variance));
+}
+
+}  // namespace
+
+std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments) {
+  CHECK(!experiments.empty());
+  std::vector<CutRecord> records;
+  records.reserve(experiments.size());
+  std::vector<double> cycles;
+  double low = experiments[0].phi;
+  double high = low;
+  for (const DiagnosisExperiment& experiment : experiments) {
+    records.push_back(Spectra(experiment));
+    cycles.push_back(records.back().at.cycle_frequency_hz);
+    low = std::min(low, experiment.phi);
+    high = std::max(high, experiment.phi);
+  }
+  std::nth_element(cycles.begin(), cycles.begin() + cycles.size() / 2, cycles.end());
+  const double cycle_hz = cycles[cycles.size() / 2];
+  double mean_amplitude = 0.0;
+  double mean_ratio = 0.0;
+  const double count = static_cast<double>(records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    CutRecord& record = records[i];
+    SetBand(cycle_hz, &record);
+    record.amplitude = SlowAmplitude(record);
+    mean_amplitude += record.amplitude.mean() / count;
+    mean_ratio += record.heat_release.norm() / record.pressure.norm() / count;
+    record.at.phi_position =
+        high > low ? (experiments[i].phi - 0.5 * (low + high)) / (high - low) : 0.0;
+  }
+  for (CutRecord& record : records) {
+    record.amplitude /= mean_amplitude;
+    record.at.relative_amplitude = record.amplitude.mean();
+    record.at.heat_release_over_pressure = mean_ratio;
+  }
+  return records;
+}
+
+}  // namespace howl

@@ -1,0 +1,81 @@
+// A record made ready for the two cuts of the loop. Both signals being measured, each block is
+// driven by what was measured before it:
+//
+//   cut A   acoustics   E_A = P - R Q                  R from G and the instruments
+//   cut B   flame       E_B = Q - leak P - H Phi(v)    v from P: derivative, delay, filters
+//
+// Spectra are those of the whole record under the window sin^4(pi n / N): in the frequency domain
+// five taps, applied to the residual, so that the wrap-around of a filter's transient at the ends
+// is suppressed by its fourth-order zeros, and a line's leakage by its side lobes.
+//
+// Bins of width 1 / duration; units of p and q times samples.
+#ifndef HOWL_DIAGNOSIS_CUT_RECORD_H_
+#define HOWL_DIAGNOSIS_CUT_RECORD_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "estimation/record.h"
+#include "model/effects/effect.h"
+
+namespace howl {
+
+inline constexpr std::array<double, 3> kWindowTaps = {6.0 / 16.0, -4.0 / 16.0, 1.0 / 16.0};
+inline constexpr Eigen::Index kTapReach = 2;
+
+// Neighbouring bins are correlated by the window: the sum of K of them counts for
+// K / kBinCorrelation independent ones (sum of the taps' squared autocorrelation).
+inline constexpr double kBinCorrelation = 2.6265306122448979;
+
+struct DiagnosisExperiment {
+  std::string name;
+  double phi = 0.0;
+  Record record;
+};
+
+struct CutRecord {
+  std::string name;
+  EffectContext at;
+  Eigen::Index samples = 0;
+  double sampling_hz = 0.0;
+  double bin_hz = 0.0;
+  Eigen::Index first = 0;           // bin of the band's first entry
+  Eigen::Index acoustic_count = 0;  // bins in cut A
+  Eigen::Index flame_count = 0;     // bins in cut B: the first of cut A's
+
+  Eigen::VectorXd pressure;  // without mean
+  Eigen::VectorXd heat_release;
+  Eigen::VectorXcd pressure_spectrum;  // half spectra
+  Eigen::VectorXcd heat_release_spectrum;
+  Eigen::VectorXcd windowed_pressure;  // acoustic_count bins
+  Eigen::VectorXcd windowed_heat_release;
+  Eigen::VectorXd frequency_hz;  // of the extended band: acoustic_count + 2 kTapReach bins
+  // s times a low-pass, times the shrinkage of sensor_noise.h: over the half spectrum.
+  Eigen::VectorXcd derivative_filter;
+  Eigen::VectorXd sensor_noise;  // model-free V_A (sensor_noise.h)
+  Eigen::VectorXd amplitude;     // slow amplitude of p, relative to the mean of all records
+  std::vector<char> masked;      // bins with a coherent line: not used (acoustic_count)
+
+  Eigen::Index extended() const { return acoustic_count + 2 * kTapReach; }
+  double frequency(Eigen::Index bin) const { return frequency_hz[bin + kTapReach]; }
+};
+
+// The window's taps over `count` bins; extended has count + 4.
+template <typename Derived>
+Eigen::VectorXcd ApplyWindow(const Eigen::MatrixBase<Derived>& extended, Eigen::Index count) {
+  Eigen::VectorXcd out = kWindowTaps[0] * extended.segment(2, count);
+  out += kWindowTaps[1] * (extended.segment(1, count) + extended.segment(3, count));
+  out += kWindowTaps[2] * (extended.segment(0, count) + extended.segment(4, count));
+  return out;
+}
+
+// Records of one rig. Both channels are needed, at one sampling rate each. The band goes from 0.15
+// to 8 (cut A) and 6.4 (cut B) times the cycle's frequency, and no further than 0.34 and 0.27 of
+// the sampling rate.
+std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_CUT_RECORD_H_

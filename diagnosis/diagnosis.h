@@ -1,0 +1,88 @@
+// The gap between model and rig: how wide, where, which effect causes it, how far it shrinks.
+//
+// Gap: for each experiment and cut the mean of |E|^2 / V less one, V being the noise (sensor noise
+// of cut A without a model; combustion noise of cut B by the best fit); the root of the mean of its
+// positive parts. 0: the residuals are noise. Held out: tau and an effect's parameters come from
+// the other experiments.
+//
+// Verdict: `none` while no effect and no free slack takes more off the likelihood than noise does;
+// `unknown` if what free slack still takes off after the best effect is not small against what the
+// effect took; else the best effect, with those that come close to it.
+#ifndef HOWL_DIAGNOSIS_DIAGNOSIS_H_
+#define HOWL_DIAGNOSIS_DIAGNOSIS_H_
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/cut_record.h"
+#include "model/effects/catalogue.h"
+
+namespace howl {
+
+enum class VerdictKind : std::uint8_t { kNone, kEffect, kUnknown };
+
+struct EstimatedParameter {
+  std::string name;
+  double value = 0.0;
+  double low = 0.0;  // 95 %
+  double high = 0.0;
+  std::string unit;
+};
+
+struct Candidate {
+  std::string effect;
+  LoopBlock block = LoopBlock::kAcoustics;
+  double gain = 0.0;  // of log-likelihood over the base, less half a log(data) a parameter
+  double gap_after = 0.0;
+  double shrinkage = 0.0;
+  double shrinkage_low = 0.0;  // 95 %, over the experiments
+  double shrinkage_high = 0.0;
+  double p_value = 1.0;  // for the largest of the catalogue
+  double probability = 0.0;
+  std::vector<EstimatedParameter> parameters;
+};
+
+struct Place {
+  LoopBlock block = LoopBlock::kAcoustics;
+  double low_hz = 0.0;
+  double high_hz = 0.0;
+  std::vector<std::string> experiments;
+  double share = 0.0;
+};
+
+struct Diagnosis {
+  VerdictKind kind = VerdictKind::kNone;
+  std::string effect;  // empty unless kEffect
+  std::vector<std::string> indistinguishable;
+  double probability_none = 0.0;
+  double probability_unknown = 0.0;
+  std::vector<Place> where;
+  double gap_before = 0.0;
+  double gap_after = 0.0;
+  double gap_floor = 0.0;
+  std::vector<Candidate> candidates;  // the most probable first
+  // What free slack takes off the likelihood, before and after the best effect, in cuts A and B.
+  double slack_acoustic_before = 0.0;
+  double slack_flame_before = 0.0;
+  double slack_acoustic_after = 0.0;
+  double slack_flame_after = 0.0;
+  std::string advice;
+};
+
+struct DiagnosisOptions {
+  int threads = 0;                     // 0: as many as the machine has
+  std::vector<std::string> withheld;   // identifiers of the catalogue that are not tried
+  std::vector<EffectPointer> further;  // effects of the user's own
+  std::function<void(std::size_t done, std::size_t total)> progress;
+};
+
+// The same for all numbers of threads; nothing in it is random.
+Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
+                   const DiagnosisOptions& options);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_DIAGNOSIS_H_

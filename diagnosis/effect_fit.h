@@ -1,0 +1,61 @@
+// The joint fit of base and effect to both cuts of all experiments:
+//
+//   minimise  sum over experiments of  sum |E_A|^2 / V_A + sum |E_B|^2 / V_B
+//
+// over omega, xi, N, M and the flame's coefficients of each experiment, and over tau and the
+// effect's parameters, which all experiments share. Gauss-Newton with damping; an experiment's own
+// parameters are eliminated (Schur complement), so each leaves a small gradient and curvature in
+// the shared ones, from which leaving that experiment out costs one small solve. The noise spectra
+// V are refitted between rounds (noise_fit.h).
+#ifndef HOWL_DIAGNOSIS_EFFECT_FIT_H_
+#define HOWL_DIAGNOSIS_EFFECT_FIT_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/acoustic_cut.h"
+#include "diagnosis/flame_cut.h"
+#include "model/effects/catalogue.h"
+
+namespace howl {
+
+struct ExperimentFit {
+  AcousticLocals acoustics;
+  Eigen::VectorXd flame;  // coefficients
+  double flame_range = 0.0;
+  Eigen::VectorXcd acoustic_residual;
+  Eigen::VectorXcd flame_residual;
+  Eigen::VectorXd acoustic_noise;  // V_A
+  Eigen::VectorXd flame_noise;     // V_B
+  Eigen::VectorXd gradient;        // in tau and the free parameters of the effect
+  Eigen::MatrixXd curvature;
+};
+
+struct EffectFit {
+  EffectPointer effect;
+  std::vector<double> values;  // the effect's parameters
+  double tau_s = 0.0;
+  std::vector<ExperimentFit> experiments;
+  double acoustic_cost = 0.0;  // Whittle, per independent bin
+  double flame_cost = 0.0;
+  std::vector<double> standard_errors;  // tau, then the parameters
+  double cost() const { return acoustic_cost + flame_cost; }
+};
+
+// The loop with no effect.
+EffectPointer BaseEffect();
+
+EffectFit FitBase(const std::vector<CutRecord>& records);
+
+// From several starts, beginning at the base's fit.
+EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& effect,
+                    const EffectFit& base);
+
+// The experiment's residuals with tau and the effect's parameters as the other experiments have
+// them, its own parameters refitted.
+ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fit,
+                      std::size_t experiment);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_EFFECT_FIT_H_

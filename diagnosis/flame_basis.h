@@ -1,0 +1,27 @@
+// The flame's characteristic without a shape assumed: cubic B-splines on even knots over the range
+// of v, linear in the coefficients. One of them is left out, since a constant in q is not seen.
+#ifndef HOWL_DIAGNOSIS_FLAME_BASIS_H_
+#define HOWL_DIAGNOSIS_FLAME_BASIS_H_
+
+#include <Eigen/Core>
+
+namespace howl {
+
+inline constexpr Eigen::Index kFlameTerms = 9;
+
+class FlameBasis {
+ public:
+  explicit FlameBasis(double range) : range_(range) {}
+
+  // samples x kFlameTerms
+  Eigen::MatrixXd Columns(const Eigen::VectorXd& v) const;
+  // sum of the columns times the coefficients.
+  Eigen::VectorXd Value(const Eigen::VectorXd& v, const Eigen::VectorXd& coefficients) const;
+
+ private:
+  double range_;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_FLAME_BASIS_H_

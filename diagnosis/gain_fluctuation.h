@@ -1,0 +1,36 @@
+// Slow fluctuations of the flame's gain. The residual of cut B is demodulated by the flame's
+// predicted fundamental:
+//
+//   D(t) = lowpass(e_B conj(a)) / sqrt(lowpass(|a|^2) mean(|a|^2)),   a: analytic signal of Phi(v)
+//   near the cycle
+//
+// Combustion noise has no sense of the cycle's phase: it moves Re D and Im D alike. A fluctuating
+// gain moves Re D alone. Two kinds of fluctuation are told apart by their likelihoods: a
+// first-order Gaussian process, and jumps between two levels (hidden Markov chain).
+#ifndef HOWL_DIAGNOSIS_GAIN_FLUCTUATION_H_
+#define HOWL_DIAGNOSIS_GAIN_FLUCTUATION_H_
+
+#include <vector>
+
+#include "diagnosis/effect_fit.h"
+
+namespace howl {
+
+struct GainFluctuation {
+  double gain = 0.0;          // log-likelihood of unequal variances over equal ones
+  double in_phase_std = 0.0;  // of Re D
+  double quadrature_std = 0.0;
+  double correlation_s = 0.0;  // of Re D
+  double coloured_cost = 0.0;  // - log-likelihood, with Akaike's penalty
+  double switching_cost = 0.0;
+  double low_level = 0.0;                   // of the two levels, relative to the upper one
+  double dwell_s = 0.0;                     // mean time on the lower level
+  std::vector<Eigen::VectorXcd> corrected;  // E_B of each experiment without the fluctuation
+};
+
+GainFluctuation EstimateGainFluctuation(const std::vector<CutRecord>& records,
+                                        const EffectFit& fit);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_GAIN_FLUCTUATION_H_

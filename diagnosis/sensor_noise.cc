@@ -1,0 +1,76 @@
+#include "diagnosis/sensor_noise.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "diagnosis/noise_fit.h"
+
+namespace howl {
+namespace {
+
+constexpr Eigen::Index kBlock = 48;
+constexpr Eigen::Index kTerms = 3;
+constexpr Eigen::Index kSmoothing = 10;
+
+}  // namespace
+
+SensorNoise EstimateSensorNoise(const CutRecord& record) {
+  const Eigen::Index n = record.acoustic_count;
+  Eigen::VectorXcd residual = record.windowed_pressure;
+  Eigen::VectorXd gain_squared = Eigen::VectorXd::Ones(n);
+  for (Eigen::Index start = 0; start < n; start += kBlock) {
+    const Eigen::Index size = std::min(kBlock, n - start);
+    const Eigen::Index terms = size > 3 * kTerms ? kTerms : 1;
+    Eigen::MatrixXcd columns(size, terms);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const double x = 2.0 * static_cast<double>(k) / static_cast<double>(kBlock) - 1.0;
+      const Response q = record.windowed_heat_release[start + k];
+      for (Eigen::Index j = 0; j < terms; ++j) {
+        columns(k, j) = j == 0 ? q : columns(k, j - 1) * x;
+      }
+    }
+    const auto p = record.windowed_pressure.segment(start, size);
+    const Eigen::VectorXcd c = columns.colPivHouseholderQr().solve(p);
+    // Terms that the fit takes up, counted in independent bins.
+    const double left = 1.0 - std::min(0.8, static_cast<double>(terms) * kBinCorrelation /
+                                                static_cast<double>(size));
+    residual.segment(start, size) = (p - columns * c) / std::sqrt(left);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const double x = 2.0 * static_cast<double>(k) / static_cast<double>(kBlock) - 1.0;
+      Response r = c[0];
+      if (terms == kTerms) r += x * c[1] + x * x * c[2];
+      gain_squared[start + k] = std::norm(r);
+    }
+  }
+  SensorNoise out;
+  out.variance = AcousticNoise(residual, gain_squared, record.masked);
+  // V is linear in the gain: two bins that differ in it give both variances.
+  Eigen::Index low = 0;
+  Eigen::Index high = 0;
+  gain_squared.minCoeff(&low);
+  gain_squared.maxCoeff(&high);
+  const double slope = (out.variance[high] - out.variance[low]) /
+                       std::max(gain_squared[high] - gain_squared[low], 1e-300);
+  out.pressure_variance = std::max(out.variance[low] - slope * gain_squared[low], 0.0);
+  return out;
+}
+
+Eigen::VectorXd PressureShrinkage(const CutRecord& record, double pressure_variance) {
+  const Eigen::Index n = record.pressure_spectrum.size();
+  Eigen::VectorXd power = Eigen::VectorXd::Zero(n);
+  const Eigen::Index count = n - 2 * kTapReach;
+  power.segment(kTapReach, count) = ApplyWindow(record.pressure_spectrum, count).cwiseAbs2();
+  Eigen::VectorXd sums(n + 1);
+  sums[0] = 0.0;
+  for (Eigen::Index k = 0; k < n; ++k) sums[k + 1] = sums[k] + power[k];
+  Eigen::VectorXd out(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::Index from = std::max<Eigen::Index>(k - kSmoothing, 0);
+    const Eigen::Index to = std::min(k + kSmoothing + 1, n);
+    const double mean = (sums[to] - sums[from]) / static_cast<double>(to - from);
+    out[k] = mean > 0.0 ? std::clamp(1.0 - pressure_variance / mean, 0.0, 1.0) : 0.0;
+  }
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,120 @@
+#include "diagnosis/slack.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace howl {
+namespace {
+
+constexpr double kBandOfCycle = 0.2;  // width, of the cycle's frequency
+
+// x: predicted signals, e: residuals, v: noise; one of each for every experiment.
+std::vector<SlackBand> Bands(const std::vector<CutRecord>& records,
+                             const std::vector<Eigen::VectorXcd>& x,
+                             const std::vector<const Eigen::VectorXcd*>& e,
+                             const std::vector<const Eigen::VectorXd*>& v) {
+  const double width = kBandOfCycle * records[0].at.cycle_frequency_hz;
+  const double low = records[0].frequency(0);
+  const double high = records[0].frequency(e[0]->size() - 1);
+  std::vector<SlackBand> bands;
+  for (double from = low; from + 0.5 * width < high; from += width) {
+    SlackBand band{from, std::min(from + width, high), 0.0, 0.0, {}};
+    std::complex<double> sum = 0.0;
+    double norm = 0.0;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      std::complex<double> own = 0.0;
+      double own_norm = 0.0;
+      for (Eigen::Index k = 0; k < e[i]->size(); ++k) {
+        const double f = records[i].frequency(k);
+        if (f < from || f >= band.high_hz || records[i].masked[static_cast<std::size_t>(k)])
+          continue;
+        own += std::conj(x[i][k]) * (*e[i])[k] / (*v[i])[k];
+        own_norm += std::norm(x[i][k]) / (*v[i])[k];
+      }
+      band.by_experiment.push_back(own_norm > 0.0 ? std::norm(own) / own_norm / kBinCorrelation
+                                                  : 0.0);
+      sum += own;
+      norm += own_norm;
+    }
+    if (norm <= 0.0) continue;
+    band.error = sum / norm;
+    band.gain = std::norm(sum) / norm / kBinCorrelation;
+    bands.push_back(std::move(band));
+  }
+  return bands;
+}
+
+double Excess(const std::vector<SlackBand>& bands) {
+  double sum = 0.0;
+  for (const SlackBand& band : bands) sum += band.gain - 1.0;
+  // Four standard deviations of what noise alone gives.
+  return std::max(0.0, sum - 4.0 * std::sqrt(static_cast<double>(bands.size())));
+}
+
+// Delays beside tau, half a period of the band's upper edge apart.
+std::vector<double> Offsets(const CutRecord& record, double tau_s) {
+  const double step = 0.5 / record.frequency(record.flame_count - 1);
+  std::vector<double> offsets;
+  for (double offset = -0.6 * tau_s; offset < 2.0 * tau_s; offset += step)
+    offsets.push_back(offset);
+  return offsets;
+}
+
+struct Normal {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd right;
+};
+
+// What least squares takes off the cost.
+double Gain(const Normal& at) {
+  const Eigen::VectorXd scale = at.gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * at.gram * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-6;
+  const Eigen::VectorXd right = scale.cwiseProduct(at.right);
+  return right.dot(scaled.ldlt().solve(right));
+}
+
+}  // namespace
+
+Slack ComputeSlack(const std::vector<CutRecord>& records, const EffectFit& fit) {
+  std::vector<Eigen::VectorXcd> x_a;
+  std::vector<const Eigen::VectorXcd*> e_a;
+  std::vector<const Eigen::VectorXd*> v_a;
+  Slack out;
+  const std::vector<double> offsets = Offsets(records[0], fit.tau_s);
+  const auto taps = static_cast<Eigen::Index>(offsets.size());
+  Normal total{Eigen::MatrixXd::Zero(taps, taps), Eigen::VectorXd::Zero(taps)};
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const ExperimentFit& at = fit.experiments[i];
+    x_a.push_back(records[i].windowed_pressure - at.acoustic_residual);
+    e_a.push_back(&at.acoustic_residual);
+    v_a.push_back(&at.acoustic_noise);
+    const Eigen::Index n = records[i].flame_count;
+    const Eigen::VectorXcd x = records[i].windowed_heat_release.head(n) - at.flame_residual;
+    Eigen::VectorXd weight = at.flame_noise.cwiseInverse() / kBinCorrelation;
+    Eigen::MatrixXcd columns(n, taps);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (records[i].masked[static_cast<std::size_t>(k)]) weight[k] = 0.0;
+      for (Eigen::Index j = 0; j < taps; ++j) {
+        const double angle =
+            -kRadPerSPerHz * records[i].frequency(k) * offsets[static_cast<std::size_t>(j)];
+        columns(k, j) = x[k] * std::polar(1.0, angle);
+      }
+    }
+    const Eigen::MatrixXcd weighted = weight.asDiagonal() * columns;
+    const Normal own{(weighted.adjoint() * columns).real(),
+                     (weighted.adjoint() * at.flame_residual).real()};
+    out.flame_by_experiment.push_back(Gain(own));
+    total.gram += own.gram;
+    total.right += own.right;
+  }
+  out.acoustic = Bands(records, x_a, e_a, v_a);
+  out.acoustic_excess = Excess(out.acoustic);
+  // Half a unit for each real coefficient is expected of noise alone.
+  const double expected = 0.5 * static_cast<double>(taps);
+  out.flame_excess = std::max(0.0, Gain(total) - expected - 4.0 * std::sqrt(0.5 * expected));
+  return out;
+}
+
+}  // namespace howl

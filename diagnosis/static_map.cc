@@ -1,0 +1,205 @@
+#include "diagnosis/static_map.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/noise_fit.h"
+#include "diagnosis/real_fft.h"
+
+namespace howl {
+namespace {
+
+constexpr double kTopQuantile = 0.995;
+constexpr double kDepth = 0.06;  // of the plateau's threshold below the top, over the amplitude
+constexpr Eigen::Index kBumps = 4;
+constexpr int kIterations = 5;
+constexpr int kRounds = 3;
+constexpr double kEdgeWidth = 0.02;
+constexpr double kEdgeRatio = 5.0;
+constexpr double kEdgeShare = 0.03;
+constexpr std::size_t kMostLevels = 300;
+
+double Quantile(const Eigen::VectorXd& x, double share) {
+  std::vector<double> values(x.data(), x.data() + x.size());
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+// Many samples just below the extreme, few a little further down.
+bool EdgeAt(const Eigen::VectorXd& x, double range) {
+  const double top = Quantile(x, 0.9995);
+  const double width = kEdgeWidth * 0.5 * range;
+  const double near = static_cast<double>((x.array() > top - width).count());
+  const double below = static_cast<double>(
+      (x.array() > top - 3.0 * width && x.array() <= top - 2.0 * width).count());
+  return near > kEdgeRatio * std::max(below, 1.0) &&
+         near > kEdgeShare * static_cast<double>(x.size());
+}
+
+bool SharpEdge(const Eigen::VectorXd& x) {
+  const double range = Quantile(x, 0.9995) - Quantile(x, 0.0005);
+  return EdgeAt(x, range) && EdgeAt(-x, range);
+}
+
+struct Bumps {
+  Eigen::MatrixXcd spectrum;  // extended band x kBumps
+  Eigen::VectorXd mean;       // of each column over the record, outwards
+  double plateau = 0.0;
+  Eigen::MatrixXd signal;  // samples x kBumps
+  Eigen::ArrayXd on;       // one on either plateau
+};
+
+Bumps MakeBumps(const CutRecord& record, bool pressure) {
+  const Eigen::VectorXd& x = pressure ? record.pressure : record.heat_release;
+  Eigen::VectorXcd near = pressure ? record.pressure_spectrum : record.heat_release_spectrum;
+  for (Eigen::Index k = 0; k < near.size(); ++k) {
+    const double f = static_cast<double>(k) * record.bin_hz;
+    if (std::abs(f - record.at.cycle_frequency_hz) > 0.4 * record.at.cycle_frequency_hz)
+      near[k] = 0.0;
+  }
+  const Eigen::VectorXd cycle = InverseFft(near, record.samples);
+  const double amplitude = 0.5 * (Quantile(x, kTopQuantile) - Quantile(x, 1.0 - kTopQuantile));
+  Bumps out;
+  out.plateau = amplitude;
+  out.spectrum.resize(record.extended(), kBumps);
+  out.mean.resize(kBumps);
+  out.signal.resize(record.samples, kBumps);
+  out.on.setZero(record.samples);
+  for (const int sign : {1, -1}) {
+    const double threshold = Quantile(sign * x, kTopQuantile) - kDepth * amplitude;
+    const Eigen::ArrayXd on = (sign * x.array() > threshold).cast<double>();
+    const Eigen::Index first = sign > 0 ? 0 : 2;
+    const Eigen::ArrayXd flat = sign * amplitude * on;
+    const Eigen::ArrayXd round = on * cycle.array();
+    const double count = std::max(on.sum(), 1.0);
+    out.spectrum.col(first) =
+        ForwardFft(flat.matrix()).segment(record.first - kTapReach, record.extended());
+    out.spectrum.col(first + 1) =
+        ForwardFft(round.matrix()).segment(record.first - kTapReach, record.extended());
+    out.signal.col(first) = flat;
+    out.signal.col(first + 1) = round;
+    out.on += on;
+    out.mean[first] = amplitude;
+    out.mean[first + 1] = sign * round.sum() / count;
+  }
+  return out;
+}
+
+Eigen::ArrayXd FlameResidualInTime(const CutRecord& record, const EffectFit& base, std::size_t e) {
+  const FlameColumns columns = MakeFlameColumns(record, *base.effect, {}, base.tau_s);
+  const Eigen::VectorXcd phi = FlameMultiplier(record, *base.effect, {}, base.tau_s)
+                                   .cwiseProduct(columns.spectrum * base.experiments[e].flame);
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.heat_release_spectrum.size());
+  const Eigen::Index start = record.first - kTapReach;
+  spectrum.segment(start, phi.size()) =
+      record.heat_release_spectrum.segment(start, phi.size()) - phi;
+  Eigen::ArrayXd residual = InverseFft(spectrum, record.samples).array();
+  const auto ends = static_cast<Eigen::Index>(0.02 * static_cast<double>(record.samples));
+  residual.head(ends) = 0.0;
+  residual.tail(ends) = 0.0;
+  return residual;
+}
+
+}  // namespace
+
+ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
+                        const EffectFit& base) {
+  ClippingFit out;
+  out.fit = base;
+  double cost = 0.0;
+  double expansion = 0.0;
+  double plateau_noise = 0.0;
+  std::size_t edges = 0;
+  const Effect& none = *base.effect;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const CutRecord& record = records[e];
+    ExperimentFit& at = out.fit.experiments[e];
+    if (SharpEdge(pressure ? record.pressure : record.heat_release)) ++edges;
+    const Bumps bumps = MakeBumps(record, pressure);
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(kBumps);
+    const auto columns = [&]() {
+      Eigen::MatrixXcd windowed(record.acoustic_count, kBumps);
+      const Eigen::VectorXcd r = RecordedTransfer(record, none, {}, at.acoustics);
+      for (Eigen::Index j = 0; j < kBumps; ++j) {
+        windowed.col(j) =
+            pressure ? ApplyWindow(bumps.spectrum.col(j), record.acoustic_count)
+                     : ApplyWindow(-r.cwiseProduct(bumps.spectrum.col(j)), record.acoustic_count);
+      }
+      return windowed;
+    };
+    for (int round = 0; round < kRounds; ++round) {
+      Eigen::VectorXd weight = at.acoustic_noise.cwiseInverse();
+      for (Eigen::Index k = 0; k < weight.size(); ++k) {
+        if (record.masked[static_cast<std::size_t>(k)]) weight[k] = 0.0;
+      }
+      for (int i = 0; i < kIterations; ++i) {
+        const Eigen::VectorXcd bare = AcousticResidual(record, none, {}, at.acoustics);
+        const Eigen::MatrixXcd extra = columns();
+        const Eigen::VectorXcd residual = bare + extra * c;
+        Eigen::MatrixXcd jacobian(record.acoustic_count, 4 + kBumps);
+        jacobian.leftCols(4) =
+            AcousticJacobian(record, none, {}, at.acoustics, bare, Eigen::VectorXd());
+        jacobian.rightCols(kBumps) = extra;
+        const Eigen::MatrixXcd weighted = weight.asDiagonal() * jacobian;
+        Eigen::MatrixXd gram = (weighted.adjoint() * jacobian).real();
+        const Eigen::VectorXd right = (weighted.adjoint() * residual).real();
+        const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+        gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
+        gram.diagonal().array() += 1e-9;
+        Eigen::VectorXd step = -scale.cwiseProduct(gram.ldlt().solve(scale.cwiseProduct(right)));
+        step[0] = std::clamp(step[0], -0.1, 0.1);
+        step[1] = std::clamp(step[1], -0.5, 0.5);
+        at.acoustics += step.head<4>();
+        c += step.tail(kBumps);
+      }
+      at.acoustic_residual = AcousticResidual(record, none, {}, at.acoustics) + columns() * c;
+      const Eigen::VectorXcd r = RecordedTransfer(record, none, {}, at.acoustics);
+      at.acoustic_noise =
+          AcousticNoise(at.acoustic_residual,
+                        r.segment(kTapReach, record.acoustic_count).cwiseAbs2(), record.masked);
+    }
+    out.repaired.push_back((pressure ? record.pressure : record.heat_release) + bumps.signal * c);
+    if (!pressure) {
+      const Eigen::ArrayXd noise = FlameResidualInTime(record, base, e);
+      const double on = (noise.square() * bumps.on).sum() / std::max(bumps.on.sum(), 1.0);
+      const double off =
+          (noise.square() * (1.0 - bumps.on)).sum() / std::max((1.0 - bumps.on).sum(), 1.0);
+      plateau_noise += on / off / static_cast<double>(records.size());
+    }
+    cost += WhittleCost(at.acoustic_residual, at.acoustic_noise, record.masked);
+    // The mean height of the bumps over the plateau.
+    expansion += 0.5 * c.dot(bumps.mean) / bumps.plateau / static_cast<double>(records.size());
+  }
+  out.fit.acoustic_cost = cost;
+  out.gain = expansion > 0.0 ? std::max(0.0, base.acoustic_cost - cost) : 0.0;
+  // A bump's top is half as high again as its mean.
+  out.fraction = 1.0 / (1.0 + 1.5 * std::max(expansion, 0.0));
+  if (!pressure) out.plateau_noise = plateau_noise;
+  out.sharp_edge = 2 * edges > records.size();
+  return out;
+}
+
+FewLevels FindQuantisation(const std::vector<CutRecord>& records) {
+  FewLevels out;
+  std::size_t found = 0;
+  for (const CutRecord& record : records) {
+    std::vector<double> values(record.pressure.data(),
+                               record.pressure.data() + record.pressure.size());
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    if (values.size() > kMostLevels || values.size() < 2) continue;
+    ++found;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                     steps.end());
+    out.levels += (values.back() - values.front()) / steps[steps.size() / 2] + 1.0;
+  }
+  out.found = 2 * found > records.size();
+  if (found > 0) out.levels /= static_cast<double>(found);
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,90 @@
+#include "io/results/diagnosis_json.h"
+
+#include "io/results/solution_json.h"
+
+namespace howl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json VerdictJson(const Diagnosis& diagnosis) {
+  Json probability = Json::object();
+  for (const Candidate& candidate : diagnosis.candidates) {
+    probability[candidate.effect] = candidate.probability;
+  }
+  probability["none"] = diagnosis.probability_none;
+  probability["unknown"] = diagnosis.probability_unknown;
+  return {
+      {"kind", VerdictKindName(diagnosis.kind)},
+      {"effect", diagnosis.kind == VerdictKind::kEffect ? Json(diagnosis.effect) : Json(nullptr)},
+      {"indistinguishable", diagnosis.indistinguishable},
+      {"probability", probability}};
+}
+
+Json WhereJson(const Diagnosis& diagnosis) {
+  Json where = Json::array();
+  for (const Place& place : diagnosis.where) {
+    where.push_back({{"block", LoopBlockName(place.block)},
+                     {"band_hz", {place.low_hz, place.high_hz}},
+                     {"experiments", place.experiments},
+                     {"share", place.share}});
+  }
+  return where;
+}
+
+Json CandidateJson(const Candidate& candidate) {
+  Json parameters = Json::object();
+  for (const EstimatedParameter& parameter : candidate.parameters) {
+    parameters[parameter.name] = {{"value", NumberOrNull(parameter.value)},
+                                  {"lo", NumberOrNull(parameter.low)},
+                                  {"hi", NumberOrNull(parameter.high)},
+                                  {"unit", parameter.unit}};
+  }
+  return {{"effect", candidate.effect},
+          {"gap_after", NumberOrNull(candidate.gap_after)},
+          {"shrinkage", NumberOrNull(candidate.shrinkage)},
+          {"shrinkage_interval",
+           {NumberOrNull(candidate.shrinkage_low), NumberOrNull(candidate.shrinkage_high)}},
+          {"p_value", NumberOrNull(candidate.p_value)},
+          {"log_likelihood_gain", NumberOrNull(candidate.gain)},
+          {"parameters", parameters}};
+}
+
+}  // namespace
+
+std::string_view VerdictKindName(VerdictKind kind) {
+  switch (kind) {
+    case VerdictKind::kNone:
+      return "none";
+    case VerdictKind::kEffect:
+      return "effect";
+    case VerdictKind::kUnknown:
+      break;
+  }
+  return "unknown";
+}
+
+Json DiagnosisJson(const Diagnosis& diagnosis) {
+  Json candidates = Json::array();
+  for (const Candidate& candidate : diagnosis.candidates) {
+    candidates.push_back(CandidateJson(candidate));
+  }
+  return {
+      {"schema", "howl.diagnosis/1"},
+      {"verdict", VerdictJson(diagnosis)},
+      {"where", WhereJson(diagnosis)},
+      {"gap",
+       {{"before", NumberOrNull(diagnosis.gap_before)},
+        {"after", NumberOrNull(diagnosis.gap_after)},
+        {"floor", NumberOrNull(diagnosis.gap_floor)},
+        {"held_out", true}}},
+      {"candidates", candidates},
+      {"free_slack",
+       {{"acoustic_cut",
+         {{"before", diagnosis.slack_acoustic_before}, {"after", diagnosis.slack_acoustic_after}}},
+        {"flame_cut",
+         {{"before", diagnosis.slack_flame_before}, {"after", diagnosis.slack_flame_after}}}}},
+      {"advice", diagnosis.advice}};
+}
+
+}  // namespace howl

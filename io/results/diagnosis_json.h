@@ -1,0 +1,18 @@
+// diagnosis.json, schema howl.diagnosis/1: what `howl diagnose` found.
+#ifndef HOWL_IO_RESULTS_DIAGNOSIS_JSON_H_
+#define HOWL_IO_RESULTS_DIAGNOSIS_JSON_H_
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "diagnosis/diagnosis.h"
+
+namespace howl {
+
+std::string_view VerdictKindName(VerdictKind kind);
+
+nlohmann::ordered_json DiagnosisJson(const Diagnosis& diagnosis);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_RESULTS_DIAGNOSIS_JSON_H_

@@ -1,0 +1,19 @@
+#include "model/effects/catalogue.h"
+
+namespace howl {
+
+std::vector<EffectPointer> Catalogue() {
+  std::vector<EffectPointer> all;
+  for (const auto& form : {QSensorLowPass(),   FlameLowPass(),       PSensorResonance(),
+                           ChannelSkew(),      ExtraAcousticMode(),  ModeDetuning(),
+                           DelayDispersion(),  DelayVariesWithPhi(), AmplitudeDependentDelay(),
+                           NonlinearDamping(), ParametricNoise(),    SlowDrift(),
+                           Intermittency(),    PClipping(),          QClipping(),
+                           Quantisation(),     MainsHum(),           CrosstalkPToQ(),
+                           SecondDelayPath(),  ExternalTone()}) {
+    all.insert(all.end(), form.begin(), form.end());
+  }
+  return all;
+}
+
+}  // namespace howl

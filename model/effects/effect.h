@@ -1,0 +1,153 @@
+// An effect: a nested extension of the base loop, and a candidate cause of the gap between model
+// and rig. With every parameter at its null it is bit for bit the base.
+//
+// The base, and the places where an effect can act (s = j 2 pi f; true signals p, q; recorded
+// signals p_r, q_r):
+//
+//   p   = G q                                 Acoustics, ModulateAcoustics
+//   v   = FlameIn s e^(-tau s) p              FlameIn, DelayFactor, DelayPerAmplitude
+//   q   = FlameOut Phi(v) + n                 FlameOut
+//   p_r = PressureInstrument p                PressureInstrument
+//   q_r = HeatReleaseInstrument q + leak p_r  HeatReleaseInstrument, PressureLeak
+//
+// Effects that are no transfer function of this kind (clipping, quantisation, coherent lines, a
+// fluctuating gain) say so by kind(); they are found by estimators of their own.
+//
+// Frequencies in Hz; parameters in the units that EffectParameter names.
+#ifndef HOWL_MODEL_EFFECTS_EFFECT_H_
+#define HOWL_MODEL_EFFECTS_EFFECT_H_
+
+#include <complex>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/acoustics.h"
+
+namespace howl {
+
+enum class LoopBlock : std::uint8_t {
+  kAcoustics,
+  kFlame,
+  kDelay,
+  kSource,
+  kPressureInstrument,
+  kHeatReleaseInstrument,
+  kOperatingPoint
+};
+
+std::string_view LoopBlockName(LoopBlock block);
+
+// How the effect is recognised in records.
+enum class EffectKind : std::uint8_t {
+  kTransfer,     // a transfer function or a slow modulation: fitted
+  kGain,         // the flame's gain fluctuates
+  kLine,         // a coherent line that is no harmonic
+  kClipping,     // a recorded signal saturates
+  kQuantisation  // a recorded signal has few levels
+};
+
+enum class ParameterScale : std::uint8_t { kLinear, kLogarithmic };
+
+struct EffectParameter {
+  std::string name;
+  std::string unit;
+  double null_value = 0.0;  // may be infinite
+  double low = 0.0;         // the search's bounds
+  double high = 0.0;
+  std::vector<double> starts;  // of the search
+  ParameterScale scale = ParameterScale::kLinear;
+};
+
+// What an effect may know of an experiment.
+struct EffectContext {
+  double phi_position = 0.0;        // operating parameter, -1/2 ... 1/2 over the experiments
+  double cycle_frequency_hz = 0.0;  // of this experiment
+  double relative_amplitude = 1.0;  // of this experiment's cycle, 1 in the mean of all
+  // Amplitude of q over that of p at the cycle, in the mean of all experiments.
+  double heat_release_over_pressure = 1.0;
+};
+
+using EffectValues = std::span<const double>;
+using Response = std::complex<double>;
+
+class Effect {
+ public:
+  virtual ~Effect() = default;
+
+  virtual std::string_view id() const = 0;
+  virtual LoopBlock block() const = 0;
+  virtual const std::vector<EffectParameter>& parameters() const = 0;
+  virtual EffectKind kind() const { return EffectKind::kTransfer; }
+
+  // Which cuts of the loop it changes: p from q (acoustics), q from p (delay and flame).
+  virtual bool ChangesAcousticCut() const { return false; }
+  virtual bool ChangesFlameCut() const { return false; }
+  // True if the wave form at the flame changes by more than a delay.
+  virtual bool ChangesFlameInput() const { return false; }
+  virtual bool ModulatesAcoustics() const { return false; }
+  virtual bool ModulatesDelay() const { return false; }
+
+  virtual Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
+                             EffectValues /*x*/) const {
+    const Complex<double> g = AcousticResponse(acoustics, frequency_hz);
+    return {g.re, g.im};
+  }
+  virtual Response PressureInstrument(double /*frequency_hz*/, EffectValues /*x*/) const {
+    return 1.0;
+  }
+  virtual Response HeatReleaseInstrument(double /*frequency_hz*/, EffectValues /*x*/) const {
+    return 1.0;
+  }
+  virtual Response PressureLeak(double /*frequency_hz*/, const EffectContext& /*at*/,
+                                EffectValues /*x*/) const {
+    return 0.0;
+  }
+  virtual Response FlameIn(double /*frequency_hz*/, const EffectContext& /*at*/,
+                           EffectValues /*x*/) const {
+    return 1.0;
+  }
+  virtual Response FlameOut(double /*frequency_hz*/, EffectValues /*x*/) const { return 1.0; }
+  // tau of the experiment over the shared tau.
+  virtual double DelayFactor(const EffectContext& /*at*/, EffectValues /*x*/) const { return 1.0; }
+  // d tau / d(amplitude relative to the mean of all experiments), as a fraction of tau.
+  virtual double DelayPerAmplitude(EffectValues /*x*/) const { return 0.0; }
+  // Slow changes: position in the record -1/2 ... 1/2; amplitude relative to the mean of all
+  // experiments' cycles. The frequencies are multiplied, the damping is added.
+  virtual void ModulateAcoustics(double /*position*/, double /*amplitude*/, EffectValues /*x*/,
+                                 double* /*omega_factor*/, double* /*xi_add*/) const {}
+
+ protected:
+  Effect() = default;
+  Effect(const Effect&) = default;
+  Effect& operator=(const Effect&) = default;
+};
+
+// An identifier and a table of parameters: what all effects of the catalogue share.
+class NamedEffect : public Effect {
+ public:
+  std::string_view id() const override { return id_; }
+  LoopBlock block() const override { return block_; }
+  const std::vector<EffectParameter>& parameters() const override { return parameters_; }
+
+ protected:
+  NamedEffect(std::string id, LoopBlock block, std::vector<EffectParameter> parameters)
+      : id_(std::move(id)), block_(block), parameters_(std::move(parameters)) {}
+
+ private:
+  std::string id_;
+  LoopBlock block_;
+  std::vector<EffectParameter> parameters_;
+};
+
+// The effect's nulls, in the order of its parameters.
+std::vector<double> NullValues(const Effect& effect);
+
+// j 2 pi f
+inline Response LaplaceVariable(double frequency_hz) { return {0.0, kRadPerSPerHz * frequency_hz}; }
+
+}  // namespace howl
+
+#endif  // HOWL_MODEL_EFFECTS_EFFECT_H_

@@ -1,0 +1,38 @@
+// One more mode in G: c N s / (s^2 + 2 zeta w s + w^2), w = ratio omega.
+#include <cmath>
+#include <limits>
+
+#include "model/effects/catalogue.h"
+
+namespace howl {
+namespace {
+
+class Mode final : public NamedEffect {
+ public:
+  Mode()
+      : NamedEffect("extra_acoustic_mode", LoopBlock::kAcoustics,
+                    {{"ratio",
+                      "",
+                      2.0,
+                      0.25,
+                      12.0,
+                      {0.6, 1.5, 2.0, 2.5, 3.6, 4.4, 5.0, 5.6, 6.4, 7.2},
+                      ParameterScale::kLogarithmic},
+                     {"coeff_over_N", "", 0.0, -5.0, 5.0, {0.05}},
+                     {"zeta", "", 0.05, 0.002, 0.6, {0.05}, ParameterScale::kLogarithmic}}) {}
+  bool ChangesAcousticCut() const override { return true; }
+  Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
+                     EffectValues x) const override {
+    const Response base = Effect::Acoustics(acoustics, frequency_hz, x);
+    if (x[1] == 0.0) return base;
+    const Complex<double> mode = UnitModeResponse(kRadPerSPerHz * x[0] * acoustics.omega_hz, x[2],
+                                                  kRadPerSPerHz * frequency_hz);
+    return base + x[1] * acoustics.N * Response(mode.re, mode.im);
+  }
+};
+
+}  // namespace
+
+std::vector<EffectPointer> ExtraAcousticMode() { return {std::make_shared<Mode>()}; }
+
+}  // namespace howl

@@ -1,0 +1,38 @@
+// Recorded p is true p through a second-order resonance, the line or the cavity of a transducer:
+// 1 / (1 + 2 zeta s / w_0 + (s / w_0)^2).
+#include <cmath>
+#include <limits>
+
+#include "model/effects/catalogue.h"
+
+namespace howl {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Resonance final : public NamedEffect {
+ public:
+  Resonance()
+      : NamedEffect("p_sensor_resonance", LoopBlock::kPressureInstrument,
+                    {{"f0_hz",
+                      "Hz",
+                      kInfinity,
+                      120.0,
+                      2e4,
+                      {450.0, 700.0, 1000.0, 1600.0, 3000.0},
+                      ParameterScale::kLogarithmic},
+                     {"zeta", "", 0.2, 0.01, 2.0, {0.15}, ParameterScale::kLogarithmic}}) {}
+  bool ChangesAcousticCut() const override { return true; }
+  bool ChangesFlameCut() const override { return true; }
+  bool ChangesFlameInput() const override { return true; }
+  Response PressureInstrument(double frequency_hz, EffectValues x) const override {
+    const Response s(0.0, frequency_hz / x[0]);
+    return 1.0 / (1.0 + 2.0 * x[1] * s + s * s);
+  }
+};
+
+}  // namespace
+
+std::vector<EffectPointer> PSensorResonance() { return {std::make_shared<Resonance>()}; }
+
+}  // namespace howl

@@ -1,0 +1,26 @@
+// Recorded q saturates at a fraction of its amplitude.
+#include <cmath>
+#include <limits>
+
+#include "model/effects/catalogue.h"
+
+namespace howl {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Clipping final : public NamedEffect {
+ public:
+  Clipping()
+      : NamedEffect("q_clipping", LoopBlock::kHeatReleaseInstrument,
+                    {{"fraction", "", kInfinity, 0.2, 2.0, {}}}) {}
+  EffectKind kind() const override { return EffectKind::kClipping; }
+  bool ChangesAcousticCut() const override { return true; }
+  bool ChangesFlameCut() const override { return true; }
+};
+
+}  // namespace
+
+std::vector<EffectPointer> QClipping() { return {std::make_shared<Clipping>()}; }
+
+}  // namespace howl

@@ -1,0 +1,42 @@
+// Recorded q is true q through a low-pass of first order, 1 / (1 + s / w_c), or of second order
+// (Butterworth), 1 / (1 + sqrt(2) s / w_c + (s / w_c)^2).
+#include <cmath>
+#include <limits>
+
+#include "model/effects/catalogue.h"
+
+namespace howl {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Filter final : public NamedEffect {
+ public:
+  explicit Filter(int order)
+      : NamedEffect("q_sensor_lowpass", LoopBlock::kHeatReleaseInstrument,
+                    {{"cutoff_hz",
+                      "Hz",
+                      kInfinity,
+                      60.0,
+                      1e6,
+                      {250.0, 700.0, 2000.0},
+                      ParameterScale::kLogarithmic}}),
+        order_(order) {}
+  bool ChangesAcousticCut() const override { return true; }
+  bool ChangesFlameCut() const override { return true; }
+  Response HeatReleaseInstrument(double frequency_hz, EffectValues x) const override {
+    const Response s(0.0, frequency_hz / x[0]);
+    return order_ == 1 ? 1.0 / (1.0 + s) : 1.0 / (1.0 + std::sqrt(2.0) * s + s * s);
+  }
+
+ private:
+  int order_;
+};
+
+}  // namespace
+
+std::vector<EffectPointer> QSensorLowPass() {
+  return {std::make_shared<Filter>(1), std::make_shared<Filter>(2)};
+}
+
+}  // namespace howl

@@ -1,0 +1,138 @@
+// Verdicts on simulated rigs whose make is known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/acoustic_cut.h"
+#include "diagnosis/effect_fit.h"
+#include "tests/diagnosis/simulated_rig.h"
+
+namespace howl {
+namespace {
+
+const std::vector<DiagnosisExperiment>& CleanRig() {
+  static const std::vector<DiagnosisExperiment> rig = SimulateRig();
+  return rig;
+}
+
+const Candidate& CandidateOf(const Diagnosis& diagnosis, const std::string& id) {
+  return *std::find_if(diagnosis.candidates.begin(), diagnosis.candidates.end(),
+                       [&](const Candidate& c) { return c.effect == id; });
+}
+
+TEST(BaseFit, RecoversTheRig) {
+  const std::vector<CutRecord> records = MakeCutRecords(CleanRig());
+  const EffectFit fit = FitBase(records);
+  EXPECT_NEAR(fit.tau_s, 0.00352, 5.0 * fit.standard_errors[0] + 1e-6);
+  for (int point = 0; point < 3; ++point) {
+    const Acoustics<double> truth = TestRig(point).model.loop.acoustics;
+    const Acoustics<double> found =
+        ToAcoustics(fit.experiments[static_cast<std::size_t>(point)].acoustics);
+    EXPECT_NEAR(found.omega_hz / truth.omega_hz, 1.0, 2e-3);
+    EXPECT_NEAR(found.xi / truth.xi, 1.0, 0.03);
+    EXPECT_NEAR(found.N / truth.N, 1.0, 0.03);
+    EXPECT_NEAR(found.M / truth.M, 1.0, 0.06);
+  }
+}
+
+TEST(Effects, NullResidualsAreTheBasesBitForBit) {
+  const std::vector<CutRecord> records = MakeCutRecords({CleanRig()[0]});
+  const CutRecord& record = records[0];
+  const EffectPointer base = BaseEffect();
+  const AcousticLocals locals(std::log(206.0), std::log(0.17), 6400.0, 1700.0);
+  const double tau = 0.00352;
+  const Eigen::VectorXcd acoustic = AcousticResidual(record, *base, {}, locals);
+  const FlameColumns columns = MakeFlameColumns(record, *base, {}, tau);
+  const Eigen::VectorXd weight = Eigen::VectorXd::Ones(record.flame_count);
+  const Eigen::VectorXcd flame = SolveFlame(record, *base, {}, tau, columns, weight).residual;
+  for (const EffectPointer& effect : Catalogue()) {
+    const std::vector<double> x = NullValues(*effect);
+    EXPECT_TRUE(AcousticResidual(record, *effect, x, locals) == acoustic) << effect->id();
+    const FlameColumns own = MakeFlameColumns(record, *effect, x, tau);
+    EXPECT_TRUE(SolveFlame(record, *effect, x, tau, own, weight).residual == flame) << effect->id();
+  }
+}
+
+TEST(AcousticCut, JacobianAgreesWithCentralDifferences) {
+  const std::vector<CutRecord> records = MakeCutRecords({CleanRig()[0]});
+  const CutRecord& record = records[0];
+  const AcousticLocals locals(std::log(200.0), std::log(0.2), 6000.0, 1500.0);
+  for (const EffectPointer& effect : Catalogue()) {
+    if (effect->kind() != EffectKind::kTransfer || !effect->ChangesAcousticCut()) continue;
+    std::vector<double> x;
+    Eigen::VectorXd steps(static_cast<Eigen::Index>(effect->parameters().size()));
+    for (const EffectParameter& p : effect->parameters()) {
+      x.push_back(p.starts.back());
+      steps[static_cast<Eigen::Index>(x.size()) - 1] = 1e-5 * std::max(std::abs(x.back()), 1e-3);
+    }
+    const Eigen::VectorXcd residual = AcousticResidual(record, *effect, x, locals);
+    const Eigen::MatrixXcd jacobian = AcousticJacobian(record, *effect, x, locals, residual, steps);
+    for (Eigen::Index j = 0; j < steps.size(); ++j) {
+      std::vector<double> up = x;
+      std::vector<double> down = x;
+      up[static_cast<std::size_t>(j)] += steps[j];
+      down[static_cast<std::size_t>(j)] -= steps[j];
+      const Eigen::VectorXcd numeric = (AcousticResidual(record, *effect, up, locals) -
+                                        AcousticResidual(record, *effect, down, locals)) /
+                                       (2.0 * steps[j]);
+      EXPECT_LT((jacobian.col(4 + j) - numeric).norm(), 1e-3 * numeric.norm() + 1e-9)
+          << effect->id() << " " << j;
+    }
+  }
+}
+
+TEST(Diagnose, CleanRigIsNotAccused) {
+  const Diagnosis diagnosis = Diagnose(CleanRig(), {});
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kNone) << diagnosis.effect;
+  EXPECT_LT(diagnosis.gap_before, 2.0 * diagnosis.gap_floor);
+  double total = diagnosis.probability_none + diagnosis.probability_unknown;
+  for (const Candidate& candidate : diagnosis.candidates) total += candidate.probability;
+  EXPECT_NEAR(total, 1.0, 1e-9);
+}
+
+TEST(Diagnose, NamesALowPassOnQAndItsCutOff) {
+  const std::vector<DiagnosisExperiment> rig =
+      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)});
+  DiagnosisOptions options;
+  options.threads = 1;
+  const Diagnosis diagnosis = Diagnose(rig, options);
+  ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass");
+  EXPECT_EQ(diagnosis.where.at(0).block, LoopBlock::kHeatReleaseInstrument);
+  EXPECT_NEAR(CandidateOf(diagnosis, "q_sensor_lowpass").parameters[0].value, 400.0, 12.0);
+  EXPECT_GT(CandidateOf(diagnosis, "q_sensor_lowpass").shrinkage, 0.8);
+
+  // The same answer with two threads, to the last bit.
+  options.threads = 2;
+  const Diagnosis again = Diagnose(rig, options);
+  EXPECT_EQ(again.gap_after, diagnosis.gap_after);
+  ASSERT_EQ(again.candidates.size(), diagnosis.candidates.size());
+  for (std::size_t i = 0; i < again.candidates.size(); ++i) {
+    EXPECT_EQ(again.candidates[i].effect, diagnosis.candidates[i].effect);
+    EXPECT_EQ(again.candidates[i].gain, diagnosis.candidates[i].gain);
+    EXPECT_EQ(again.candidates[i].probability, diagnosis.candidates[i].probability);
+  }
+
+  // Withheld, it is not pinned on another.
+  options.withheld = {"q_sensor_lowpass"};
+  EXPECT_EQ(Diagnose(rig, options).kind, VerdictKind::kUnknown);
+}
+
+TEST(Diagnose, TellsHumInPFromATone) {
+  std::vector<DiagnosisExperiment> rig = CleanRig();
+  for (DiagnosisExperiment& experiment : rig) {
+    for (std::size_t i = 0; i < experiment.record.pressure.size(); ++i) {
+      const double t = static_cast<double>(i) / experiment.record.sampling_hz;
+      experiment.record.pressure[i] += 0.3 * std::sin(2.0 * std::numbers::pi * 50.0 * t + 0.3);
+    }
+  }
+  const Diagnosis diagnosis = Diagnose(rig, {});
+  ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "mains_hum");
+  EXPECT_EQ(diagnosis.where.at(0).block, LoopBlock::kPressureInstrument);
+}
+
+}  // namespace
+}  // namespace howl

@@ -1,0 +1,54 @@
+// Three operating points of a rig, simulated, with instruments on request.
+#ifndef HOWL_TESTS_DIAGNOSIS_SIMULATED_RIG_H_
+#define HOWL_TESTS_DIAGNOSIS_SIMULATED_RIG_H_
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.h"
+#include "model/simulate.h"
+
+namespace howl {
+
+inline RigParameters TestRig(int point) {
+  const double k = static_cast<double>(point);
+  RigParameters rig;
+  rig.model = {
+      {{206.0 - 2.0 * k, 0.17 - 0.02 * k, 6400.0 - 300.0 * k, 1700.0 - 80.0 * k, 3.0}, 0.00352},
+      {FlameShape::kTanh, -0.72e-4, 0.45, 0.0}};
+  rig.noise.combustion_density = 4e-7;
+  rig.noise.combustion_corner_hz = 1200.0;
+  rig.noise.pressure_sensor_std = 0.02;
+  rig.noise.heat_release_sensor_std = 0.002;
+  return rig;
+}
+
+inline std::vector<DiagnosisExperiment> SimulateRig(
+    std::vector<std::shared_ptr<const Instrument>> instruments = {}, std::uint64_t seed = 7) {
+  std::vector<SimulationCase> cases;
+  for (int point = 0; point < 3; ++point) {
+    SimulationCase one;
+    one.rig = TestRig(point);
+    one.rig.instruments = instruments;
+    one.rig.past = {{0.1, 205.0, 0.0, 0.0}};
+    one.seed = seed + static_cast<std::uint64_t>(point);
+    cases.push_back(std::move(one));
+  }
+  SimulationOptions options;
+  options.duration_s = 3.2;
+  options.settle_s = 0.5;
+  const std::vector<SimulatedRecord> records = SimulateBatch(cases, options);
+  std::vector<DiagnosisExperiment> experiments;
+  for (int point = 0; point < 3; ++point) {
+    const SimulatedRecord& record = records[static_cast<std::size_t>(point)];
+    experiments.push_back({"exp" + std::to_string(point + 1),
+                           0.55 - 0.03 * point,
+                           {record.sampling_hz, record.pressure, record.heat_release}});
+  }
+  return experiments;
+}
+
+}  // namespace howl
+
+#endif  // HOWL_TESTS_DIAGNOSIS_SIMULATED_RIG_H_
