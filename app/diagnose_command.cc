@@ -7,8 +7,8 @@
 #include "app/text_table.h"
 #include "diagnosis/diagnosis.h"
 #include "io/results/diagnosis_json.h"
-#include "io/results/whole_file.h"
 #include "io/user_error.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {
