@@ -196,7 +196,7 @@ void JointProblem::AddResidual(ResidualBlock block) {
 
 void JointProblem::Add(const ResidualSet& residuals, ResidualKind kind, int experiment,
                        ceres::CostFunction* cost, std::vector<int> parameters,
-                       std::string label_suffix) {
+                       const std::string& label_suffix) {
   const ResidualSpec& spec = residuals[kind];
   const Experiment& owner = experiments_[static_cast<std::size_t>(experiment)];
   ResidualBlock block;

@@ -84,7 +84,8 @@ class JointProblem {
   void AddTransfer(int experiment, const ResidualSet& residuals);
   void AddXiOrder(const ResidualSet& residuals);
   void Add(const ResidualSet& residuals, ResidualKind kind, int experiment,
-           ceres::CostFunction* cost, std::vector<int> parameters, std::string label_suffix = "");
+           ceres::CostFunction* cost, std::vector<int> parameters,
+           const std::string& label_suffix = "");
   std::vector<int> AcousticBlocks(int experiment, bool full) const;
   std::vector<int> LoopBlocks(int experiment) const;
 
