@@ -252,15 +252,26 @@ std::vector<Place> FindPlaces(const Setting& at, const std::vector<Attempt>& att
       same->gain = std::max(same->gain, gain);
     }
   }
-  double top = 0.0;
-  for (const Score& score : scores) top = std::max(top, score.gain);
-  if (top <= 0.0) return {};
   double total = 0.0;
-  const double temperature = kTemperature + 0.1 * top;
-  for (Score& score : scores) {
-    score.gain = std::exp((score.gain - top) / temperature);
-    total += score.gain;
+  if (diagnosis.kind == VerdictKind::kEffect) {
+    // Where the probable effects act.
+    for (Score& score : scores) {
+      score.gain = 0.0;
+      for (const Attempt& attempt : attempts) {
+        if (attempt.candidate.block == score.block) score.gain += attempt.candidate.probability;
+      }
+      total += score.gain;
+    }
+  } else {
+    double top = 0.0;
+    for (const Score& score : scores) top = std::max(top, score.gain);
+    const double temperature = kTemperature + 0.1 * top;
+    for (Score& score : scores) {
+      score.gain = std::exp((score.gain - top) / temperature);
+      total += score.gain;
+    }
   }
+  if (total <= 0.0) return {};
   // The band and the experiments, from the slack's map.
   const std::vector<CutRecord>& records = *at.records;
   double low = records[0].frequency(0);
