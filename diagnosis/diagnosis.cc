@@ -24,6 +24,8 @@ namespace {
 // Log-likelihoods are of Gaussian noise whose spectrum is itself fitted, and regressors carry noise
 // of their own: gains of 20 come from no effect at all now and then.
 constexpr double kDetectionGain = 25.0;
+// Cut B's regressor is recorded p, whose sensor noise is taken out only in the mean.
+constexpr double kFlameDetectionGain = 45.0;
 constexpr double kDetectionWidth = 4.0;
 // Slack that is left on rigs without an effect, or with one whose form is only nearly right.
 constexpr double kAcousticAllowance = 40.0;
@@ -457,13 +459,15 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   const double largest = top ? std::max(0.0, top->candidate.gain) : 0.0;
   const double rest = std::max(0.0, out.slack_acoustic_after - kAcousticAllowance) +
                       std::max(0.0, out.slack_flame_after - kFlameAllowance);
+  const bool flame_alone = top && top->fit && !top->fit->effect->ChangesAcousticCut();
+  const double detection = flame_alone ? kFlameDetectionGain : kDetectionGain;
   // Lines that no candidate accounts for are a fact, whatever else fits.
   const bool unexplained_lines =
       !lines.empty() && std::none_of(attempts.begin(), attempts.end(), [](const Attempt& attempt) {
         return attempt.without_lines && attempt.candidate.gain > kDetectionGain;
       });
   double nothing =
-      Logistic((kDetectionGain - largest) / kDetectionWidth) * Logistic((40.0 - rest) / 5.0);
+      Logistic((detection - largest) / kDetectionWidth) * Logistic((40.0 - rest) / 5.0);
   double unknown = 0.0;
   const bool flagged = largest >= 0.5 * kFlagGain;
   const bool confirmed = top && top->confirmed;
