@@ -24,6 +24,8 @@ namespace {
 // Log-likelihoods are of Gaussian noise whose spectrum is itself fitted, and regressors carry noise
 // of their own: gains of 20 come from no effect at all now and then.
 constexpr double kDetectionGain = 25.0;
+// Cut B's regressor is recorded p, whose sensor noise is taken out only in the mean.
+constexpr double kFlameDetectionGain = 45.0;
 constexpr double kDetectionWidth = 4.0;
 // Slack that is left on rigs without an effect, or with one whose form is only nearly right.
 constexpr double kAcousticAllowance = 40.0;
@@ -252,15 +254,26 @@ std::vector<Place> FindPlaces(const Setting& at, const std::vector<Attempt>& att
       same->gain = std::max(same->gain, gain);
     }
   }
-  double top = 0.0;
-  for (const Score& score : scores) top = std::max(top, score.gain);
-  if (top <= 0.0) return {};
   double total = 0.0;
-  const double temperature = kTemperature + 0.1 * top;
-  for (Score& score : scores) {
-    score.gain = std::exp((score.gain - top) / temperature);
-    total += score.gain;
+  if (diagnosis.kind == VerdictKind::kEffect) {
+    // Where the probable effects act.
+    for (Score& score : scores) {
+      score.gain = 0.0;
+      for (const Attempt& attempt : attempts) {
+        if (attempt.candidate.block == score.block) score.gain += attempt.candidate.probability;
+      }
+      total += score.gain;
+    }
+  } else {
+    double top = 0.0;
+    for (const Score& score : scores) top = std::max(top, score.gain);
+    const double temperature = kTemperature + 0.1 * top;
+    for (Score& score : scores) {
+      score.gain = std::exp((score.gain - top) / temperature);
+      total += score.gain;
+    }
   }
+  if (total <= 0.0) return {};
   // The band and the experiments, from the slack's map.
   const std::vector<CutRecord>& records = *at.records;
   double low = records[0].frequency(0);
@@ -446,13 +459,15 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   const double largest = top ? std::max(0.0, top->candidate.gain) : 0.0;
   const double rest = std::max(0.0, out.slack_acoustic_after - kAcousticAllowance) +
                       std::max(0.0, out.slack_flame_after - kFlameAllowance);
+  const bool flame_alone = top && top->fit && !top->fit->effect->ChangesAcousticCut();
+  const double detection = flame_alone ? kFlameDetectionGain : kDetectionGain;
   // Lines that no candidate accounts for are a fact, whatever else fits.
   const bool unexplained_lines =
       !lines.empty() && std::none_of(attempts.begin(), attempts.end(), [](const Attempt& attempt) {
         return attempt.without_lines && attempt.candidate.gain > kDetectionGain;
       });
   double nothing =
-      Logistic((kDetectionGain - largest) / kDetectionWidth) * Logistic((40.0 - rest) / 5.0);
+      Logistic((detection - largest) / kDetectionWidth) * Logistic((40.0 - rest) / 5.0);
   double unknown = 0.0;
   const bool flagged = largest >= 0.5 * kFlagGain;
   const bool confirmed = top && top->confirmed;

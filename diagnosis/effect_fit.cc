@@ -380,7 +380,9 @@ double StartDelay(const std::vector<CutRecord>& records, const std::vector<Flame
   const double step = 0.12 / high_hz;
   double best = std::numeric_limits<double>::infinity();
   double best_tau = 0.0;
-  for (double tau = 0.1 / f0; tau < 1.6 / f0; tau += step) {
+  const auto count = static_cast<int>(std::ceil(1.5 / f0 / step));
+  for (int i = 0; i < count; ++i) {
+    const double tau = 0.1 / f0 + i * step;
     double cost = 0.0;
     double falling = 0.0;
     for (std::size_t e = 0; e < records.size(); e += std::max<std::size_t>(records.size() / 2, 1)) {

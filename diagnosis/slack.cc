@@ -18,7 +18,9 @@ std::vector<SlackBand> Bands(const std::vector<CutRecord>& records,
   const double low = records[0].frequency(0);
   const double high = records[0].frequency(e[0]->size() - 1);
   std::vector<SlackBand> bands;
-  for (double from = low; from + 0.5 * width < high; from += width) {
+  const auto count = static_cast<int>(std::ceil((high - low) / width - 0.5));
+  for (int b = 0; b < count; ++b) {
+    const double from = low + b * width;
     SlackBand band{from, std::min(from + width, high), 0.0, 0.0, {}};
     std::complex<double> sum = 0.0;
     double norm = 0.0;
@@ -56,8 +58,8 @@ double Excess(const std::vector<SlackBand>& bands) {
 std::vector<double> Offsets(const CutRecord& record, double tau_s) {
   const double step = 0.5 / record.frequency(record.flame_count - 1);
   std::vector<double> offsets;
-  for (double offset = -0.6 * tau_s; offset < 2.0 * tau_s; offset += step)
-    offsets.push_back(offset);
+  const auto count = static_cast<int>(std::ceil(2.6 * tau_s / step));
+  for (int j = 0; j < count; ++j) offsets.push_back(-0.6 * tau_s + j * step);
   return offsets;
 }
 

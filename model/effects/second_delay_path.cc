@@ -15,7 +15,7 @@ class Path final : public NamedEffect {
                      {"extra_s",
                       "s",
                       1e-3,
-                      2e-4,
+                      4e-4,
                       1e-2,
                       {6e-4, 1.2e-3, 2e-3, 3e-3, 5e-3},
                       ParameterScale::kLogarithmic}}),
