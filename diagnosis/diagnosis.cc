@@ -108,10 +108,10 @@ Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms) 
   return out;
 }
 
-EstimatedParameter Plain(const std::string& name, double value, double relative_error,
-                         const std::string& unit) {
-  return {name, value, value * (1.0 - kTwoSigma * relative_error),
-          value * (1.0 + kTwoSigma * relative_error), unit};
+// A value whose error nothing here estimates: it has no interval.
+EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  return {name, value, unknown, unknown, unit};
 }
 
 Attempt Named(const Setting& at, const Effect& effect) {
@@ -130,15 +130,16 @@ Attempt TryGain(const Setting& at, const Effect& effect, const GainFluctuation& 
                                 : fluctuation.switching_cost - fluctuation.coloured_cost;
   out.candidate.gain = fluctuation.gain - std::max(0.0, worse);
   if (coloured) {
-    out.candidate.parameters.push_back(Plain(
+    out.candidate.parameters.push_back(WithoutError(
         "rel_rms",
         std::sqrt(std::max(
             0.0, std::pow(fluctuation.in_phase_std, 2) - std::pow(fluctuation.quadrature_std, 2))),
-        0.2, ""));
-    out.candidate.parameters.push_back(Plain("correlation_s", fluctuation.correlation_s, 0.3, "s"));
+        ""));
+    out.candidate.parameters.push_back(
+        WithoutError("correlation_s", fluctuation.correlation_s, "s"));
   } else {
-    out.candidate.parameters.push_back(Plain("gain_drop", 1.0 - fluctuation.low_level, 0.2, ""));
-    out.candidate.parameters.push_back(Plain("dwell_s", fluctuation.dwell_s, 0.3, "s"));
+    out.candidate.parameters.push_back(WithoutError("gain_drop", 1.0 - fluctuation.low_level, ""));
+    out.candidate.parameters.push_back(WithoutError("dwell_s", fluctuation.dwell_s, "s"));
   }
   for (std::size_t e = 0; e < out.held_out.size(); ++e) {
     out.held_out[e].flame_residual = fluctuation.corrected[e];
@@ -157,12 +158,12 @@ Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<Cohe
     out.candidate.block = origin.pressure_hum >= origin.heat_release_hum
                               ? LoopBlock::kPressureInstrument
                               : LoopBlock::kHeatReleaseInstrument;
-    out.candidate.parameters.push_back(Plain("rel", origin.relative_amplitude, 0.05, ""));
-    out.candidate.parameters.push_back(Plain("hz", origin.mains_hz, 1e-3, "Hz"));
+    out.candidate.parameters.push_back(WithoutError("rel", origin.relative_amplitude, ""));
+    out.candidate.parameters.push_back(WithoutError("hz", origin.mains_hz, "Hz"));
   } else {
     out.candidate.gain = origin.source;
-    out.candidate.parameters.push_back(Plain("rel", origin.relative_amplitude, 0.05, ""));
-    out.candidate.parameters.push_back(Plain("hz", origin.frequency_hz, 1e-3, "Hz"));
+    out.candidate.parameters.push_back(WithoutError("rel", origin.relative_amplitude, ""));
+    out.candidate.parameters.push_back(WithoutError("hz", origin.frequency_hz, "Hz"));
   }
   out.without_lines = true;
   return out;
@@ -173,7 +174,7 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
   const bool pressure = effect.id() == "p_clipping";
   ClippingFit clipping = FitClipping(*at.records, pressure, *at.base);
   out.candidate.gain = clipping.gain + (clipping.sharp_edge ? kFlagGain : 0.0);
-  out.candidate.parameters.push_back(Plain("fraction", clipping.fraction, 0.05, ""));
+  out.candidate.parameters.push_back(WithoutError("fraction", clipping.fraction, ""));
   for (std::size_t e = 0; e < out.held_out.size(); ++e) {
     out.held_out[e].acoustic_residual = clipping.fit.experiments[e].acoustic_residual;
   }
@@ -200,7 +201,7 @@ Attempt TryQuantisation(const Setting& at, const Effect& effect) {
   Attempt out = Named(at, effect);
   const FewLevels found = FindQuantisation(*at.records);
   out.candidate.gain = found.found ? 2.0 * kFlagGain : 0.0;
-  out.candidate.parameters.push_back(Plain("levels", found.levels, 0.1, ""));
+  out.candidate.parameters.push_back(WithoutError("levels", found.levels, ""));
   return out;
 }
 

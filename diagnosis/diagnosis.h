@@ -27,7 +27,7 @@ enum class VerdictKind : std::uint8_t { kNone, kEffect, kUnknown };
 struct EstimatedParameter {
   std::string name;
   double value = 0.0;
-  double low = 0.0;  // 95 %
+  double low = 0.0;  // 95 %; NaN where no error was estimated
   double high = 0.0;
   std::string unit;
 };
