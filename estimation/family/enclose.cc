@@ -410,7 +410,11 @@ struct Enclosure::Impl {
     bound.closed = true;
     for (std::size_t k = first; k < first + 2; ++k) {
       const BoundSearch& search = searches[k];
-      bound.closed &= search.state == SearchState::kClosed;
+      // A search also ends where its cells are too fine to split, short of the stated width.
+      bound.closed &= search.state == SearchState::kClosed &&
+                      (search.outer == search.inner ||
+                       search.outer - search.inner <= 0.5 * options.width * range[k] +
+                                                          2.0 * kRounding * std::abs(search.outer));
       // Of an interrupted search: what its cells still reach.
       double outer = search.outer;
       if (search.state == SearchState::kNew) {
