@@ -10,6 +10,7 @@
 #include "estimation/family/enumerate.h"
 #include "estimation/family/inside.h"
 #include "estimation/family/parallel.h"
+#include "estimation/family/two_mode_tradeoff.h"
 #include "model/loop.h"
 
 namespace howl {
@@ -114,6 +115,9 @@ struct Enclosure::Impl {
                               : std::max<std::size_t>(60, 400 / problem.experiments.size());
     }
     base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
+    if (HasGreedyTradeoff(problem)) {
+      for (Member& member : ExtremeMembers(problem)) base.members.push_back(std::move(member));
+    }
     for (std::size_t i = 0; options.parameters && i < problem.experiments.size(); ++i) {
       for (const FamilyParameter parameter : kFamilyParameters) {
         BoundSearch search;

@@ -90,6 +90,32 @@ class Greedy {
     return kUnreached;
   }
 
+  // Appends members at the extremes for this shared value and window: every xi as low, and as
+  // high, as window and chain allow, at each corner of phase and gain.
+  void Extremes(double second, double v, std::vector<Member>& members) const {
+    std::vector<double> low(targets_.size()), high(targets_.size());
+    if (!Chain(second, v, low) || !ChainDown(second, v, low, high)) return;
+    Member member;
+    for (const std::vector<double>* const xi : {&low, &high}) {
+      for (const bool late : {false, true}) {
+        for (const bool loud : {false, true}) {
+          if (Build(second, v, *xi, member, late, loud) && Holds(problem_, member)) {
+            members.push_back(member);
+          }
+        }
+      }
+    }
+  }
+
+  Range Windows() const {
+    Range range{std::max(omega_.lo, 1e-3), omega_.hi};
+    double top = 0.0;
+    for (const ExperimentTarget& target : targets_) top = std::max(top, target.frequency_hz);
+    range.lo = std::max(range.lo, 0.2 * top);
+    range.hi = std::min(range.hi, top);
+    return range;
+  }
+
   static constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
  private:
@@ -150,16 +176,42 @@ class Greedy {
     return true;
   }
 
-  // Phase, gain and loop phase within their tolerances that put omega into the window.
-  bool Build(double second, double v, const std::vector<double>& xi, Member& member) const {
-    member.assign(targets_.size(), {});
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
-      if (!BuildOne(i, second, {v, v * factor_}, xi[i], member[i])) return false;
+  // The largest xi that fit, down from the highest phi; `low` is from Chain.
+  bool ChainDown(double second, double v, const std::vector<double>& low,
+                 std::vector<double>& high) const {
+    double most = xi_.hi;
+    for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
+      const std::size_t i = *at;
+      // Falls with falling xi, so that it is a falling function of -xi.
+      const auto below = [&](double negative) {
+        const double hi = Reach(targets_[i], -negative, second).hi;
+        return hi > 0.0 ? v - hi : 1e3;
+      };
+      if (below(-most) > 0.0) {
+        double lo = low[i];
+        double hi = most;
+        for (int k = 0; k < 45; ++k) {
+          const double middle = 0.5 * (lo + hi);
+          (below(-middle) > 0.0 ? hi : lo) = middle;
+        }
+        most = lo;
+      }
+      high[i] = most;
     }
     return true;
   }
 
-  bool BuildOne(std::size_t i, double second, const Range& window, double xi,
+  // Phase, gain and loop phase within their tolerances that put omega into the window.
+  bool Build(double second, double v, const std::vector<double>& xi, Member& member,
+             bool late = false, bool loud = false) const {
+    member.assign(targets_.size(), {});
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+      if (!BuildOne(i, second, {v, v * factor_}, xi[i], late, loud, member[i])) return false;
+    }
+    return true;
+  }
+
+  bool BuildOne(std::size_t i, double second, const Range& window, double xi, bool late, bool loud,
                 LoopModel& model) const {
     constexpr int kPhases = 8;
     constexpr int kLoopPhases = 4;
@@ -168,9 +220,9 @@ class Greedy {
       return k == n ? range.hi : range.lo + (range.hi - range.lo) * k / n;
     };
     for (int p = 0; p <= kPhases; ++p) {
-      const double phase = share(target.phase_rad, p, kPhases);
+      const double phase = share(target.phase_rad, late ? kPhases - p : p, kPhases);
       for (int g = 0; g <= 2; ++g) {
-        const double gain = share(target.gain, g, 2);
+        const double gain = share(target.gain, loud ? 2 - g : g, 2);
         const double omega = Omega(target, xi, phase, gain, second);
         if (!(omega >= window.lo && omega <= window.hi * (1.0 + 1e-11))) continue;
         const ModeCoefficients mode = CoefficientsFromResponse(
@@ -213,6 +265,26 @@ bool HasGreedyTradeoff(const FamilyProblem& problem) {
   }
   return std::isfinite(problem.RangeOf(shares_m ? ParameterKind::kM : ParameterKind::kMOverN).hi) &&
          std::isfinite(problem.test.omega_spread_max);
+}
+
+std::vector<Member> ExtremeMembers(const FamilyProblem& problem) {
+  constexpr int kSeconds = 10;
+  constexpr int kWindows = 50;
+  const Greedy greedy(problem);
+  const Range range = problem.RangeOf(problem.IsShared(ParameterKind::kM) ? ParameterKind::kM
+                                                                          : ParameterKind::kMOverN);
+  const Range windows = greedy.Windows();
+  std::vector<Member> members;
+  for (int m = 0; m <= kSeconds; ++m) {
+    const double u = static_cast<double>(m) / kSeconds;
+    const double second = m == kSeconds
+                              ? range.hi
+                              : std::max(range.lo + (range.hi - range.lo) * u * u, 1e-6 * range.hi);
+    for (int k = 0; k <= kWindows; ++k) {
+      greedy.Extremes(second, windows.lo + (windows.hi - windows.lo) * k / kWindows, members);
+    }
+  }
+  return members;
 }
 
 std::optional<double> GreedySmallestXi(const FamilyProblem& problem) {

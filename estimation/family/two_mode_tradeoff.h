@@ -9,6 +9,7 @@
 #define HOWL_ESTIMATION_FAMILY_TWO_MODE_TRADEOFF_H_
 
 #include <optional>
+#include <vector>
 
 #include "estimation/family/problem.h"
 
@@ -21,6 +22,10 @@ bool HasGreedyTradeoff(const FamilyProblem& problem);
 // The smallest largest-xi found under the problem's own omega_spread_max; nothing where no member
 // was found.
 std::optional<double> GreedySmallestXi(const FamilyProblem& problem);
+
+// Members at the extremes of the parameters, over a grid of shared values and windows: under
+// the conditions of HasGreedyTradeoff.
+std::vector<Member> ExtremeMembers(const FamilyProblem& problem);
 
 }  // namespace howl
 
