@@ -270,6 +270,7 @@ bool HasGreedyTradeoff(const FamilyProblem& problem) {
 std::vector<Member> ExtremeMembers(const FamilyProblem& problem) {
   constexpr int kSeconds = 10;
   constexpr int kWindows = 50;
+  constexpr int kHalvings = 16;
   const Greedy greedy(problem);
   const Range range = problem.RangeOf(problem.IsShared(ParameterKind::kM) ? ParameterKind::kM
                                                                           : ParameterKind::kMOverN);
@@ -280,8 +281,26 @@ std::vector<Member> ExtremeMembers(const FamilyProblem& problem) {
     const double second = m == kSeconds
                               ? range.hi
                               : std::max(range.lo + (range.hi - range.lo) * u * u, 1e-6 * range.hi);
+    const auto reaches = [&](double v) {
+      const std::size_t before = members.size();
+      greedy.Extremes(second, v, members);
+      return members.size() > before;
+    };
+    const double step = (windows.hi - windows.lo) / kWindows;
+    bool before = false;
     for (int k = 0; k <= kWindows; ++k) {
-      greedy.Extremes(second, windows.lo + (windows.hi - windows.lo) * k / kWindows, members);
+      const double v = windows.lo + step * k;
+      const bool here = reaches(v);
+      if (k > 0 && here != before) {
+        // The edge of the windows that have members, where parameters reach farthest.
+        double good = here ? v : v - step;
+        double bad = here ? v - step : v;
+        for (int halving = 0; halving < kHalvings; ++halving) {
+          const double middle = 0.5 * (good + bad);
+          (reaches(middle) ? good : bad) = middle;
+        }
+      }
+      before = here;
     }
   }
   return members;
