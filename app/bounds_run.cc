@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -17,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kBetweenSaves{2};
+constexpr double kSecondsBetweenSaves = 2.0;
 
 // What the state belongs to: this config, seed and program.
 std::string Key(const Config& config, const Options& options) {
@@ -60,9 +61,13 @@ void RunBounds(const Config& config, const Options& options, Enclosure& enclosur
     std::fprintf(stderr, "bounds: going on from %s\n", path.c_str());
   }
   const Clock::time_point start = Clock::now();
+  const double seconds = options.Number("--save-every").value_or(kSecondsBetweenSaves);
+  if (!(seconds > 0.0)) throw UsageError("--save-every: expected a positive number of seconds");
+  const auto between = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(std::min(seconds, 3600.0)));
   bool was_shown = false;
   while (true) {
-    const Clock::time_point until = Clock::now() + kBetweenSaves;
+    const Clock::time_point until = Clock::now() + between;
     const bool complete = enclosure.Run([&] { return IsInterrupted() || Clock::now() >= until; });
     if (complete) break;
     SaveState(path, key, enclosure);

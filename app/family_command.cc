@@ -22,7 +22,9 @@ int Run(const Options& options) {
                              .requested = static_cast<std::size_t>(config.family.members),
                              .diagnostics = run.diagnostics,
                              .conflict = run.conflict,
-                             .predictions = run.predictions})
+                             .predictions = run.predictions,
+                             .falsified = run.falsified,
+                             .advice = run.advice})
                          .dump(2) +
                      "\n");
   if (!options.quiet) {
@@ -45,7 +47,9 @@ Command FamilyCommand() {
       "and the largest xi. Writes family.csv, family.json and tradeoff.csv. When the family is\n"
       "empty, names the conditions that exclude each other and exits with 1. Interrupted work\n"
       "goes on where it stopped.",
-      {},
+      {{"--falsify", "OTHER.yaml", "which members survive the experiments of another config"},
+       {"--advise", "", "which further measurement would remove most of the family"},
+       {"--save-every", "SECONDS", "how often the search for bounds saves its state (default: 2)"}},
       Run};
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "app/bounds_run.h"
+#include "app/family_questions.h"
 #include "app/problem_input.h"
 #include "io/user_error.h"
 
@@ -13,6 +15,7 @@ namespace {
 // A list this short is meant to be looked at: its members are chosen far apart from each other.
 constexpr std::size_t kShortList = 50;
 constexpr std::size_t kChooseFrom = 2000;
+constexpr std::size_t kPredictedMembers = 200;
 
 std::vector<BoundedExpression> ParsePredictions(const Config& config,
                                                 const FamilyProblem& problem) {
@@ -71,6 +74,8 @@ void DrawMembers(const Config& config, const Options& options, FamilyRun& run) {
   } else {
     members = EnumerateMembers(run.problem, drawn, options.seed, options.threads).members;
   }
+  // A family too thin for the chains to move in still has its listed members.
+  if (run.sample.empty()) run.sample = members;
   if (!is_short || members.size() <= listed) {
     run.members = std::move(members);
     return;
@@ -78,6 +83,18 @@ void DrawMembers(const Config& config, const Options& options, FamilyRun& run) {
   for (const std::size_t index : SpreadMembers(members, listed)) {
     run.members.push_back(members[index]);
   }
+}
+
+void AskFurther(const Options& options, FamilyRun& run) {
+  if (const std::optional<std::string> other = options.Text("--falsify")) {
+    const std::vector<Experiment> further = LoadExperiments(LoadConfig(*other), options);
+    FurtherTest test;
+    test.config = *other;
+    for (const Experiment& experiment : further) test.experiments.push_back(experiment.name);
+    test.counts = TestFurther(run.problem, run.sample, further).counts;
+    run.falsified = std::move(test);
+  }
+  if (options.Has("--advise")) run.advice = AdviseMeasurements(run.problem, run.sample);
 }
 
 }  // namespace
@@ -97,6 +114,9 @@ FamilyRun RunFamily(const Config& config, const Options& options) {
     run.conflict = ExplainEmpty(run.problem, options.threads);
   } else {
     TakePredictions(config, bounded, run);
+    std::ranges::copy(PredictLoops(run.problem, Thinned(run.sample, kPredictedMembers)),
+                      std::back_inserter(run.predictions));
+    AskFurther(options, run);
   }
   run.tradeoff =
       ComputeTradeoff(run.problem, DefaultSpreads(run.problem), options.threads, options.seed);

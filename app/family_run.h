@@ -3,6 +3,7 @@
 #define HOWL_APP_FAMILY_RUN_H_
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct FamilyRun {
   Conflict conflict;           // when there is no member
   std::vector<TradeoffPoint> tradeoff;
   std::vector<ExperimentPrediction> predictions;
+  std::optional<FurtherTest> falsified;
+  std::optional<std::vector<Advice>> advice;
 };
 
 // Bounds, members, trade-off, predictions. Throws UserError for an expression that does not parse

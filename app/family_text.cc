@@ -1,5 +1,6 @@
 #include "app/family_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -106,8 +107,33 @@ void PrintDiagnostics(const FamilyRun& run) {
   }
 }
 
+void PrintFurther(const FurtherTest& further) {
+  const SurvivalCounts& counts = further.counts;
+  std::printf("%s: %zu members survive, %zu are rejected, %zu are not tested (no phi in between)\n",
+              further.config.c_str(), counts.survive, counts.rejected, counts.untested);
+  for (const Condition condition : kConditions) {
+    const std::size_t count = counts.rejected_by[static_cast<std::size_t>(condition)];
+    if (count > 0) {
+      std::printf("  %zu rejected by %s\n", count, std::string(ConditionName(condition)).c_str());
+    }
+  }
+}
+
+void PrintAdvice(const std::vector<Advice>& advice) {
+  constexpr std::size_t kShown = 10;
+  TextTable table({"measurement", "std", "family left", "predicted"});
+  for (std::size_t k = 0; k < std::min(kShown, advice.size()); ++k) {
+    const Advice& one = advice[k];
+    table.AddRow({one.name, Significant(one.std, 2),
+                  Significant(100.0 * one.expected_remaining, 2) + " %",
+                  one.predicted.lo <= one.predicted.hi ? RangeText(one.predicted, 1.0, 4) : "-"});
+  }
+  std::printf("measurements that would remove most of the family:\n%s", table.Text().c_str());
+}
+
 void PrintPredictions(const FamilyRun& run) {
   for (const ExperimentPrediction& each : run.predictions) {
+    if (!(each.prediction.interval.lo <= each.prediction.interval.hi)) continue;
     const std::string owner = each.experiment.empty() ? "" : " of " + each.experiment;
     std::printf("%s%s: %s (%s)\n", each.prediction.name.c_str(), owner.c_str(),
                 RangeText(each.prediction.interval, 1.0, 5).c_str(),
@@ -126,6 +152,8 @@ void PrintFamily(const FamilyRun& run) {
   PrintBounds(run.problem, *run.enclosure);
   PrintTightness(run.problem, *run.enclosure);
   PrintPredictions(run);
+  if (run.falsified) PrintFurther(*run.falsified);
+  if (run.advice) PrintAdvice(*run.advice);
 }
 
 }  // namespace howl

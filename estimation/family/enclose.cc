@@ -10,6 +10,7 @@
 #include "estimation/family/enumerate.h"
 #include "estimation/family/inside.h"
 #include "estimation/family/parallel.h"
+#include "estimation/family/two_mode_tradeoff.h"
 #include "model/loop.h"
 
 namespace howl {
@@ -114,6 +115,9 @@ struct Enclosure::Impl {
                               : std::max<std::size_t>(60, 400 / problem.experiments.size());
     }
     base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
+    if (HasGreedyTradeoff(problem)) {
+      for (Member& member : ExtremeMembers(problem)) base.members.push_back(std::move(member));
+    }
     for (std::size_t i = 0; options.parameters && i < problem.experiments.size(); ++i) {
       for (const FamilyParameter parameter : kFamilyParameters) {
         BoundSearch search;
@@ -410,7 +414,11 @@ struct Enclosure::Impl {
     bound.closed = true;
     for (std::size_t k = first; k < first + 2; ++k) {
       const BoundSearch& search = searches[k];
-      bound.closed &= search.state == SearchState::kClosed;
+      // A search also ends where its cells are too fine to split, short of the stated width.
+      bound.closed &= search.state == SearchState::kClosed &&
+                      (search.outer == search.inner ||
+                       search.outer - search.inner <= 0.5 * options.width * range[k] +
+                                                          2.0 * kRounding * std::abs(search.outer));
       // Of an interrupted search: what its cells still reach.
       double outer = search.outer;
       if (search.state == SearchState::kNew) {

@@ -6,6 +6,7 @@
 #include "estimation/family/enumerate.h"
 #include "estimation/family/feasible.h"
 #include "estimation/family/parallel.h"
+#include "estimation/family/two_mode_tradeoff.h"
 #include "estimation/family/window.h"
 
 namespace howl {
@@ -51,7 +52,8 @@ TradeoffPoint ComputeTradeoff(const FamilyProblem& problem, double omega_spread,
   if (point.exact) {
     point.xi_max = SmallestLargestXi(MakeWindowProblem(at, 0.0));
   } else {
-    point.xi_max = SearchSmallestXi(at, seed);
+    if (HasGreedyTradeoff(at)) point.xi_max = GreedySmallestXi(at);
+    if (!point.xi_max) point.xi_max = SearchSmallestXi(at, seed);
   }
   return point;
 }

@@ -3,7 +3,8 @@
 // spread by no more than a given omega_spread over the experiments.
 //
 // One mode: exact, from estimation/family/window.h (a bisection at most, to machine precision).
-// Two modes, or a shared N or tau: an upper bound by search, marked so.
+// Two modes with a shared M or M / N: an upper bound without a random draw, from
+// estimation/family/two_mode_tradeoff.h; any other: one by random search. Both are marked inexact.
 #ifndef HOWL_ESTIMATION_FAMILY_TRADEOFF_H_
 #define HOWL_ESTIMATION_FAMILY_TRADEOFF_H_
 

@@ -62,16 +62,14 @@ Json BoundsJson(const FamilyProblem& problem, const Enclosure& enclosure) {
 Json CountsJson(const FamilyReport& report) {
   const CellCounts cells = report.enclosure.Counts();
   const SampleDiagnostics& what = report.diagnostics;
-  return {{"members", report.members},
-          {"requested", report.requested},
-          {"effective_sample_size", NumberOrNull(what.effective_sample_size)},
-          {"split_r_hat", NumberOrNull(what.split_r_hat)},
-          {"largest_hole", NumberOrNull(what.largest_hole)},
-          {"boxes",
-           {{"inside", cells.inside},
-            {"outside", cells.outside},
-            {"undecided", cells.undecided},
-            {"pending", cells.pending}}}};
+  return {
+      {"members", report.members},
+      {"requested", report.requested},
+      {"effective_sample_size", NumberOrNull(what.effective_sample_size)},
+      {"split_r_hat", NumberOrNull(what.split_r_hat)},
+      {"largest_hole", NumberOrNull(what.largest_hole)},
+      {"boxes",
+       {{"outside", cells.outside}, {"undecided", cells.undecided}, {"pending", cells.pending}}}};
 }
 
 Json PredictionsJson(const std::vector<ExperimentPrediction>& predictions) {
@@ -80,9 +78,37 @@ Json PredictionsJson(const std::vector<ExperimentPrediction>& predictions) {
     const bool guaranteed = each.prediction.kind == IntervalKind::kGuaranteed;
     json.push_back({{"name", each.prediction.name},
                     {"experiment", each.experiment.empty() ? Json(nullptr) : Json(each.experiment)},
-                    {"interval", RangeJson(each.prediction.interval)},
+                    {"interval", each.prediction.interval.lo <= each.prediction.interval.hi
+                                     ? RangeJson(each.prediction.interval)
+                                     : Json(nullptr)},
                     {"kind", guaranteed ? "guaranteed" : "sampled"},
                     {"members", each.prediction.members}});
+  }
+  return json;
+}
+
+Json FurtherJson(const FurtherTest& further) {
+  Json rejected_by = Json::object();
+  for (const Condition condition : kConditions) {
+    const std::size_t count = further.counts.rejected_by[static_cast<std::size_t>(condition)];
+    if (count > 0) rejected_by[std::string(ConditionName(condition))] = count;
+  }
+  return {{"config", further.config},
+          {"experiments", further.experiments},
+          {"survive", further.counts.survive},
+          {"rejected", further.counts.rejected},
+          {"untested", further.counts.untested},
+          {"rejected_by", rejected_by}};
+}
+
+Json AdviceJson(const std::vector<Advice>& advice) {
+  Json json = Json::array();
+  for (const Advice& one : advice) {
+    const bool has_value = one.predicted.lo <= one.predicted.hi;
+    json.push_back({{"measurement", one.name},
+                    {"std", one.std},
+                    {"expected_remaining", NumberOrNull(one.expected_remaining)},
+                    {"predicted", has_value ? RangeJson(one.predicted) : Json(nullptr)}});
   }
   return json;
 }
@@ -100,6 +126,8 @@ Json FamilyJson(const FamilyReport& report) {
       {"bounds", has_members ? BoundsJson(report.problem, report.enclosure) : Json::object()},
       {"predictions", PredictionsJson(report.predictions)},
       {"empty_because", empty_because}};
+  if (report.falsified) json["falsified"] = FurtherJson(*report.falsified);
+  if (report.advice) json["advice"] = AdviceJson(*report.advice);
   if (report.conflict.is_empty) json["conflict"] = ConflictJson(report.conflict);
   return json;
 }

@@ -3,10 +3,12 @@
 #define HOWL_IO_RESULTS_FAMILY_JSON_H_
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "estimation/family/advise.h"
 #include "estimation/family/conflict.h"
 #include "estimation/family/enclose.h"
 #include "estimation/family/predict.h"
@@ -20,6 +22,13 @@ struct ExperimentPrediction {
   Prediction prediction;
 };
 
+// What further experiments say of the members drawn.
+struct FurtherTest {
+  std::string config;
+  std::vector<std::string> experiments;
+  SurvivalCounts counts;
+};
+
 struct FamilyReport {
   const FamilyProblem& problem;
   const Enclosure& enclosure;
@@ -28,6 +37,8 @@ struct FamilyReport {
   SampleDiagnostics diagnostics;
   const Conflict& conflict;
   const std::vector<ExperimentPrediction>& predictions;
+  const std::optional<FurtherTest>& falsified;       // where it was asked for
+  const std::optional<std::vector<Advice>>& advice;  // where it was asked for
 };
 
 nlohmann::ordered_json FamilyJson(const FamilyReport& report);

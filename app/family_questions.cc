@@ -1,0 +1,78 @@
+#include "app/family_questions.h"
+
+#include <cmath>
+#include <optional>
+
+#include "model/crossings.h"
+#include "model/poles.h"
+
+namespace howl {
+namespace {
+
+constexpr Range kLineBandHz{600.0, 900.0};
+constexpr double kMarginsUpToHz = 2000.0;
+constexpr double kGrowthRateStd = 1.0;  // 1/s
+constexpr std::size_t kAdvisedMembers = 200;
+
+MemberPredictor GrowthRate(std::size_t i, double slope) {
+  return [i, slope](std::span<const LoopModel> models) -> std::optional<double> {
+    return RightmostPole(models[i].Loop(), slope).growth_rate;
+  };
+}
+
+std::optional<double> Finite(double value) {
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Member> Thinned(std::span<const Member> members, std::size_t most) {
+  if (members.size() <= most) return {members.begin(), members.end()};
+  std::vector<Member> kept;
+  kept.reserve(most);
+  for (std::size_t k = 0; k < most; ++k) kept.push_back(members[k * members.size() / most]);
+  return kept;
+}
+
+std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
+                                               std::span<const Member> members) {
+  std::vector<ExperimentPrediction> predictions;
+  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    const Experiment& experiment = problem.experiments[i];
+    const auto add = [&](const char* name, const MemberPredictor& predictor) {
+      predictions.push_back({experiment.name, PredictSampled(name, members, predictor)});
+    };
+    const bool two_modes = problem.model.modes == 2;
+    if (two_modes) {
+      add("line_hz", [i](std::span<const LoopModel> m) { return CrossingNear(m[i], kLineBandHz); });
+    }
+    if (!experiment.flame_slope) continue;
+    const double slope = *experiment.flame_slope;
+    add("growth_rate", GrowthRate(i, slope));
+    add("gain_margin_db", [i, slope](std::span<const LoopModel> m) {
+      return Finite(Margins(m[i].Loop(), slope, kMarginsUpToHz).gain_margin_db);
+    });
+    add("phase_margin_deg", [i, slope](std::span<const LoopModel> m) {
+      return Finite(Margins(m[i].Loop(), slope, kMarginsUpToHz).phase_margin_deg);
+    });
+    if (two_modes) {
+      add("line_gain",
+          [i, slope](std::span<const LoopModel> m) { return LineGain(m[i], kLineBandHz, slope); });
+    }
+  }
+  return predictions;
+}
+
+std::vector<Advice> AdviseMeasurements(const FamilyProblem& problem,
+                                       std::span<const Member> members) {
+  std::vector<Measurement> measurements = DefaultMeasurements(problem.experiments);
+  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+    const Experiment& experiment = problem.experiments[i];
+    if (!experiment.flame_slope) continue;
+    measurements.push_back({"growth rate of " + experiment.name, "1/s", kGrowthRateStd,
+                            GrowthRate(i, *experiment.flame_slope)});
+  }
+  return Advise(Thinned(members, kAdvisedMembers), measurements);
+}
+
+}  // namespace howl

@@ -1,0 +1,29 @@
+// Questions that are asked of the family's members once they are drawn: predictions of what has no
+// closed expression, further experiments, and which measurement would tell most.
+#ifndef HOWL_APP_FAMILY_QUESTIONS_H_
+#define HOWL_APP_FAMILY_QUESTIONS_H_
+
+#include <span>
+#include <vector>
+
+#include "estimation/family/advise.h"
+#include "io/results/family_json.h"
+
+namespace howl {
+
+// Evenly spaced in the list: a share of a uniform sample.
+std::vector<Member> Thinned(std::span<const Member> members, std::size_t most);
+
+// Of each experiment with a flame slope: growth rate of the rest state (1/s),
+// gain margin (dB), phase margin (deg); with two modes the line near 750 Hz (Hz) and the loop's
+// gain there. All sampled, over the members given.
+std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
+                                               std::span<const Member> members);
+
+// DefaultMeasurements, and the growth rate of each experiment that has a flame slope.
+std::vector<Advice> AdviseMeasurements(const FamilyProblem& problem,
+                                       std::span<const Member> members);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_FAMILY_QUESTIONS_H_
