@@ -52,9 +52,6 @@ std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
     add("gain_margin_db", [i, slope](std::span<const LoopModel> m) {
       return Finite(Margins(m[i].Loop(), slope, kMarginsUpToHz).gain_margin_db);
     });
-    add("phase_margin_deg", [i, slope](std::span<const LoopModel> m) {
-      return Finite(Margins(m[i].Loop(), slope, kMarginsUpToHz).phase_margin_deg);
-    });
     if (two_modes) {
       add("line_gain",
           [i, slope](std::span<const LoopModel> m) { return LineGain(m[i], kLineBandHz, slope); });

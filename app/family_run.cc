@@ -15,7 +15,7 @@ namespace {
 // A list this short is meant to be looked at: its members are chosen far apart from each other.
 constexpr std::size_t kShortList = 50;
 constexpr std::size_t kChooseFrom = 2000;
-constexpr std::size_t kPredictedMembers = 200;
+constexpr std::size_t kPredictedMembers = 60;
 
 std::vector<BoundedExpression> ParsePredictions(const Config& config,
                                                 const FamilyProblem& problem) {

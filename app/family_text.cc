@@ -131,14 +131,44 @@ void PrintAdvice(const std::vector<Advice>& advice) {
   std::printf("measurements that would remove most of the family:\n%s", table.Text().c_str());
 }
 
+// One row an experiment, one column a quantity.
+void PrintSampledPredictions(const FamilyRun& run) {
+  std::vector<std::string> names;
+  for (const ExperimentPrediction& each : run.predictions) {
+    if (each.prediction.kind != IntervalKind::kSampled) continue;
+    if (std::ranges::find(names, each.prediction.name) == names.end()) {
+      names.push_back(each.prediction.name);
+    }
+  }
+  if (names.empty()) return;
+  std::vector<std::string> header = {"experiment"};
+  header.insert(header.end(), names.begin(), names.end());
+  TextTable table(std::move(header));
+  for (const Experiment& experiment : run.problem.experiments) {
+    std::vector<std::string> cells(names.size() + 1, "-");
+    cells[0] = experiment.name;
+    for (const ExperimentPrediction& each : run.predictions) {
+      const auto column = std::ranges::find(names, each.prediction.name);
+      const Range& interval = each.prediction.interval;
+      if (each.experiment != experiment.name || column == names.end()) continue;
+      if (!(interval.lo <= interval.hi)) continue;
+      cells[static_cast<std::size_t>(column - names.begin()) + 1] = RangeText(interval, 1.0, 4);
+    }
+    table.AddRow(std::move(cells));
+  }
+  std::printf("what sampled members predict (growth rate of the loop at rest, 1/s):\n%s",
+              table.Text().c_str());
+}
+
 void PrintPredictions(const FamilyRun& run) {
   for (const ExperimentPrediction& each : run.predictions) {
+    if (each.prediction.kind != IntervalKind::kGuaranteed) continue;
     if (!(each.prediction.interval.lo <= each.prediction.interval.hi)) continue;
     const std::string owner = each.experiment.empty() ? "" : " of " + each.experiment;
-    std::printf("%s%s: %s (%s)\n", each.prediction.name.c_str(), owner.c_str(),
-                RangeText(each.prediction.interval, 1.0, 5).c_str(),
-                each.prediction.kind == IntervalKind::kGuaranteed ? "guaranteed" : "sampled");
+    std::printf("%s%s: %s (guaranteed)\n", each.prediction.name.c_str(), owner.c_str(),
+                RangeText(each.prediction.interval, 1.0, 5).c_str());
   }
+  PrintSampledPredictions(run);
 }
 
 }  // namespace

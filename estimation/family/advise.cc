@@ -117,13 +117,13 @@ std::vector<Measurement> DefaultMeasurements(const std::vector<Experiment>& expe
     for (const double multiple : {0.5, 1.5, 2.0}) {
       const double f = multiple * experiments[i].frequency_hz;
       measurements.push_back(
-          {WithNumber("q-to-p phase" + of + " at Hz ", f), "deg", stds.phase_deg,
+          {WithNumber("q-to-p phase" + of + " at ", f) + " Hz", "deg", stds.phase_deg,
            [i, f, phase_of](std::span<const LoopModel> m) -> std::optional<double> {
              return phase_of(m[i], f);
            }});
       measurements.push_back(
-          {WithNumber("q-to-p gain" + of + " at Hz ", f), "relative", stds.gain_relative,
-           [i, f](std::span<const LoopModel> m) -> std::optional<double> {
+          {WithNumber("log of the q-to-p gain" + of + " at ", f) + " Hz", "relative",
+           stds.gain_relative, [i, f](std::span<const LoopModel> m) -> std::optional<double> {
              return std::log(Magnitude(AcousticResponse(m[i].Loop().acoustics, f)));
            }});
     }

@@ -74,7 +74,7 @@ TEST(FamilyQuestions, RestStatesOfReliableExperimentsGrow) {
   for (const Json& one : json["predictions"]) {
     if (one["name"] != "growth_rate") continue;
     EXPECT_EQ(one["kind"], "sampled");
-    EXPECT_EQ(one["members"], 200);
+    EXPECT_EQ(one["members"], 60);
     if (one["experiment"] == "exp5" || one["experiment"] == "exp6") continue;
     EXPECT_GT(one["interval"][0].get<double>(), 0.0);
     ++checked;
