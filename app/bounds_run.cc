@@ -20,6 +20,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kSecondsBetweenSaves = 2.0;
 
+std::filesystem::path StatePath(const Options& options) { return options.out / "bounds.state"; }
+
 // What the state belongs to: this config, seed and program.
 std::string Key(const Config& config, const Options& options) {
   std::ifstream file(config.source, std::ios::binary);
@@ -54,7 +56,8 @@ void ShowProgress(const Enclosure& enclosure, Clock::time_point start) {
 }  // namespace
 
 void RunBounds(const Config& config, const Options& options, Enclosure& enclosure) {
-  const std::filesystem::path path = options.out / "bounds.state";
+  WatchForInterruption();
+  const std::filesystem::path path = StatePath(options);
   const std::string key = Key(config, options);
   const bool shown = !options.quiet && isatty(STDERR_FILENO) != 0;
   if (LoadState(path, key, enclosure) && !options.quiet) {
@@ -66,20 +69,31 @@ void RunBounds(const Config& config, const Options& options, Enclosure& enclosur
   const auto between = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(std::min(seconds, 3600.0)));
   bool was_shown = false;
+  bool was_saved = false;
   while (true) {
     const Clock::time_point until = Clock::now() + between;
     const bool complete = enclosure.Run([&] { return IsInterrupted() || Clock::now() >= until; });
     if (complete) break;
     SaveState(path, key, enclosure);
-    if (IsInterrupted()) {
-      throw Interrupted("interrupted: the same command goes on from " + path.string());
-    }
+    was_saved = true;
+    StopIfInterrupted(options);
     if (shown) ShowProgress(enclosure, start);
     was_shown = shown;
   }
   if (was_shown) std::fprintf(stderr, "\r%60s\r", "");
+  // A search that was over before its first save is not worth a file.
+  if (was_saved) SaveState(path, key, enclosure);
+}
+
+void StopIfInterrupted(const Options& options) {
+  if (!IsInterrupted()) return;
+  throw Interrupted("interrupted: nothing written; the same command goes on from " +
+                    StatePath(options).string() + " where it has saved its bounds");
+}
+
+void ForgetBounds(const Options& options) {
   std::error_code ignored;
-  std::filesystem::remove(path, ignored);
+  std::filesystem::remove(StatePath(options), ignored);
 }
 
 }  // namespace howl

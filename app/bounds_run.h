@@ -10,8 +10,15 @@
 
 namespace howl {
 
-// Throws Interrupted after saving. The state file goes when the search is complete.
+// Throws Interrupted after saving. The state file stays until ForgetBounds, so that what comes
+// after the search can be interrupted as well.
 void RunBounds(const Config& config, const Options& options, Enclosure& enclosure);
+
+// Throws Interrupted when the user has asked for a stop: between the steps that follow the search.
+void StopIfInterrupted(const Options& options);
+
+// When the results are written.
+void ForgetBounds(const Options& options);
 
 }  // namespace howl
 

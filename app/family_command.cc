@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "app/bounds_run.h"
 #include "app/command.h"
 #include "app/family_run.h"
 #include "app/family_text.h"
@@ -27,6 +28,7 @@ int Run(const Options& options) {
                              .advice = run.advice})
                          .dump(2) +
                      "\n");
+  ForgetBounds(options);
   if (!options.quiet) {
     PrintFamily(run);
     std::printf("written: family.csv, family.json and tradeoff.csv in %s\n", options.out.c_str());

@@ -109,7 +109,9 @@ FamilyRun RunFamily(const Config& config, const Options& options) {
                                                               .threads = options.threads,
                                                               .expressions = bounded});
   RunBounds(config, options, *run.enclosure);
+  StopIfInterrupted(options);
   if (!run.enclosure->IsProvedEmpty()) DrawMembers(config, options, run);
+  StopIfInterrupted(options);
   if (run.members.empty()) {
     run.conflict = ExplainEmpty(run.problem, options.threads);
   } else {
@@ -118,8 +120,10 @@ FamilyRun RunFamily(const Config& config, const Options& options) {
                       std::back_inserter(run.predictions));
     AskFurther(options, run);
   }
+  StopIfInterrupted(options);
   run.tradeoff =
       ComputeTradeoff(run.problem, DefaultSpreads(run.problem), options.threads, options.seed);
+  StopIfInterrupted(options);
   return run;
 }
 

@@ -85,7 +85,6 @@ int main(int argc, char** argv) {
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
   FLAGS_minloglevel = google::GLOG_ERROR;
-  howl::WatchForInterruption();
   try {
     return howl::Run({argv + 1, argv + argc});
   } catch (const howl::Interrupted& stop) {
