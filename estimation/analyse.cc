@@ -1,10 +1,9 @@
 #include "estimation/analyse.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -64,11 +63,7 @@ void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions
 AnalysisSet AnalyseRecords(std::span<const NamedRecord> records, const AnalysisOptions& options) {
   AnalysisSet set;
   set.analyses.resize(records.size());
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  const auto in_parallel = [&](const auto& body) {
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, records.size(), body); });
-  };
-  in_parallel([&](std::size_t i) {
+  RunUnits(records.size(), options.threads, [&](std::size_t i) {
     set.analyses[i] = AnalyseRecord(records[i].record, options);
     set.analyses[i].name = records[i].name;
     set.analyses[i].phi = records[i].phi;
@@ -83,7 +78,7 @@ AnalysisSet AnalyseRecords(std::span<const NamedRecord> records, const AnalysisO
         {set.analyses[i].characteristics.frequency_hz, set.analyses[i].characteristics.phase_deg});
   }
   set.delay = EstimateDelays(inputs, options.delay_branch);
-  in_parallel([&](std::size_t i) {
+  RunUnits(records.size(), options.threads, [&](std::size_t i) {
     Analysis& analysis = set.analyses[i];
     if (HasPhase(analysis)) {
       AddFlame(records[i].record, set.delay.tau_s[position[i]], options, &analysis);

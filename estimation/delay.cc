@@ -4,13 +4,14 @@
 #include <cmath>
 #include <complex>
 
+#include "estimation/closed_form.h"
 #include "model/units.h"
 
 namespace howl {
 
 Estimate DelayOnBranch(const DelayInput& input, int branch) {
   const double f = input.frequency_hz.value;
-  const double tau_s = (270.0 + input.phase_deg.value + 360.0 * branch) / (360.0 * f);
+  const double tau_s = DelayFromPhase(f, input.phase_deg.value, branch);
   const double phase_std = std::isfinite(input.phase_deg.std) ? input.phase_deg.std : 0.0;
   return {tau_s, phase_std / (360.0 * f)};
 }

@@ -4,12 +4,12 @@
 #include <ceres/crs_matrix.h>
 #include <ceres/solver.h>
 #include <glog/logging.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -34,7 +34,7 @@ StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver, st
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = solver.max_iterations;
-  options.function_tolerance = 1e-14;
+  options.function_tolerance = 1e-18;
   options.gradient_tolerance = 1e-12;
   options.parameter_tolerance = 1e-12;
   options.num_threads = 1;
@@ -133,11 +133,8 @@ JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::
                     int threads) {
   CHECK_GE(solver.starts, 1);
   std::vector<StartResult> starts(static_cast<std::size_t>(solver.starts));
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(0, solver.starts, [&](int number) {
-      starts[static_cast<std::size_t>(number)] = SolveStart(problem, solver, seed, number);
-    });
+  RunUnits(starts.size(), threads, [&](std::size_t number) {
+    starts[number] = SolveStart(problem, solver, seed, static_cast<int>(number));
   });
   const auto best = BestStart(starts);
   JointFit fit;

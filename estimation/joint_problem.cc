@@ -79,7 +79,7 @@ double StartValue(ParameterKind kind, const LoopModel& model) {
 
 LoopModel StartModel(Experiment experiment) {
   experiment.phase_deg = std::clamp(experiment.phase_deg, -kMaxStartPhaseDeg, kMaxStartPhaseDeg);
-  LoopModel model = ClosedFormModel(experiment, kStartXi);
+  LoopModel model = ClosedFormMember(experiment, kStartXi);
   model.tau_s =
       DelayFromPhase(experiment.frequency_hz, experiment.phase_deg, experiment.delay_periods);
   return model;

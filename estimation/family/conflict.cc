@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "estimation/family/feasible.h"
-#include "estimation/family/parallel.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 

@@ -9,8 +9,8 @@
 #include "estimation/family/contract.h"
 #include "estimation/family/enumerate.h"
 #include "estimation/family/inside.h"
-#include "estimation/family/parallel.h"
 #include "estimation/family/two_mode_tradeoff.h"
+#include "estimation/parallel.h"
 #include "model/loop.h"
 
 namespace howl {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/closed_form.h"
 #include "estimation/family/chain.h"
-#include "estimation/family/closed_form.h"
-#include "estimation/family/parallel.h"
 #include "estimation/family/two_mode_solve.h"
 #include "estimation/family/window.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 

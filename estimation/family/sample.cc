@@ -5,9 +5,9 @@
 
 #include "estimation/family/convergence.h"
 #include "estimation/family/enumerate.h"
-#include "estimation/family/parallel.h"
 #include "estimation/family/targets.h"
 #include "estimation/family/two_mode_solve.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 

@@ -5,9 +5,9 @@
 
 #include "estimation/family/enumerate.h"
 #include "estimation/family/feasible.h"
-#include "estimation/family/parallel.h"
 #include "estimation/family/two_mode_tradeoff.h"
 #include "estimation/family/window.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 

@@ -19,7 +19,7 @@
 #include <array>
 #include <cmath>
 
-#include "estimation/family/closed_form.h"
+#include "estimation/closed_form.h"
 #include "model/loop.h"
 
 namespace howl {

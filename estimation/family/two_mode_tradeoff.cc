@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "estimation/family/closed_form.h"
+#include "estimation/closed_form.h"
 #include "estimation/family/targets.h"
 #include "estimation/family/two_mode_solve.h"
 

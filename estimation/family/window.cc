@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "estimation/closed_form.h"
 #include "estimation/family/chain.h"
-#include "estimation/family/closed_form.h"
 
 namespace howl {
 

@@ -83,8 +83,8 @@ TEST(JointFit, WithoutPriorsOneDirectionAnExperimentIsFree) {
     const Experiment& experiment = problem.experiments()[i];
     const double h = 1e-6;
     const double xi = fit.models[i].xi;
-    const LoopModel ahead = ClosedFormModel(experiment, xi * std::exp(h));
-    const LoopModel behind = ClosedFormModel(experiment, xi * std::exp(-h));
+    const LoopModel ahead = ClosedFormMember(experiment, xi * std::exp(h));
+    const LoopModel behind = ClosedFormMember(experiment, xi * std::exp(-h));
     Eigen::Vector3d expected(std::log(ahead.omega_hz / behind.omega_hz), 2.0 * h,
                              std::log(ahead.N / behind.N));
     expected.normalize();

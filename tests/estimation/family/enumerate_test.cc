@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "estimation/family/closed_form.h"
+#include "estimation/closed_form.h"
 #include "estimation/family/two_mode_solve.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"

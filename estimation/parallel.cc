@@ -1,4 +1,4 @@
-#include "estimation/family/parallel.h"
+#include "estimation/parallel.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

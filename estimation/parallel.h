@@ -1,7 +1,7 @@
 // Runs unit(0) ... unit(count - 1) on a number of threads. Units are independent and write to
 // places of their own, so the result does not depend on the number.
-#ifndef HOWL_ESTIMATION_FAMILY_PARALLEL_H_
-#define HOWL_ESTIMATION_FAMILY_PARALLEL_H_
+#ifndef HOWL_ESTIMATION_PARALLEL_H_
+#define HOWL_ESTIMATION_PARALLEL_H_
 
 #include <cstddef>
 #include <functional>
@@ -13,4 +13,4 @@ void RunUnits(std::size_t count, int threads, const std::function<void(std::size
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_FAMILY_PARALLEL_H_
+#endif  // HOWL_ESTIMATION_PARALLEL_H_
