@@ -62,6 +62,10 @@ void Print(const Diagnosis& diagnosis) {
           "verdict: unknown; no effect of the catalogue explains the gap (probability "
           "%.2f)\n",
           diagnosis.probability_unknown);
+      if (!diagnosis.together.empty()) {
+        std::printf("  %s together would come nearest: two causes, or one that is not listed\n",
+                    diagnosis.together.c_str());
+      }
       break;
     case VerdictKind::kEffect:
       std::printf("verdict: %s (probability %.2f)\n", diagnosis.effect.c_str(),

@@ -107,6 +107,19 @@ void SetBand(double cycle_hz, CutRecord* record) {
 
 }  // namespace
 
+Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
+                             Eigen::Index count) {
+  // Real and imaginary parts side by side, two numbers a bin.
+  const Eigen::Map<const Eigen::VectorXd> in(reinterpret_cast<const double*>(extended.data()),
+                                             2 * extended.size());
+  Eigen::VectorXcd out(count);
+  Eigen::Map<Eigen::VectorXd> to(reinterpret_cast<double*>(out.data()), 2 * count);
+  const Eigen::Index n = 2 * count;
+  to = kWindowTaps[0] * in.segment(4, n) + kWindowTaps[1] * (in.segment(2, n) + in.segment(6, n)) +
+       kWindowTaps[2] * (in.segment(0, n) + in.segment(8, n));
+  return out;
+}
+
 std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments) {
   CHECK(!experiments.empty());
   std::vector<CutRecord> records;

@@ -63,13 +63,8 @@ struct CutRecord {
 };
 
 // The window's taps over `count` bins; extended has count + 4.
-template <typename Derived>
-Eigen::VectorXcd ApplyWindow(const Eigen::MatrixBase<Derived>& extended, Eigen::Index count) {
-  Eigen::VectorXcd out = kWindowTaps[0] * extended.segment(2, count);
-  out += kWindowTaps[1] * (extended.segment(1, count) + extended.segment(3, count));
-  out += kWindowTaps[2] * (extended.segment(0, count) + extended.segment(4, count));
-  return out;
-}
+Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
+                             Eigen::Index count);
 
 // Records of one rig. Both channels are needed, at one sampling rate each. The band goes from 0.15
 // to 8 (cut A) and 6.4 (cut B) times the cycle's frequency, and no further than 0.34 and 0.27 of

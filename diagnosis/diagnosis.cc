@@ -1,361 +1,28 @@
 #include "diagnosis/diagnosis.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <limits>
 #include <mutex>
-#include <optional>
+#include <utility>
 
-#include "diagnosis/coherent_lines.h"
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/gain_fluctuation.h"
+#include "diagnosis/advice.h"
+#include "diagnosis/candidates/attempt.h"
 #include "diagnosis/gap.h"
+#include "diagnosis/pair.h"
+#include "diagnosis/place.h"
 #include "diagnosis/slack.h"
-#include "diagnosis/static_map.h"
+#include "diagnosis/verdict.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
 
-// Log-likelihoods are of Gaussian noise whose spectrum is itself fitted, and regressors carry noise
-// of their own: gains of 20 come from no effect at all now and then.
-constexpr double kDetectionGain = 25.0;
-// Cut B's regressor is recorded p, whose sensor noise is taken out only in the mean.
-constexpr double kFlameDetectionGain = 45.0;
-constexpr double kDetectionWidth = 4.0;
-// Slack that is left on rigs without an effect, or with one whose form is only nearly right.
-constexpr double kAcousticAllowance = 40.0;
-constexpr double kFlameAllowance = 120.0;
-constexpr double kUnknownShare = 0.10;
-constexpr double kUnknownWidth = 0.02;
-constexpr double kUnknownGapShare = 0.016;  // of the squared gap
-constexpr double kUnknownGapWidth = 0.004;
-// Models are never exact: gains count by their share of the largest too.
-constexpr double kTemperature = 3.0;
-constexpr double kTemperatureShare = 0.02;
 constexpr double kClassProbability = 0.05;
-constexpr double kGainDataSize = 500.0;  // independent bins that a shared parameter draws on
-constexpr double kOverdispersion = 2.5;
-constexpr double kFlagGain = 1e6;
-constexpr double kPlateauNoise = 0.45;
-constexpr double kConfirmedUnknownShare = 0.35;
-constexpr double kUnexplainedLines = 0.9;
-constexpr double kTwoSigma = 1.96;
 
-// A candidate before probabilities, and what its gap needs.
-struct Attempt {
-  Candidate candidate;
-  std::vector<ExperimentFit> held_out;
-  bool without_lines = false;
-  std::optional<EffectFit> fit;
-  double parameters = 1.0;
-  // Evidence beside the likelihood: what slack is left over may be the effect's own crude form.
-  bool confirmed = false;
-};
-
-struct Setting {
-  const std::vector<CutRecord>* records = nullptr;
-  const EffectFit* base = nullptr;
-  const std::vector<DiagnosisExperiment>* experiments = nullptr;
-  std::vector<ExperimentFit> base_held_out;
-};
-
-std::vector<ExperimentFit> HoldOutAll(const Setting& at, const EffectFit& fit) {
-  std::vector<ExperimentFit> out;
-  for (std::size_t e = 0; e < at.records->size(); ++e) {
-    out.push_back(HeldOut(*at.records, fit, e));
-    if (!fit.effect->ChangesAcousticCut()) {
-      out.back().acoustic_residual = at.base_held_out[e].acoustic_residual;
-    }
-    if (!fit.effect->ChangesFlameCut()) {
-      out.back().flame_residual = at.base_held_out[e].flame_residual;
-    }
-  }
-  return out;
-}
-
-EstimatedParameter WithError(const EffectParameter& p, double value, double error) {
-  EstimatedParameter out{p.name, value, value - kTwoSigma * error, value + kTwoSigma * error,
-                         p.unit};
-  if (p.scale == ParameterScale::kLogarithmic && value > 0.0) {
-    const double factor = std::exp(std::min(kTwoSigma * error / value, 20.0));
-    out.low = value / factor;
-    out.high = value * factor;
-  }
-  return out;
-}
-
-Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms) {
-  Attempt out;
-  for (const EffectPointer& form : forms) {
-    EffectFit fit = FitEffect(*at.records, form, *at.base);
-    if (!out.fit || fit.cost() < out.fit->cost()) out.fit = std::move(fit);
-  }
-  const EffectFit& fit = *out.fit;
-  out.candidate.effect = fit.effect->id();
-  out.candidate.block = fit.effect->block();
-  out.parameters = static_cast<double>(fit.values.size());
-  out.candidate.gain = at.base->cost() - fit.cost();
-  for (std::size_t j = 0; j < fit.values.size(); ++j) {
-    out.candidate.parameters.push_back(
-        WithError(fit.effect->parameters()[j], fit.values[j], fit.standard_errors[j + 1]));
-  }
-  out.held_out = HoldOutAll(at, fit);
-  return out;
-}
-
-// A value whose error nothing here estimates: it has no interval.
-EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit) {
-  const double unknown = std::numeric_limits<double>::quiet_NaN();
-  return {name, value, unknown, unknown, unit};
-}
-
-Attempt Named(const Setting& at, const Effect& effect) {
-  Attempt out;
-  out.candidate.effect = effect.id();
-  out.candidate.block = effect.block();
-  out.held_out = at.base_held_out;
-  out.parameters = static_cast<double>(effect.parameters().size());
-  return out;
-}
-
-Attempt TryGain(const Setting& at, const Effect& effect, const GainFluctuation& fluctuation) {
-  Attempt out = Named(at, effect);
-  const bool coloured = effect.id() == "parametric_noise";
-  const double worse = coloured ? fluctuation.coloured_cost - fluctuation.switching_cost
-                                : fluctuation.switching_cost - fluctuation.coloured_cost;
-  out.candidate.gain = fluctuation.gain - std::max(0.0, worse);
-  if (coloured) {
-    out.candidate.parameters.push_back(WithoutError(
-        "rel_rms",
-        std::sqrt(std::max(
-            0.0, std::pow(fluctuation.in_phase_std, 2) - std::pow(fluctuation.quadrature_std, 2))),
-        ""));
-    out.candidate.parameters.push_back(
-        WithoutError("correlation_s", fluctuation.correlation_s, "s"));
-  } else {
-    out.candidate.parameters.push_back(WithoutError("gain_drop", 1.0 - fluctuation.low_level, ""));
-    out.candidate.parameters.push_back(WithoutError("dwell_s", fluctuation.dwell_s, "s"));
-  }
-  for (std::size_t e = 0; e < out.held_out.size(); ++e) {
-    out.held_out[e].flame_residual = fluctuation.corrected[e];
-  }
-  return out;
-}
-
-Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<CoherentLine>& lines,
-                 const LineOrigin& origin) {
-  Attempt out = Named(at, effect);
-  if (lines.empty()) return out;
-  const bool hum = effect.id() == "mains_hum";
-  const double in_channel = std::max(origin.heat_release_hum, origin.pressure_hum);
-  if (hum) {
-    out.candidate.gain = origin.mains ? in_channel : 0.0;
-    out.candidate.block = origin.pressure_hum >= origin.heat_release_hum
-                              ? LoopBlock::kPressureInstrument
-                              : LoopBlock::kHeatReleaseInstrument;
-    out.candidate.parameters.push_back(WithoutError("rel", origin.relative_amplitude, ""));
-    out.candidate.parameters.push_back(WithoutError("hz", origin.mains_hz, "Hz"));
-  } else {
-    out.candidate.gain = origin.source;
-    out.candidate.parameters.push_back(WithoutError("rel", origin.relative_amplitude, ""));
-    out.candidate.parameters.push_back(WithoutError("hz", origin.frequency_hz, "Hz"));
-  }
-  out.without_lines = true;
-  return out;
-}
-
-Attempt TryClipping(const Setting& at, const Effect& effect) {
-  Attempt out = Named(at, effect);
-  const bool pressure = effect.id() == "p_clipping";
-  ClippingFit clipping = FitClipping(*at.records, pressure, *at.base);
-  out.candidate.gain = clipping.gain + (clipping.sharp_edge ? kFlagGain : 0.0);
-  out.candidate.parameters.push_back(WithoutError("fraction", clipping.fraction, ""));
-  for (std::size_t e = 0; e < out.held_out.size(); ++e) {
-    out.held_out[e].acoustic_residual = clipping.fit.experiments[e].acoustic_residual;
-  }
-  out.confirmed = clipping.sharp_edge || clipping.plateau_noise < kPlateauNoise;
-  if (pressure && clipping.sharp_edge) {
-    // The flame too is driven by the repaired signal.
-    std::vector<DiagnosisExperiment> repaired = *at.experiments;
-    for (std::size_t e = 0; e < repaired.size(); ++e) {
-      const Eigen::VectorXd& signal = clipping.repaired[e];
-      repaired[e].record.pressure.assign(signal.data(), signal.data() + signal.size());
-      repaired[e].record.heat_release.resize(static_cast<std::size_t>(signal.size()));
-    }
-    const std::vector<CutRecord> records = MakeCutRecords(repaired);
-    const EffectFit fit = FitBase(records);
-    for (std::size_t e = 0; e < out.held_out.size(); ++e)
-      out.held_out[e] = HeldOut(records, fit, e);
-  }
-  // Four bumps in each experiment.
-  out.parameters = 4.0 * static_cast<double>(out.held_out.size());
-  return out;
-}
-
-Attempt TryQuantisation(const Setting& at, const Effect& effect) {
-  Attempt out = Named(at, effect);
-  const FewLevels found = FindQuantisation(*at.records);
-  out.candidate.gain = found.found ? 2.0 * kFlagGain : 0.0;
-  out.candidate.parameters.push_back(WithoutError("levels", found.levels, ""));
-  return out;
-}
-
-double Logistic(double x) { return 1.0 / (1.0 + std::exp(-std::clamp(x, -50.0, 50.0))); }
-
-double PValue(double gain, double parameters, std::size_t catalogue) {
-  if (gain <= 0.0) return 1.0;
-  const boost::math::chi_squared distribution(parameters);
-  const double one =
-      boost::math::cdf(boost::math::complement(distribution, 2.0 * gain / kOverdispersion));
-  return -std::expm1(static_cast<double>(catalogue) * std::log1p(-std::min(one, 1.0 - 1e-12)));
-}
-
-bool IsInstrument(LoopBlock block) {
-  return block == LoopBlock::kPressureInstrument || block == LoopBlock::kHeatReleaseInstrument;
-}
-
-// Which cuts a block's error shows in.
-bool Reaches(LoopBlock block, bool acoustic_cut) {
-  if (IsInstrument(block)) return true;
-  const bool acoustic = block == LoopBlock::kAcoustics || block == LoopBlock::kSource;
-  return acoustic == acoustic_cut;
-}
-
-std::vector<Place> FindPlaces(const Setting& at, const std::vector<Attempt>& attempts,
-                              const Diagnosis& diagnosis, const Slack& before) {
-  const bool acoustic = before.acoustic_excess > 0.1 * before.flame_excess;
-  const bool flame = before.flame_excess > std::max(kFlameAllowance, 0.1 * before.acoustic_excess);
-  struct Score {
-    LoopBlock block;
-    double gain;
-  };
-  std::vector<Score> scores;
-  for (const Attempt& attempt : attempts) {
-    double gain = std::max(0.0, attempt.candidate.gain);
-    // No effect explains it: the place is where the cuts disagree with the model.
-    if (diagnosis.kind == VerdictKind::kUnknown && acoustic && flame &&
-        !IsInstrument(attempt.candidate.block)) {
-      gain *= 0.3;
-    }
-    if (diagnosis.kind == VerdictKind::kUnknown && acoustic != flame &&
-        (IsInstrument(attempt.candidate.block) || !Reaches(attempt.candidate.block, acoustic))) {
-      gain *= 0.3;
-    }
-    auto same = std::find_if(scores.begin(), scores.end(), [&](const Score& score) {
-      return score.block == attempt.candidate.block;
-    });
-    if (same == scores.end()) {
-      scores.push_back({attempt.candidate.block, gain});
-    } else {
-      same->gain = std::max(same->gain, gain);
-    }
-  }
-  double total = 0.0;
-  if (diagnosis.kind == VerdictKind::kEffect) {
-    // Where the probable effects act.
-    for (Score& score : scores) {
-      score.gain = 0.0;
-      for (const Attempt& attempt : attempts) {
-        if (attempt.candidate.block == score.block) score.gain += attempt.candidate.probability;
-      }
-      total += score.gain;
-    }
-  } else {
-    double top = 0.0;
-    for (const Score& score : scores) top = std::max(top, score.gain);
-    const double temperature = kTemperature + 0.1 * top;
-    for (Score& score : scores) {
-      score.gain = std::exp((score.gain - top) / temperature);
-      total += score.gain;
-    }
-  }
-  if (total <= 0.0) return {};
-  // The band and the experiments, from the slack's map.
-  const std::vector<CutRecord>& records = *at.records;
-  double low = records[0].frequency(0);
-  double high = records[0].frequency(records[0].acoustic_count - 1);
-  double most = 0.0;
-  for (const SlackBand& band : before.acoustic) most = std::max(most, band.gain);
-  if (acoustic && most > 10.0) {
-    double first = std::numeric_limits<double>::infinity();
-    double last = 0.0;
-    for (const SlackBand& band : before.acoustic) {
-      if (band.gain < 0.1 * most) continue;
-      first = std::min(first, band.low_hz);
-      last = std::max(last, band.high_hz);
-    }
-    low = first;
-    high = last;
-  }
-  std::vector<double> by_experiment(records.size(), 0.0);
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    if (flame) by_experiment[e] += before.flame_by_experiment[e];
-    for (const SlackBand& band : before.acoustic) by_experiment[e] += band.by_experiment[e];
-  }
-  const double largest = *std::max_element(by_experiment.begin(), by_experiment.end());
-  std::vector<std::string> names;
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    if (by_experiment[e] >= 0.2 * largest) names.push_back(records[e].name);
-  }
-  std::vector<Place> places;
-  for (const Score& score : scores) {
-    if (score.gain / total < 0.02) continue;
-    places.push_back({score.block, low, high, names, score.gain / total});
-  }
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.share > b.share; });
-  return places;
-}
-
-std::string Advice(const Diagnosis& diagnosis) {
-  if (diagnosis.kind == VerdictKind::kNone) {
-    return "nothing to separate; longer records would lower the floor";
-  }
-  if (diagnosis.kind == VerdictKind::kUnknown) {
-    return "a stable operating point, or a loudspeaker's sweep, would give the transfer functions "
-           "of both cuts without the cycle";
-  }
-  const auto has = [&](std::string_view id) {
-    return diagnosis.effect == id ||
-           std::find(diagnosis.indistinguishable.begin(), diagnosis.indistinguishable.end(), id) !=
-               diagnosis.indistinguishable.end();
-  };
-  if (diagnosis.indistinguishable.empty()) return "the effect stands alone: no further experiment";
-  if (has("delay_dispersion") || has("second_delay_path") || has("flame_lowpass")) {
-    return "a point with a stronger line near the second crossing, or a stable, noise-driven one: "
-           "the flame's response above three times the cycle separates these";
-  }
-  if (has("nonlinear_damping") || has("amplitude_dependent_delay")) {
-    return "a point with a weaker cycle: two amplitudes separate these";
-  }
-  if (has("parametric_noise") || has("intermittency") || has("slow_drift")) {
-    return "a record ten times as long: the statistics of the slow envelope separate these";
-  }
-  return "another operating point, as far away as the rig allows";
-}
-
-}  // namespace
-
-Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
-                   const DiagnosisOptions& options) {
-  std::vector<CutRecord> records = MakeCutRecords(experiments);
-  const std::vector<CoherentLine> lines = FindCoherentLines(records);
-  MaskLines(lines, &records);
-  const EffectFit base = FitBase(records);
-  Setting at{&records, &base, &experiments, {}};
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    at.base_held_out.push_back(HeldOut(records, base, e));
-  }
-  const LineOrigin origin = ExplainLines(records, base, lines);
-  const GainFluctuation fluctuation = EstimateGainFluctuation(records, base);
-
-  // One unit of work for each identifier, whatever its forms.
-  std::vector<std::vector<EffectPointer>> units;
+// One unit of work for each identifier, whatever its forms.
+std::vector<EffectForms> Units(const DiagnosisOptions& options) {
+  std::vector<EffectForms> units;
   std::vector<EffectPointer> all = Catalogue();
   all.insert(all.end(), options.further.begin(), options.further.end());
   for (const EffectPointer& effect : all) {
@@ -369,155 +36,229 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
       units.push_back({effect});
     }
   }
-  std::vector<Attempt> attempts(units.size());
-  std::atomic<std::size_t> done = 0;
-  std::mutex progress_lock;
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(
-        std::size_t{0}, units.size(),
-        [&](std::size_t i) {
-          const Effect& effect = *units[i][0];
-          switch (effect.kind()) {
-            case EffectKind::kTransfer:
-              attempts[i] = TryTransfer(at, units[i]);
-              break;
-            case EffectKind::kGain:
-              attempts[i] = TryGain(at, effect, fluctuation);
-              break;
-            case EffectKind::kLine:
-              attempts[i] = TryLines(at, effect, lines, origin);
-              break;
-            case EffectKind::kClipping:
-              attempts[i] = TryClipping(at, effect);
-              break;
-            case EffectKind::kQuantisation:
-              attempts[i] = TryQuantisation(at, effect);
-              break;
-          }
-          const std::size_t now = ++done;
-          if (options.progress) {
-            const std::lock_guard<std::mutex> lock(progress_lock);
-            options.progress(now, units.size());
-          }
-        },
-        tbb::simple_partitioner());
-  });
+  return units;
+}
 
-  // V_B: the least that any fit leaves over.
-  std::vector<Eigen::VectorXd> flame_noise;
-  for (const ExperimentFit& fit : base.experiments) flame_noise.push_back(fit.flame_noise);
-  double least = base.flame_cost;
-  for (const Attempt& attempt : attempts) {
-    if (!attempt.fit || attempt.fit->flame_cost >= least) continue;
-    least = attempt.fit->flame_cost;
-    for (std::size_t e = 0; e < records.size(); ++e) {
-      flame_noise[e] = attempt.fit->experiments[e].flame_noise;
+class Search {
+ public:
+  Search(const std::vector<DiagnosisExperiment>& experiments, const DiagnosisOptions& options)
+      : options_(options), units_(Units(options)), records_(MakeCutRecords(experiments)) {
+    lines_ = FindCoherentLines(records_);
+    MaskLines(lines_, &records_);
+    base_ = FitBase(records_);
+    at_ = {&records_, &base_, &experiments, {}};
+    for (std::size_t e = 0; e < records_.size(); ++e) {
+      at_.base_held_out.push_back(HeldOut(records_, base_, e));
+    }
+    slack_before_ = ComputeSlack(records_, base_);
+  }
+
+  Diagnosis Run() {
+    TryAll();
+    MeasureGaps();
+    std::stable_sort(attempts_.begin(), attempts_.end(), Better);
+    Slack after;
+    Evidence evidence = Look(attempts_.empty() ? nullptr : &attempts_[0], &after);
+    Belief belief = Weigh(evidence);
+    if (belief.none < 0.5) {
+      if (std::optional<Attempt> pair =
+              TryDistinctPair(at_, attempts_, units_, lines_, options_.threads)) {
+        pair->candidate.p_value = attempts_[0].candidate.p_value;
+        MeasureGap(&*pair);
+        attempts_.insert(attempts_.begin(), std::move(*pair));
+        evidence = Look(&attempts_[0], &after);
+        belief = Weigh(evidence);
+      }
+    }
+    Diagnosis out = Conclude(evidence, belief);
+    out.slack_acoustic_before = slack_before_.acoustic_excess;
+    out.slack_flame_before = slack_before_.flame_excess;
+    out.slack_acoustic_after = after.acoustic_excess;
+    out.slack_flame_after = after.flame_excess;
+    if (out.kind != VerdictKind::kNone) {
+      out.where = FindPlaces(records_, attempts_, out.kind, slack_before_);
+    }
+    if (out.kind == VerdictKind::kUnknown && !attempts_.empty() && Detected()) {
+      if (std::optional<Attempt> pair =
+              TryTransferPair(at_, attempts_[0], units_, options_.threads)) {
+        MeasureGap(&*pair);
+        pair->candidate.probability = 0.0;
+        out.together = pair->candidate.effect;
+        attempts_.insert(attempts_.begin() + 1, std::move(*pair));
+      }
+    }
+    out.advice = Advice(out);
+    for (Attempt& attempt : attempts_) out.candidates.push_back(std::move(attempt.candidate));
+    return out;
+  }
+
+ private:
+  static bool Better(const Attempt& a, const Attempt& b) {
+    return a.seen != b.seen ? a.seen : a.candidate.gain > b.candidate.gain;
+  }
+
+  bool Detected() const {
+    const Attempt& top = attempts_[0];
+    const bool flame_alone = top.fit && !top.fit->effect->ChangesAcousticCut();
+    return top.candidate.gain > DetectionGain(flame_alone);
+  }
+
+  void TryAll() {
+    const LineOrigin origin = ExplainLines(records_, base_, lines_);
+    const GainFluctuation fluctuation = EstimateGainFluctuation(records_, base_);
+    attempts_.resize(units_.size());
+    std::atomic<std::size_t> done = 0;
+    std::mutex progress_lock;
+    RunUnits(units_.size(), options_.threads, [&](std::size_t i) {
+      attempts_[i] = Try(units_[i], origin, fluctuation);
+      const std::size_t now = ++done;
+      if (options_.progress) {
+        const std::lock_guard<std::mutex> lock(progress_lock);
+        options_.progress(now, units_.size());
+      }
+    });
+    for (Attempt& attempt : attempts_) {
+      attempt.candidate.p_value = PValue(attempt.candidate.gain, attempt.parameters, units_.size());
+      PayForParameters(&attempt);
     }
   }
-  const bool count_lines = !lines.empty();
-  const GapParts before = ComputeGapParts(records, at.base_held_out, flame_noise, !count_lines);
-  Diagnosis out;
-  out.gap_before = Gap(before);
-  out.gap_floor = GapFloor(records);
-  for (Attempt& attempt : attempts) {
-    Candidate& candidate = attempt.candidate;
-    const double raw = candidate.gain;
-    candidate.gain -= 0.5 * attempt.parameters * std::log(kGainDataSize);
-    candidate.p_value = PValue(raw, attempt.parameters, units.size());
-    const GapParts after = ComputeGapParts(records, attempt.held_out, flame_noise,
-                                           !count_lines || attempt.without_lines);
+
+  Attempt Try(const EffectForms& forms, const LineOrigin& origin,
+              const GainFluctuation& fluctuation) const {
+    const Effect& effect = *forms[0];
+    switch (effect.kind()) {
+      case EffectKind::kTransfer:
+        return TryTransfer(at_, forms);
+      case EffectKind::kGain:
+        return TryGain(at_, effect, fluctuation);
+      case EffectKind::kLine:
+        return TryLines(at_, effect, lines_, origin);
+      case EffectKind::kClipping:
+        return TryClipping(at_, effect);
+      case EffectKind::kQuantisation:
+        break;
+    }
+    return TryQuantisation(at_, effect);
+  }
+
+  // V_B of the gap: the least that any fit leaves over.
+  void MeasureGaps() {
+    for (const ExperimentFit& fit : base_.experiments) flame_noise_.push_back(fit.flame_noise);
+    double least = base_.flame_cost;
+    for (const Attempt& attempt : attempts_) {
+      if (!attempt.fit || attempt.fit->flame_cost >= least) continue;
+      least = attempt.fit->flame_cost;
+      for (std::size_t e = 0; e < records_.size(); ++e) {
+        flame_noise_[e] = attempt.fit->experiments[e].flame_noise;
+      }
+    }
+    gap_before_ = ComputeGapParts(records_, at_.base_held_out, flame_noise_, lines_.empty());
+    for (Attempt& attempt : attempts_) MeasureGap(&attempt);
+  }
+
+  void MeasureGap(Attempt* attempt) const {
+    const GapParts after = ComputeGapParts(records_, attempt->held_out, flame_noise_,
+                                           lines_.empty() || attempt->without_lines);
+    Candidate& candidate = attempt->candidate;
     candidate.gap_after = Gap(after);
-    candidate.shrinkage = 1.0 - candidate.gap_after / std::max(out.gap_before, 1e-12);
-    const Interval interval = ShrinkageInterval(before, after);
+    candidate.shrinkage = 1.0 - candidate.gap_after / std::max(Gap(gap_before_), 1e-12);
+    const Interval interval = ShrinkageInterval(gap_before_, after);
     candidate.shrinkage_low = interval.low;
     candidate.shrinkage_high = interval.high;
   }
-  std::stable_sort(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
-    return a.candidate.gain > b.candidate.gain;
-  });
 
-  // Slack before and after the best effect.
-  const Slack slack_before = ComputeSlack(records, base);
-  out.slack_acoustic_before = slack_before.acoustic_excess;
-  out.slack_flame_before = slack_before.flame_excess;
-  EffectFit best = base;
-  const Attempt* top = attempts.empty() ? nullptr : &attempts[0];
-  if (top) {
-    if (top->fit) {
-      best = *top->fit;
-    } else {
-      for (std::size_t e = 0; e < records.size(); ++e) {
-        best.experiments[e].acoustic_residual = top->held_out[e].acoustic_residual;
-        best.experiments[e].flame_residual = top->held_out[e].flame_residual;
+  Evidence Look(const Attempt* top, Slack* after) const {
+    EffectFit best = base_;
+    if (top) {
+      if (top->fit && top->repaired.empty()) best = *top->fit;
+      if (!top->fit || top->kind != EffectKind::kTransfer) {
+        for (std::size_t e = 0; e < records_.size(); ++e) {
+          best.experiments[e].acoustic_residual = top->held_out[e].acoustic_residual;
+          best.experiments[e].flame_residual = top->held_out[e].flame_residual;
+        }
       }
     }
+    *after = ComputeSlack(records_, best);
+    Evidence out;
+    out.acoustic_slack = after->acoustic_excess;
+    out.flame_slack = after->flame_excess;
+    out.gap_before = Gap(gap_before_);
+    out.gap_floor = GapFloor(records_);
+    // Lines that no candidate accounts for are a fact, whatever else fits.
+    out.unexplained_lines =
+        !lines_.empty() &&
+        std::none_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
+          return attempt.without_lines && attempt.candidate.gain > DetectionGain(false);
+        });
+    if (!top) return out;
+    out.gain = std::max(0.0, top->candidate.gain);
+    out.gap_after = top->candidate.gap_after;
+    out.seen = top->seen;
+    out.confirmed = top->confirmed;
+    out.flame_alone = top->fit && !top->fit->effect->ChangesAcousticCut();
+    return out;
   }
-  const Slack slack_after = ComputeSlack(records, best);
-  out.slack_acoustic_after = slack_after.acoustic_excess;
-  out.slack_flame_after = slack_after.flame_excess;
 
-  const double largest = top ? std::max(0.0, top->candidate.gain) : 0.0;
-  const double rest = std::max(0.0, out.slack_acoustic_after - kAcousticAllowance) +
-                      std::max(0.0, out.slack_flame_after - kFlameAllowance);
-  const bool flame_alone = top && top->fit && !top->fit->effect->ChangesAcousticCut();
-  const double detection = flame_alone ? kFlameDetectionGain : kDetectionGain;
-  // Lines that no candidate accounts for are a fact, whatever else fits.
-  const bool unexplained_lines =
-      !lines.empty() && std::none_of(attempts.begin(), attempts.end(), [](const Attempt& attempt) {
-        return attempt.without_lines && attempt.candidate.gain > kDetectionGain;
-      });
-  double nothing =
-      Logistic((detection - largest) / kDetectionWidth) * Logistic((40.0 - rest) / 5.0);
-  double unknown = 0.0;
-  const bool flagged = largest >= 0.5 * kFlagGain;
-  const bool confirmed = top && top->confirmed;
-  if (!flagged && rest > 20.0) {
-    const double share = confirmed ? kConfirmedUnknownShare : kUnknownShare;
-    unknown = Logistic((rest / (rest + largest) - share) / kUnknownWidth);
-  }
-  if (!flagged && !confirmed && top) {
-    // Nor may the held-out gap stay well above the floor.
-    const double above = std::pow(top->candidate.gap_after, 2) - 4.0 * std::pow(out.gap_floor, 2);
-    const double left = std::max(0.0, above) / std::pow(out.gap_before, 2);
-    unknown = std::max(unknown, Logistic((left - kUnknownGapShare) / kUnknownGapWidth));
-  }
-  if (unexplained_lines) {
-    nothing = 0.0;
-    unknown = std::max(unknown, kUnexplainedLines);
-  }
-  out.probability_none = nothing;
-  out.probability_unknown = (1.0 - nothing) * unknown;
-  const double temperature = kTemperature + kTemperatureShare * (flagged ? 0.0 : largest);
-  double total = 0.0;
-  for (const Attempt& attempt : attempts) {
-    total += std::exp((attempt.candidate.gain - attempts[0].candidate.gain) / temperature);
-  }
-  for (Attempt& attempt : attempts) {
-    attempt.candidate.probability =
-        (1.0 - nothing) * (1.0 - unknown) *
-        std::exp((attempt.candidate.gain - attempts[0].candidate.gain) / temperature) / total;
-  }
-  if (nothing > 0.5) {
-    out.kind = VerdictKind::kNone;
-  } else if (unknown > 0.5 || !top) {
-    out.kind = VerdictKind::kUnknown;
-  } else {
+  Diagnosis Conclude(const Evidence& evidence, const Belief& belief) {
+    Diagnosis out;
+    out.gap_before = evidence.gap_before;
+    out.gap_after = evidence.gap_before;
+    out.gap_floor = evidence.gap_floor;
+    out.probability_none = belief.none;
+    out.probability_unknown = (1.0 - belief.none) * belief.unknown;
+    // Against the first of a pair alone, what counts is what the second brings.
+    const double temperature = Temperature(
+        !attempts_.empty() && attempts_[0].also ? attempts_[0].second_gain : evidence.gain);
+    std::vector<double> weight;
+    double total = 0.0;
+    for (const Attempt& attempt : attempts_) {
+      const bool beaten = attempts_[0].seen && !attempt.seen;
+      weight.push_back(
+          beaten ? 0.0
+                 : std::exp((attempt.candidate.gain - attempts_[0].candidate.gain) / temperature));
+      if (attempts_[0].seen) weight.back() = weight.size() == 1 ? 1.0 : 0.0;
+      total += weight.back();
+    }
+    for (std::size_t i = 0; i < attempts_.size(); ++i) {
+      attempts_[i].candidate.probability =
+          (1.0 - belief.none) * (1.0 - belief.unknown) * weight[i] / total;
+    }
+    if (belief.none > 0.5) return out;
+    if (!attempts_.empty()) {
+      out.gap_after = std::min(attempts_[0].candidate.gap_after, evidence.gap_before);
+    }
+    if (belief.unknown > 0.5 || attempts_.empty()) {
+      out.kind = VerdictKind::kUnknown;
+      return out;
+    }
+    const Candidate& top = attempts_[0].candidate;
     out.kind = VerdictKind::kEffect;
-    out.effect = top->candidate.effect;
-    for (std::size_t i = 1; i < attempts.size(); ++i) {
-      if (attempts[i].candidate.probability > kClassProbability * top->candidate.probability) {
-        out.indistinguishable.push_back(attempts[i].candidate.effect);
+    out.effect = top.effect;
+    for (std::size_t i = 1; i < attempts_.size(); ++i) {
+      if (attempts_[i].candidate.probability > kClassProbability * top.probability) {
+        out.indistinguishable.push_back(attempts_[i].candidate.effect);
       }
     }
+    return out;
   }
-  out.gap_after = top && out.kind != VerdictKind::kNone
-                      ? std::min(top->candidate.gap_after, out.gap_before)
-                      : out.gap_before;
-  if (out.kind != VerdictKind::kNone) out.where = FindPlaces(at, attempts, out, slack_before);
-  out.advice = Advice(out);
-  for (Attempt& attempt : attempts) out.candidates.push_back(std::move(attempt.candidate));
-  return out;
+
+  const DiagnosisOptions& options_;
+  std::vector<EffectForms> units_;
+  std::vector<CutRecord> records_;
+  std::vector<CoherentLine> lines_;
+  EffectFit base_;
+  Setting at_;
+  Slack slack_before_;
+  std::vector<Attempt> attempts_;
+  std::vector<Eigen::VectorXd> flame_noise_;
+  GapParts gap_before_;
+};
+
+}  // namespace
+
+Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
+                   const DiagnosisOptions& options) {
+  return Search(experiments, options).Run();
 }
 
 }  // namespace howl

@@ -55,8 +55,10 @@ struct Place {
 
 struct Diagnosis {
   VerdictKind kind = VerdictKind::kNone;
-  std::string effect;  // empty unless kEffect
+  std::string effect;  // empty unless kEffect; "a+b": two at once
   std::vector<std::string> indistinguishable;
+  // Unknown: two effects of the catalogue that together would leave little; empty if none do.
+  std::string together;
   double probability_none = 0.0;
   double probability_unknown = 0.0;
   std::vector<Place> where;

@@ -51,6 +51,10 @@ EffectFit FitBase(const std::vector<CutRecord>& records);
 EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& effect,
                     const EffectFit& base);
 
+// A combination whose first part was fitted already: from there, and the starts of its second.
+EffectFit FitFurther(const std::vector<CutRecord>& records, const EffectPointer& combined,
+                     const EffectFit& base, const EffectFit& first);
+
 // The experiment's residuals with tau and the effect's parameters as the other experiments have
 // them, its own parameters refitted.
 ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fit,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnosis/real_fft.h"
+#include "diagnosis/real_gram.h"
 
 namespace howl {
 namespace {
@@ -99,9 +100,8 @@ FlameSolution SolveFlame(const CutRecord& record, const Effect& effect, EffectVa
   Eigen::VectorXcd target = record.windowed_heat_release.head(n);
   const Response leak = effect.PressureLeak(record.at.cycle_frequency_hz, record.at, x);
   if (leak != 0.0) target -= leak * record.windowed_pressure.head(n);
-  const Eigen::MatrixXcd weighted = weight.asDiagonal() * out.columns;
-  Eigen::MatrixXd gram = (weighted.adjoint() * out.columns).real();
-  const Eigen::VectorXd right = (weighted.adjoint() * target).real();
+  Eigen::MatrixXd gram = RealGram(weight, out.columns, out.columns);
+  const Eigen::VectorXd right = RealGram(weight, out.columns, target);
   const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
   gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
   gram.diagonal().array() += kRidge;

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/real_gram.h"
+
 namespace howl {
 namespace {
 
 constexpr double kBandOfCycle = 0.2;  // width, of the cycle's frequency
+constexpr Eigen::Index kMedianReach = 12;
+constexpr double kMedianOfExponential = 0.6931471805599453;
 
 // x: predicted signals, e: residuals, v: noise; one of each for every experiment.
 std::vector<SlackBand> Bands(const std::vector<CutRecord>& records,
@@ -63,6 +67,24 @@ std::vector<double> Offsets(const CutRecord& record, double tau_s) {
   return offsets;
 }
 
+// Around each bin the median of |E|^2 as a variance. A gain that fluctuates spreads the cycle's
+// line over a few hertz; the smooth V does not know of it, and slack would fit its chance pattern.
+Eigen::VectorXd MedianPower(const Eigen::VectorXcd& residual) {
+  const Eigen::VectorXd power = residual.cwiseAbs2();
+  const Eigen::Index n = power.size();
+  Eigen::VectorXd out(n);
+  std::vector<double> around;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::Index from = std::max<Eigen::Index>(0, k - kMedianReach);
+    const Eigen::Index to = std::min(n, k + kMedianReach + 1);
+    around.assign(power.data() + from, power.data() + to);
+    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+    std::nth_element(around.begin(), middle, around.end());
+    out[k] = *middle / kMedianOfExponential;
+  }
+  return out;
+}
+
 struct Normal {
   Eigen::MatrixXd gram;
   Eigen::VectorXd right;
@@ -94,7 +116,8 @@ Slack ComputeSlack(const std::vector<CutRecord>& records, const EffectFit& fit) 
     v_a.push_back(&at.acoustic_noise);
     const Eigen::Index n = records[i].flame_count;
     const Eigen::VectorXcd x = records[i].windowed_heat_release.head(n) - at.flame_residual;
-    Eigen::VectorXd weight = at.flame_noise.cwiseInverse() / kBinCorrelation;
+    Eigen::VectorXd weight =
+        at.flame_noise.cwiseMax(MedianPower(at.flame_residual)).cwiseInverse() / kBinCorrelation;
     Eigen::MatrixXcd columns(n, taps);
     for (Eigen::Index k = 0; k < n; ++k) {
       if (records[i].masked[static_cast<std::size_t>(k)]) weight[k] = 0.0;
@@ -104,9 +127,8 @@ Slack ComputeSlack(const std::vector<CutRecord>& records, const EffectFit& fit) 
         columns(k, j) = x[k] * std::polar(1.0, angle);
       }
     }
-    const Eigen::MatrixXcd weighted = weight.asDiagonal() * columns;
-    const Normal own{(weighted.adjoint() * columns).real(),
-                     (weighted.adjoint() * at.flame_residual).real()};
+    const Normal own{RealGram(weight, columns, columns),
+                     RealGram(weight, columns, at.flame_residual)};
     out.flame_by_experiment.push_back(Gain(own));
     total.gram += own.gram;
     total.right += own.right;

@@ -6,6 +6,7 @@
 
 #include "diagnosis/noise_fit.h"
 #include "diagnosis/real_fft.h"
+#include "diagnosis/real_gram.h"
 
 namespace howl {
 namespace {
@@ -142,9 +143,8 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
         jacobian.leftCols(4) =
             AcousticJacobian(record, none, {}, at.acoustics, bare, Eigen::VectorXd());
         jacobian.rightCols(kBumps) = extra;
-        const Eigen::MatrixXcd weighted = weight.asDiagonal() * jacobian;
-        Eigen::MatrixXd gram = (weighted.adjoint() * jacobian).real();
-        const Eigen::VectorXd right = (weighted.adjoint() * residual).real();
+        Eigen::MatrixXd gram = RealGram(weight, jacobian, jacobian);
+        const Eigen::VectorXd right = RealGram(weight, jacobian, residual);
         const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
         gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
         gram.diagonal().array() += 1e-9;

@@ -18,6 +18,7 @@ Json VerdictJson(const Diagnosis& diagnosis) {
       {"kind", VerdictKindName(diagnosis.kind)},
       {"effect", diagnosis.kind == VerdictKind::kEffect ? Json(diagnosis.effect) : Json(nullptr)},
       {"indistinguishable", diagnosis.indistinguishable},
+      {"together", diagnosis.together.empty() ? Json(nullptr) : Json(diagnosis.together)},
       {"probability", probability}};
 }
 

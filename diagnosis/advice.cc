@@ -1,0 +1,35 @@
+#include "diagnosis/advice.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace howl {
+
+std::string Advice(const Diagnosis& diagnosis) {
+  if (diagnosis.kind == VerdictKind::kNone) {
+    return "nothing to separate; longer records would lower the floor";
+  }
+  if (diagnosis.kind == VerdictKind::kUnknown) {
+    return "a stable operating point, or a loudspeaker's sweep, would give the transfer functions "
+           "of both cuts without the cycle";
+  }
+  const auto has = [&](std::string_view id) {
+    return diagnosis.effect == id ||
+           std::find(diagnosis.indistinguishable.begin(), diagnosis.indistinguishable.end(), id) !=
+               diagnosis.indistinguishable.end();
+  };
+  if (diagnosis.indistinguishable.empty()) return "the effect stands alone: no further experiment";
+  if (has("delay_dispersion") || has("second_delay_path") || has("flame_lowpass")) {
+    return "a point with a stronger line near the second crossing, or a stable, noise-driven one: "
+           "the flame's response above three times the cycle separates these";
+  }
+  if (has("nonlinear_damping") || has("amplitude_dependent_delay")) {
+    return "a point with a weaker cycle: two amplitudes separate these";
+  }
+  if (has("parametric_noise") || has("intermittency") || has("slow_drift")) {
+    return "a record ten times as long: the statistics of the slow envelope separate these";
+  }
+  return "another operating point, as far away as the rig allows";
+}
+
+}  // namespace howl

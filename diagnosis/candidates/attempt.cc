@@ -1,0 +1,43 @@
+#include "diagnosis/candidates/attempt.h"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+
+namespace howl {
+namespace {
+
+constexpr double kGainDataSize = 500.0;  // independent bins that a shared parameter draws on
+constexpr double kOverdispersion = 2.5;
+
+}  // namespace
+
+Attempt Named(const Setting& at, const Effect& effect) {
+  Attempt out;
+  out.candidate.effect = effect.id();
+  out.candidate.block = effect.block();
+  out.kind = effect.kind();
+  out.held_out = at.base_held_out;
+  out.parameters = static_cast<double>(effect.parameters().size());
+  return out;
+}
+
+EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  return {name, value, unknown, unknown, unit};
+}
+
+void PayForParameters(Attempt* attempt) {
+  attempt->candidate.gain -= 0.5 * attempt->parameters * std::log(kGainDataSize);
+}
+
+double PValue(double gain, double parameters, std::size_t catalogue) {
+  if (gain <= 0.0) return 1.0;
+  const boost::math::chi_squared distribution(parameters);
+  const double one =
+      boost::math::cdf(boost::math::complement(distribution, 2.0 * gain / kOverdispersion));
+  return -std::expm1(static_cast<double>(catalogue) * std::log1p(-std::min(one, 1.0 - 1e-12)));
+}
+
+}  // namespace howl

@@ -1,0 +1,66 @@
+// A candidate of the catalogue, tried: what it takes off the likelihood, and what its gap needs.
+// One file for each kind of effect; a kind that is new is one more of them.
+#ifndef HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_
+#define HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/coherent_lines.h"
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/effect_fit.h"
+#include "diagnosis/gain_fluctuation.h"
+
+namespace howl {
+
+struct Attempt {
+  Candidate candidate;
+  EffectKind kind = EffectKind::kTransfer;
+  // Of two effects: the second's block, and what it alone brings.
+  std::optional<LoopBlock> also;
+  double second_gain = 0.0;
+  std::vector<ExperimentFit> held_out;
+  bool without_lines = false;
+  std::optional<EffectFit> fit;
+  double parameters = 1.0;
+  // Evidence beside the likelihood: what slack is left over may be the effect's own crude form.
+  bool confirmed = false;
+  bool seen = false;  // in the samples themselves, without a model
+  // Where the effect was taken out of the samples: the records without it.
+  std::vector<DiagnosisExperiment> repaired;
+};
+
+// What all attempts share: the records, and the fit of the loop with no effect.
+struct Setting {
+  const std::vector<CutRecord>* records = nullptr;
+  const EffectFit* base = nullptr;
+  const std::vector<DiagnosisExperiment>* experiments = nullptr;
+  std::vector<ExperimentFit> base_held_out;
+};
+
+// An effect with several forms (orders of a filter, say): the best of them.
+// from: a fit of the effect's first part, where it is a combination; else nothing.
+Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms,
+                    const EffectFit* from = nullptr);
+Attempt TryGain(const Setting& at, const Effect& effect, const GainFluctuation& fluctuation);
+Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<CoherentLine>& lines,
+                 const LineOrigin& origin);
+Attempt TryClipping(const Setting& at, const Effect& effect);
+Attempt TryQuantisation(const Setting& at, const Effect& effect);
+
+// The start of an attempt whose residuals are the base's.
+Attempt Named(const Setting& at, const Effect& effect);
+
+// Half the logarithm of the data's size for each parameter, off the gain.
+void PayForParameters(Attempt* attempt);
+
+// Of several effects that together were tried: the p-value of the largest.
+double PValue(double gain, double parameters, std::size_t catalogue);
+
+// A value whose error nothing here estimates: it has no interval.
+EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_

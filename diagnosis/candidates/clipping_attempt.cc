@@ -1,0 +1,46 @@
+#include "diagnosis/candidates/attempt.h"
+#include "diagnosis/static_map.h"
+
+namespace howl {
+namespace {
+
+constexpr double kPlateauNoise = 0.45;
+
+}  // namespace
+
+Attempt TryClipping(const Setting& at, const Effect& effect) {
+  Attempt out = Named(at, effect);
+  const bool pressure = effect.id() == "p_clipping";
+  ClippingFit clipping = FitClipping(*at.records, pressure, *at.base);
+  out.candidate.gain = clipping.gain;
+  out.candidate.parameters.push_back(WithoutError("fraction", clipping.fraction, ""));
+  for (std::size_t e = 0; e < out.held_out.size(); ++e) {
+    out.held_out[e].acoustic_residual = clipping.fit.experiments[e].acoustic_residual;
+  }
+  out.seen = clipping.sharp_edge;
+  out.confirmed = clipping.sharp_edge || clipping.plateau_noise < kPlateauNoise;
+  if (clipping.sharp_edge) {
+    out.repaired = *at.experiments;
+    for (std::size_t e = 0; e < out.repaired.size(); ++e) {
+      const Eigen::VectorXd& signal = clipping.repaired[e];
+      Record& record = out.repaired[e].record;
+      record.pressure.resize(static_cast<std::size_t>(signal.size()));
+      record.heat_release.resize(static_cast<std::size_t>(signal.size()));
+      std::vector<double>& channel = pressure ? record.pressure : record.heat_release;
+      channel.assign(signal.data(), signal.data() + signal.size());
+    }
+  }
+  if (pressure && clipping.sharp_edge) {
+    // The flame too is driven by the repaired signal.
+    const std::vector<CutRecord> records = MakeCutRecords(out.repaired);
+    const EffectFit fit = FitBase(records);
+    for (std::size_t e = 0; e < out.held_out.size(); ++e) {
+      out.held_out[e] = HeldOut(records, fit, e);
+    }
+  }
+  // Four bumps in each experiment.
+  out.parameters = 4.0 * static_cast<double>(out.held_out.size());
+  return out;
+}
+
+}  // namespace howl

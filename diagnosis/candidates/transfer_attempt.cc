@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "diagnosis/candidates/attempt.h"
+
+namespace howl {
+namespace {
+
+constexpr double kTwoSigma = 1.96;
+
+std::vector<ExperimentFit> HoldOutAll(const Setting& at, const EffectFit& fit) {
+  std::vector<ExperimentFit> out;
+  for (std::size_t e = 0; e < at.records->size(); ++e) {
+    out.push_back(HeldOut(*at.records, fit, e));
+    if (!fit.effect->ChangesAcousticCut()) {
+      out.back().acoustic_residual = at.base_held_out[e].acoustic_residual;
+    }
+    if (!fit.effect->ChangesFlameCut()) {
+      out.back().flame_residual = at.base_held_out[e].flame_residual;
+    }
+  }
+  return out;
+}
+
+EstimatedParameter WithError(const EffectParameter& p, double value, double error) {
+  EstimatedParameter out{p.name, value, value - kTwoSigma * error, value + kTwoSigma * error,
+                         p.unit};
+  if (p.scale == ParameterScale::kLogarithmic && value > 0.0) {
+    const double factor = std::exp(std::min(kTwoSigma * error / value, 20.0));
+    out.low = value / factor;
+    out.high = value * factor;
+  }
+  return out;
+}
+
+}  // namespace
+
+Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms,
+                    const EffectFit* from) {
+  Attempt out;
+  for (const EffectPointer& form : forms) {
+    EffectFit fit = from ? FitFurther(*at.records, form, *at.base, *from)
+                         : FitEffect(*at.records, form, *at.base);
+    if (!out.fit || fit.cost() < out.fit->cost()) out.fit = std::move(fit);
+  }
+  const EffectFit& fit = *out.fit;
+  out.candidate.effect = fit.effect->id();
+  out.candidate.block = fit.effect->block();
+  out.parameters = static_cast<double>(fit.values.size());
+  out.candidate.gain = at.base->cost() - fit.cost();
+  for (std::size_t j = 0; j < fit.values.size(); ++j) {
+    out.candidate.parameters.push_back(
+        WithError(fit.effect->parameters()[j], fit.values[j], fit.standard_errors[j + 1]));
+  }
+  out.held_out = HoldOutAll(at, fit);
+  return out;
+}
+
+}  // namespace howl

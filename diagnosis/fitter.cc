@@ -1,0 +1,146 @@
+#include "diagnosis/fitter.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "diagnosis/noise_fit.h"
+
+namespace howl {
+namespace {
+
+double Squares(const Eigen::VectorXcd& residual, const Eigen::VectorXd& weight) {
+  return residual.cwiseAbs2().dot(weight) / kBinCorrelation;
+}
+
+}  // namespace
+
+double ScaleOf(const EffectParameter& p, double x) {
+  return p.scale == ParameterScale::kLogarithmic ? x : 1.0;
+}
+
+Eigen::VectorXd BinWeights(const Eigen::VectorXd& variance, const std::vector<char>& masked) {
+  Eigen::VectorXd weights = variance.cwiseInverse();
+  for (Eigen::Index k = 0; k < weights.size(); ++k) {
+    if (masked[static_cast<std::size_t>(k)]) weights[k] = 0.0;
+  }
+  return weights;
+}
+
+void Fitter::SetNoise(const EffectFit& fit) {
+  weights_a_.clear();
+  weights_b_.clear();
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    weights_a_.push_back(BinWeights(fit.experiments[e].acoustic_noise, records_[e].masked));
+    weights_b_.push_back(BinWeights(fit.experiments[e].flame_noise, records_[e].masked));
+  }
+}
+
+double Fitter::Evaluate(EffectFit* fit) {
+  double cost = 0.0;
+  for (std::size_t e = 0; e < records_.size(); ++e) cost += EvaluateOne(fit, e);
+  return cost;
+}
+
+double Fitter::EvaluateOne(EffectFit* fit, std::size_t e) {
+  ExperimentFit& at = fit->experiments[e];
+  double cost = 0.0;
+  if (acoustic_) {
+    at.acoustic_residual = AcousticResidual(records_[e], effect_, fit->values, at.acoustics);
+    cost += Squares(at.acoustic_residual, weights_a_[e]);
+    cost += LeakJacobian(fit->values, at.acoustics, e);
+  }
+  if (flame_) {
+    if (own_columns_) {
+      columns_[e] = MakeFlameColumns(records_[e], effect_, fit->values, fit->tau_s);
+    }
+    solutions_.resize(records_.size());
+    solutions_[e] =
+        SolveFlame(records_[e], effect_, fit->values, fit->tau_s, columns_[e], weights_b_[e]);
+    at.flame = solutions_[e].coefficients;
+    at.flame_range = columns_[e].range;
+    at.flame_residual = solutions_[e].residual;
+    cost += Squares(at.flame_residual, weights_b_[e]);
+  }
+  return cost;
+}
+
+double Fitter::Descend(EffectFit* fit, int iterations) {
+  double cost = Evaluate(fit);
+  double damping = 1e-4;
+  for (int i = 0; i < iterations; ++i) {
+    const System system = Linearise(*fit);
+    bool better = false;
+    double gain = 0.0;
+    for (int attempt = 0; attempt < 6 && !better; ++attempt) {
+      EffectFit next = *fit;
+      Step(system, damping, &next);
+      const double moved = Evaluate(&next);
+      if (moved < cost) {
+        gain = cost - moved;
+        *fit = std::move(next);
+        cost = moved;
+        damping = std::max(damping * 0.1, 1e-9);
+        better = true;
+      } else {
+        damping *= 20.0;
+      }
+    }
+    if (!better || gain < kDescentConverged) break;
+  }
+  Evaluate(fit);
+  return cost;
+}
+
+void Fitter::RefitNoise(EffectFit* fit) {
+  fit->acoustic_cost = 0.0;
+  fit->flame_cost = 0.0;
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    ExperimentFit& at = fit->experiments[e];
+    if (acoustic_) {
+      const Eigen::VectorXcd r = RecordedTransfer(records_[e], effect_, fit->values, at.acoustics);
+      at.acoustic_noise = AcousticNoise(
+          at.acoustic_residual, r.segment(kTapReach, records_[e].acoustic_count).cwiseAbs2(),
+          records_[e].masked);
+    }
+    if (flame_) at.flame_noise = FlameNoise(at.flame_residual, records_[e].masked);
+    fit->acoustic_cost += WhittleCost(at.acoustic_residual, at.acoustic_noise, records_[e].masked);
+    fit->acoustic_cost += LeakJacobian(fit->values, at.acoustics, e);
+    fit->flame_cost += WhittleCost(at.flame_residual, at.flame_noise, records_[e].masked);
+  }
+  SetNoise(*fit);
+}
+
+void Fitter::Finish(EffectFit* fit, const EffectFit* base) {
+  Evaluate(fit);
+  const System system = Linearise(*fit);
+  const Eigen::Index d = 1 + static_cast<Eigen::Index>(fit->values.size());
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(d, d);
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    ExperimentFit& at = fit->experiments[e];
+    at.gradient = system.experiments[e].reduced_gradient;
+    at.curvature = system.experiments[e].reduced_curvature;
+    if (!flame_ && base) {
+      at.gradient[0] += base->experiments[e].gradient[0];
+      at.curvature(0, 0) += base->experiments[e].curvature(0, 0);
+    }
+    total += at.curvature;
+  }
+  // The cost is a sum of |E|^2 / V, twice the log-likelihood less a constant: its curvature over
+  // two is the information.
+  const Eigen::VectorXd scale = total.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * total * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-9;
+  const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(d, d));
+  fit->standard_errors.assign(static_cast<std::size_t>(d), 0.0);
+  for (Eigen::Index i = 0; i < d; ++i) {
+    const double in_u = scale[i] * std::sqrt(0.5 * std::max(inverse(i, i), 0.0));
+    const double to_x = i == 0 ? 1.0
+                               : ScaleOf(effect_.parameters()[static_cast<std::size_t>(i - 1)],
+                                         fit->values[static_cast<std::size_t>(i - 1)]);
+    fit->standard_errors[static_cast<std::size_t>(i)] = in_u * to_x;
+  }
+}
+
+}  // namespace howl

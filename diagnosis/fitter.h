@@ -1,0 +1,93 @@
+// Damped Gauss-Newton over the records of a rig at fixed noise spectra: an experiment's own
+// parameters are eliminated (Schur complement), tau and the effect's parameters are shared
+// (effect_fit.h has the objective).
+#ifndef HOWL_DIAGNOSIS_FITTER_H_
+#define HOWL_DIAGNOSIS_FITTER_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/effect_fit.h"
+
+namespace howl {
+
+inline constexpr double kDescentConverged = 1e-3;  // of the cost, in units of a log-likelihood
+
+// Search coordinate u of a parameter: log x or x. d x / d u.
+double ScaleOf(const EffectParameter& parameter, double x);
+
+// 1 / variance; 0 where masked.
+Eigen::VectorXd BinWeights(const Eigen::VectorXd& variance, const std::vector<char>& masked);
+
+class Fitter {
+ public:
+  Fitter(const std::vector<CutRecord>& records, const Effect& effect,
+         const std::vector<FlameColumns>* base_columns)
+      : records_(records),
+        effect_(effect),
+        acoustic_(effect.ChangesAcousticCut()),
+        flame_(effect.ChangesFlameCut()),
+        own_columns_(effect.ChangesFlameInput() || effect.ModulatesDelay() || !base_columns),
+        columns_(records.size()) {
+    if (!own_columns_) columns_ = *base_columns;
+  }
+
+  void SetNoise(const EffectFit& fit);
+
+  // Residuals at the fit's parameters; the flame's coefficients are solved for.
+  double Evaluate(EffectFit* fit);
+  double EvaluateOne(EffectFit* fit, std::size_t e);
+
+  // Damped Gauss-Newton at fixed noise. Returns the squares' sum.
+  double Descend(EffectFit* fit, int iterations);
+
+  void RefitNoise(EffectFit* fit);
+
+  // The reduced gradients and curvatures, and standard errors from them.
+  void Finish(EffectFit* fit, const EffectFit* base);
+
+  // The experiment's own parameters at fixed shared ones.
+  void DescendLocals(EffectFit* fit, std::size_t e);
+
+  const std::vector<FlameColumns>& columns() const { return columns_; }
+
+ private:
+  struct Reduced {
+    Eigen::MatrixXd local_curvature;  // cut A's locals
+    Eigen::VectorXd local_gradient;
+    Eigen::MatrixXd mixed;  // locals x shared
+    Eigen::VectorXd reduced_gradient;
+    Eigen::MatrixXd reduced_curvature;
+  };
+
+  struct System {
+    std::vector<Reduced> experiments;
+  };
+
+  // With a leak, the residuals are (E_A, E_B) = M (P, Q) with |det M| = |1 - leak R| instead of
+  // one: recorded p stands on both sides. The likelihood needs - log |det M|^2, or the leak is
+  // biased by what combustion noise sends to p at once.
+  double LeakJacobian(EffectValues x, const AcousticLocals& locals, std::size_t e) const;
+
+  static Eigen::VectorXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& g,
+                                     double damping);
+  static Eigen::MatrixXd SolveScaledMany(const Eigen::MatrixXd& h, const Eigen::MatrixXd& g,
+                                         double damping);
+
+  System Linearise(const EffectFit& fit) const;
+  void Step(const System& system, double damping, EffectFit* fit) const;
+
+  const std::vector<CutRecord>& records_;
+  const Effect& effect_;
+  bool acoustic_;
+  bool flame_;
+  bool own_columns_;
+  std::vector<FlameColumns> columns_;
+  std::vector<FlameSolution> solutions_;
+  std::vector<Eigen::VectorXd> weights_a_;
+  std::vector<Eigen::VectorXd> weights_b_;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_FITTER_H_

@@ -1,0 +1,175 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "diagnosis/fitter.h"
+#include "diagnosis/real_gram.h"
+
+namespace howl {
+namespace {
+
+constexpr double kLargestLogStep = 0.6;
+constexpr double kLargestLinearStep = 0.15;  // of the bounds' distance
+constexpr double kDifferenceStep = 1e-5;
+
+double Span(const EffectParameter& p) { return p.high - p.low; }
+
+Eigen::MatrixXd Gram(const Eigen::MatrixXcd& a, const Eigen::VectorXd& w,
+                     const Eigen::MatrixXcd& b) {
+  return RealGram(w, a, b) / kBinCorrelation;
+}
+
+}  // namespace
+
+double Fitter::LeakJacobian(EffectValues x, const AcousticLocals& locals, std::size_t e) const {
+  const CutRecord& record = records_[e];
+  if (effect_.PressureLeak(record.at.cycle_frequency_hz, record.at, x) == 0.0) return 0.0;
+  const Eigen::VectorXcd r = RecordedTransfer(record, effect_, x, locals);
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < record.flame_count; ++k) {
+    const Response leak = effect_.PressureLeak(record.frequency(k), record.at, x);
+    sum -= std::log(std::norm(1.0 - leak * r[k + kTapReach]));
+  }
+  return sum / kBinCorrelation;
+}
+
+Eigen::VectorXd Fitter::SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& g,
+                                    double damping) {
+  const Eigen::VectorXd scale = h.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * h * scale.asDiagonal();
+  scaled.diagonal().array() += damping;
+  return scale.cwiseProduct(scaled.ldlt().solve(scale.cwiseProduct(g)));
+}
+
+Eigen::MatrixXd Fitter::SolveScaledMany(const Eigen::MatrixXd& h, const Eigen::MatrixXd& g,
+                                        double damping) {
+  Eigen::MatrixXd out(g.rows(), g.cols());
+  for (Eigen::Index j = 0; j < g.cols(); ++j) out.col(j) = SolveScaled(h, g.col(j), damping);
+  return out;
+}
+
+Fitter::System Fitter::Linearise(const EffectFit& fit) const {
+  const auto d = static_cast<Eigen::Index>(fit.values.size());
+  Eigen::VectorXd steps(d);
+  Eigen::VectorXd to_u(d);
+  for (Eigen::Index j = 0; j < d; ++j) {
+    const EffectParameter& p = effect_.parameters()[static_cast<std::size_t>(j)];
+    const double x = fit.values[static_cast<std::size_t>(j)];
+    to_u[j] = ScaleOf(p, x);
+    steps[j] = kDifferenceStep * (p.scale == ParameterScale::kLogarithmic ? x : 0.1 * Span(p));
+  }
+  System system;
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    const ExperimentFit& at = fit.experiments[e];
+    Reduced out;
+    out.reduced_gradient = Eigen::VectorXd::Zero(1 + d);
+    out.reduced_curvature = Eigen::MatrixXd::Zero(1 + d, 1 + d);
+    if (acoustic_) {
+      Eigen::MatrixXcd j = AcousticJacobian(records_[e], effect_, fit.values, at.acoustics,
+                                            at.acoustic_residual, steps);
+      for (Eigen::Index i = 0; i < d; ++i) j.col(4 + i) *= to_u[i];
+      const Eigen::MatrixXd h = Gram(j, weights_a_[e], j);
+      const Eigen::VectorXd g = Gram(j, weights_a_[e], at.acoustic_residual);
+      out.local_curvature = h.topLeftCorner(4, 4);
+      out.local_gradient = g.head(4);
+      out.mixed = h.topRightCorner(4, d);
+      const Eigen::MatrixXd inner = SolveScaledMany(out.local_curvature, out.mixed, 1e-10);
+      out.reduced_curvature.bottomRightCorner(d, d) +=
+          h.bottomRightCorner(d, d) - out.mixed.transpose() * inner;
+      out.reduced_gradient.tail(d) += g.tail(d) - inner.transpose() * out.local_gradient;
+      // Half the slope, as in g.
+      const double leak_now = LeakJacobian(fit.values, at.acoustics, e);
+      std::vector<double> moved = fit.values;
+      for (Eigen::Index i = 0; i < d; ++i) {
+        const auto which = static_cast<std::size_t>(i);
+        moved[which] += steps[i];
+        const double leak = LeakJacobian(moved, at.acoustics, e);
+        out.reduced_gradient[1 + i] += 0.5 * (leak - leak_now) / steps[i] * to_u[i];
+        moved[which] = fit.values[which];
+      }
+    }
+    if (flame_) {
+      Eigen::MatrixXcd j = FlameJacobian(records_[e], effect_, fit.values, fit.tau_s, columns_[e],
+                                         solutions_[e], steps);
+      for (Eigen::Index i = 0; i < d; ++i) j.col(1 + i) *= to_u[i];
+      const Eigen::MatrixXd h = Gram(j, weights_b_[e], j);
+      const Eigen::VectorXd g = Gram(j, weights_b_[e], at.flame_residual);
+      const Eigen::MatrixXcd& c = solutions_[e].columns;
+      const Eigen::MatrixXd local = Gram(c, weights_b_[e], c);
+      const Eigen::MatrixXd mixed = Gram(c, weights_b_[e], j);
+      out.reduced_curvature += h - mixed.transpose() * SolveScaledMany(local, mixed, 1e-10);
+      out.reduced_gradient += g;
+    }
+    system.experiments.push_back(std::move(out));
+  }
+  return system;
+}
+
+void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
+  const auto d = static_cast<Eigen::Index>(fit->values.size());
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(1 + d, 1 + d);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(1 + d);
+  for (const Reduced& part : system.experiments) {
+    h += part.reduced_curvature;
+    g += part.reduced_gradient;
+  }
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(1 + d);
+  if (flame_) {
+    step = -SolveScaled(h, g, damping);
+  } else if (d > 0) {
+    step.tail(d) = -SolveScaled(h.bottomRightCorner(d, d), g.tail(d), damping);
+  }
+  const double largest_tau = 0.05 / records_[0].at.cycle_frequency_hz;
+  step[0] = std::clamp(step[0], -largest_tau, largest_tau);
+  Eigen::VectorXd taken(d);
+  for (Eigen::Index j = 0; j < d; ++j) {
+    const EffectParameter& p = effect_.parameters()[static_cast<std::size_t>(j)];
+    double& x = fit->values[static_cast<std::size_t>(j)];
+    if (p.scale == ParameterScale::kLogarithmic) {
+      const double was = x;
+      x = std::clamp(x * std::exp(std::clamp(step[1 + j], -kLargestLogStep, kLargestLogStep)),
+                     p.low, p.high);
+      taken[j] = std::log(x / was);
+    } else {
+      const double was = x;
+      const double most = kLargestLinearStep * Span(p);
+      x = std::clamp(x + std::clamp(step[1 + j], -most, most), p.low, p.high);
+      taken[j] = x - was;
+    }
+  }
+  fit->tau_s = std::max(fit->tau_s + step[0], 0.0);
+  if (!acoustic_) return;
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    const Reduced& part = system.experiments[e];
+    AcousticLocals move =
+        -SolveScaled(part.local_curvature, part.local_gradient + part.mixed * taken, damping);
+    move[0] = std::clamp(move[0], -0.1, 0.1);
+    move[1] = std::clamp(move[1], -0.6, 0.6);
+    fit->experiments[e].acoustics += move;
+  }
+}
+
+void Fitter::DescendLocals(EffectFit* fit, std::size_t e) {
+  double cost = EvaluateOne(fit, e);
+  if (!acoustic_) return;
+  for (int i = 0; i < 6; ++i) {
+    const ExperimentFit& at = fit->experiments[e];
+    const Eigen::MatrixXcd jacobian = AcousticJacobian(
+        records_[e], effect_, fit->values, at.acoustics, at.acoustic_residual, Eigen::VectorXd());
+    const Eigen::MatrixXd h = Gram(jacobian, weights_a_[e], jacobian);
+    const Eigen::VectorXd g = Gram(jacobian, weights_a_[e], at.acoustic_residual);
+    EffectFit next = *fit;
+    next.experiments[e].acoustics -= SolveScaled(h, g, 1e-8);
+    const double moved = EvaluateOne(&next, e);
+    if (!(moved < cost)) break;
+    const bool done = cost - moved < kDescentConverged;
+    cost = moved;
+    *fit = std::move(next);
+    if (done) break;
+  }
+  EvaluateOne(fit, e);
+}
+
+}  // namespace howl

@@ -1,0 +1,31 @@
+// Two effects at once. Evidence of different kinds adds up: a coherent line, clipping, few levels,
+// a fluctuating gain and a transfer function do not compete for the same misfit, so two of them,
+// each beyond what noise gives, are two effects.
+//
+// Two transfer functions do compete: together they have freedom enough to imitate an effect that
+// is not in the catalogue. Such a pair is reported, never a verdict.
+#ifndef HOWL_DIAGNOSIS_PAIR_H_
+#define HOWL_DIAGNOSIS_PAIR_H_
+
+#include <optional>
+#include <vector>
+
+#include "diagnosis/candidates/attempt.h"
+
+namespace howl {
+
+// One for each identifier of the catalogue: its forms.
+using EffectForms = std::vector<EffectPointer>;
+
+// attempts: the best first.
+std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Attempt>& attempts,
+                                       const std::vector<EffectForms>& units,
+                                       const std::vector<CoherentLine>& lines, int threads);
+
+// The best second transfer function beside the best; nothing if it brings no more than noise.
+std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
+                                       const std::vector<EffectForms>& units, int threads);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_PAIR_H_

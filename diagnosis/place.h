@@ -1,0 +1,20 @@
+// Where the gap lies: shares of the loop's blocks, the band, and the experiments.
+#ifndef HOWL_DIAGNOSIS_PLACE_H_
+#define HOWL_DIAGNOSIS_PLACE_H_
+
+#include <vector>
+
+#include "diagnosis/candidates/attempt.h"
+#include "diagnosis/slack.h"
+
+namespace howl {
+
+// Blocks by the probability of the effects that act there; where no effect explains the gap, by
+// what the effects of each block would take off it. Band and experiments are the slack's.
+std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
+                              const std::vector<Attempt>& attempts, VerdictKind kind,
+                              const Slack& before);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_PLACE_H_

@@ -1,0 +1,68 @@
+#include "diagnosis/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace howl {
+namespace {
+
+// Log-likelihoods are of Gaussian noise whose spectrum is itself fitted, and regressors carry noise
+// of their own: gains of 20 come from no effect at all now and then.
+constexpr double kDetectionGain = 25.0;
+// Cut B's regressor is recorded p, whose sensor noise is taken out only in the mean.
+constexpr double kFlameDetectionGain = 45.0;
+constexpr double kDetectionWidth = 4.0;
+// Slack that is left on rigs without an effect, or with one whose form is only nearly right.
+constexpr double kAcousticAllowance = 40.0;
+constexpr double kFlameAllowance = 120.0;
+constexpr double kUnexplainedDetection = 40.0;
+constexpr double kUnexplainedWidth = 5.0;
+constexpr double kUnknownShare = 0.10;
+constexpr double kConfirmedUnknownShare = 0.35;
+constexpr double kUnknownWidth = 0.02;
+constexpr double kUnknownGapShare = 0.016;  // of the squared gap
+constexpr double kUnknownGapWidth = 0.004;
+constexpr double kUnexplainedLines = 0.9;
+constexpr double kTemperature = 3.0;
+constexpr double kTemperatureShare = 0.02;
+
+double Logistic(double x) { return 1.0 / (1.0 + std::exp(-std::clamp(x, -50.0, 50.0))); }
+
+}  // namespace
+
+double Unexplained(const Evidence& at) {
+  return std::max(0.0, at.acoustic_slack - kAcousticAllowance) +
+         std::max(0.0, at.flame_slack - kFlameAllowance);
+}
+
+Belief Weigh(const Evidence& at) {
+  const double rest = Unexplained(at);
+  Belief out;
+  out.none = Logistic((DetectionGain(at.flame_alone) - at.gain) / kDetectionWidth) *
+             Logistic((kUnexplainedDetection - rest) / kUnexplainedWidth);
+  if (!at.seen && rest > 0.5 * kUnexplainedDetection) {
+    const double share = at.confirmed ? kConfirmedUnknownShare : kUnknownShare;
+    out.unknown = Logistic((rest / (rest + std::max(0.0, at.gain)) - share) / kUnknownWidth);
+  }
+  if (!at.seen && !at.confirmed) {
+    // Nor may the held-out gap stay well above the floor.
+    const double above = std::pow(at.gap_after, 2) - 4.0 * std::pow(at.gap_floor, 2);
+    const double left = std::max(0.0, above) / std::max(std::pow(at.gap_before, 2), 1e-300);
+    out.unknown = std::max(out.unknown, Logistic((left - kUnknownGapShare) / kUnknownGapWidth));
+  }
+  if (at.unexplained_lines) {
+    out.none = 0.0;
+    out.unknown = std::max(out.unknown, kUnexplainedLines);
+  }
+  return out;
+}
+
+double Temperature(double largest_gain) {
+  return kTemperature + kTemperatureShare * std::max(0.0, largest_gain);
+}
+
+double DetectionGain(bool flame_alone) {
+  return flame_alone ? kFlameDetectionGain : kDetectionGain;
+}
+
+}  // namespace howl

@@ -1,0 +1,42 @@
+// From evidence to belief: how probable it is that nothing is wrong, and that what is wrong is not
+// in the catalogue. Both are logistic in what the best candidate takes off the likelihood, in what
+// free slack still takes off after it, and in the gap that it leaves on held-out experiments.
+#ifndef HOWL_DIAGNOSIS_VERDICT_H_
+#define HOWL_DIAGNOSIS_VERDICT_H_
+
+namespace howl {
+
+struct Evidence {
+  double gain = 0.0;            // of log-likelihood, by the best candidate, parameters paid for
+  double acoustic_slack = 0.0;  // left after it (slack.h)
+  double flame_slack = 0.0;
+  double gap_before = 0.0;
+  double gap_after = 0.0;
+  double gap_floor = 0.0;
+  bool seen = false;               // in the samples themselves: clipping's edge, few levels
+  bool confirmed = false;          // by something beside the likelihood
+  bool flame_alone = false;        // the candidate shows in cut B only
+  bool unexplained_lines = false;  // coherent lines that no candidate accounts for
+};
+
+struct Belief {
+  double none = 0.0;
+  double unknown = 0.0;  // given that something is wrong
+};
+
+Belief Weigh(const Evidence& evidence);
+
+// The slack beyond what rigs leave whose effect's form is only nearly right.
+double Unexplained(const Evidence& evidence);
+
+// How fast the odds of a candidate fall with its distance to the best: models are never exact, so
+// distances count by their share of the largest gain too.
+double Temperature(double largest_gain);
+
+// Of two kinds of evidence that do not compete (a line and a transfer function, say), the least
+// that each must bring.
+double DetectionGain(bool flame_alone);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_VERDICT_H_
