@@ -1,11 +1,15 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <sstream>
 
 #include "app/command.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "diagnosis/diagnosis.h"
+#include "io/config/nearest_key.h"
 #include "io/results/diagnosis_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
@@ -93,11 +97,29 @@ void Print(const Diagnosis& diagnosis) {
   std::printf("next: %s\n", diagnosis.advice.c_str());
 }
 
+// "a,b" from --without.
+std::vector<std::string> Withheld(const Options& options) {
+  std::vector<std::string> known;
+  for (const EffectPointer& effect : Catalogue()) known.emplace_back(effect->id());
+  std::vector<std::string> ids;
+  std::istringstream list(options.Text("--without").value_or(""));
+  for (std::string id; std::getline(list, id, ',');) {
+    if (std::find(known.begin(), known.end(), id) == known.end()) {
+      const std::optional<std::string> nearest = NearestKey(id, known);
+      throw UsageError("--without: " + id + " is no effect of the catalogue" +
+                       (nearest ? ", did you mean " + *nearest + "?" : ""));
+    }
+    ids.push_back(id);
+  }
+  return ids;
+}
+
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
   DiagnosisOptions how;
   how.threads = options.threads;
+  how.withheld = Withheld(options);
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
     how.progress = [](std::size_t done, std::size_t total) {
       std::fprintf(stderr, "\rcandidates tried: %zu of %zu%s", done, total,
@@ -124,7 +146,7 @@ Command DiagnoseCommand() {
           "catalogue, and scores on operating points left out. Needs records with p and q.\n"
           "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
           "cannot tell from it, the place, the gap before and after, and every candidate.",
-          {},
+          {{"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"}},
           Run};
 }
 

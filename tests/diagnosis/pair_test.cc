@@ -1,0 +1,188 @@
+// Two effects at once.
+#include "diagnosis/pair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/acoustic_cut.h"
+#include "diagnosis/flame_cut.h"
+#include "diagnosis/verdict.h"
+#include "model/effects/combined.h"
+#include "tests/diagnosis/simulated_rig.h"
+
+namespace howl {
+namespace {
+
+EffectPointer Find(std::string_view id) {
+  for (EffectPointer& effect : Catalogue()) {
+    if (effect->id() == id) return effect;
+  }
+  return nullptr;
+}
+
+// Fewer candidates, to be quick.
+std::vector<std::string> AllBut(const std::vector<std::string>& kept) {
+  std::vector<std::string> withheld;
+  for (const EffectPointer& effect : Catalogue()) {
+    const std::string id(effect->id());
+    if (std::find(kept.begin(), kept.end(), id) == kept.end()) withheld.push_back(id);
+  }
+  return withheld;
+}
+
+void AddHum(double frequency_hz, double amplitude, std::vector<DiagnosisExperiment>* rig) {
+  for (DiagnosisExperiment& experiment : *rig) {
+    for (std::size_t i = 0; i < experiment.record.pressure.size(); ++i) {
+      const double t = static_cast<double>(i) / experiment.record.sampling_hz;
+      experiment.record.heat_release[i] +=
+          amplitude * std::sin(2.0 * std::numbers::pi * frequency_hz * t + 0.3);
+    }
+  }
+}
+
+TEST(Combined, FactorsMultiplyAndNullsAreTheOther) {
+  const EffectPointer low_pass = Find("q_sensor_lowpass");
+  const EffectPointer skew = Find("channel_skew");
+  const EffectPointer both = Combine(low_pass, skew);
+  EXPECT_EQ(both->id(), "q_sensor_lowpass+channel_skew");
+  ASSERT_EQ(both->parameters().size(), 2U);
+  EXPECT_EQ(both->parameters()[1].name, "channel_skew.skew_s");
+  const std::vector<double> x = {300.0, 2e-4};
+  for (const double f : {50.0, 210.0, 900.0}) {
+    // First-order low-pass and a shift, in closed form.
+    const Response truth =
+        std::polar(1.0, -2.0 * std::numbers::pi * f * 2e-4) / Response(1.0, f / 300.0);
+    EXPECT_LT(std::abs(both->HeatReleaseInstrument(f, x) - truth), 1e-12);
+    const std::vector<double> first_alone = {300.0, 0.0};
+    EXPECT_EQ(both->HeatReleaseInstrument(f, first_alone),
+              low_pass->HeatReleaseInstrument(f, std::vector<double>{300.0}));
+  }
+}
+
+TEST(Combined, AcousticsAddTheirChanges) {
+  const EffectPointer mode = Find("extra_acoustic_mode");
+  const EffectPointer detuned = Find("mode_detuning");
+  const EffectPointer both = Combine(mode, detuned);
+  const Acoustics<double> base{205.0, 0.15, 6000.0, 1500.0, 3.0};
+  std::vector<double> x;
+  for (const EffectPointer& effect : {mode, detuned}) {
+    for (const EffectParameter& p : effect->parameters()) x.push_back(p.starts.back());
+  }
+  const std::size_t n = mode->parameters().size();
+  const EffectValues all(x);
+  for (const double f : {150.0, 500.0, 1200.0}) {
+    const Complex<double> g = AcousticResponse(base, f);
+    const Response truth = mode->Acoustics(base, f, all.first(n)) +
+                           detuned->Acoustics(base, f, all.subspan(n)) - Response(g.re, g.im);
+    EXPECT_LT(std::abs(both->Acoustics(base, f, x) - truth), 1e-12 * std::abs(truth));
+  }
+}
+
+TEST(Diagnose, HumBesideALowPassAreTwoEffects) {
+  std::vector<DiagnosisExperiment> rig =
+      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)});
+  AddHum(50.0, 0.05, &rig);
+  DiagnosisOptions options;
+  options.withheld = AllBut({"mains_hum", "external_tone", "q_sensor_lowpass", "channel_skew"});
+  const Diagnosis diagnosis = Diagnose(rig, options);
+  ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "mains_hum+q_sensor_lowpass");
+  EXPECT_LT(diagnosis.gap_after, 0.3 * diagnosis.gap_before);
+}
+
+TEST(Diagnose, HumAloneIsOneEffect) {
+  std::vector<DiagnosisExperiment> rig = SimulateRig();
+  AddHum(50.0, 0.05, &rig);
+  DiagnosisOptions options;
+  options.withheld = AllBut({"mains_hum", "external_tone", "q_sensor_lowpass", "channel_skew"});
+  const Diagnosis diagnosis = Diagnose(rig, options);
+  ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "mains_hum");
+}
+
+TEST(Verdict, FollowsTheEvidence) {
+  Evidence nothing;
+  nothing.gap_before = nothing.gap_after = nothing.gap_floor = 0.05;
+  EXPECT_GT(Weigh(nothing).none, 0.95);
+  Evidence found = nothing;
+  found.gain = 500.0;
+  found.gap_before = 0.5;
+  EXPECT_LT(Weigh(found).none, 0.05);
+  EXPECT_LT(Weigh(found).unknown, 0.05);
+  Evidence poor = found;
+  poor.acoustic_slack = 400.0;
+  EXPECT_GT(Weigh(poor).unknown, 0.95);
+  Evidence far = found;
+  far.gap_after = 0.3;
+  EXPECT_GT(Weigh(far).unknown, 0.95);
+  Evidence line = nothing;
+  line.unexplained_lines = true;
+  EXPECT_GT((1.0 - Weigh(line).none) * Weigh(line).unknown, 0.85);
+}
+
+// The columns of every transfer effect against central differences of the residual at fixed
+// coefficients.
+TEST(FlameCut, JacobianAgreesWithCentralDifferences) {
+  const std::vector<CutRecord> records = MakeCutRecords({SimulateRig()[0]});
+  const CutRecord& record = records[0];
+  const double tau = 0.0035;
+  const Eigen::VectorXd weight = Eigen::VectorXd::Ones(record.flame_count);
+  std::size_t checked = 0;
+  for (const EffectPointer& effect : Catalogue()) {
+    if (effect->kind() != EffectKind::kTransfer || !effect->ChangesFlameCut()) continue;
+    std::vector<double> x;
+    Eigen::VectorXd steps(static_cast<Eigen::Index>(effect->parameters().size()));
+    for (const EffectParameter& p : effect->parameters()) {
+      x.push_back(p.starts.back());
+      steps[static_cast<Eigen::Index>(x.size()) - 1] = 1e-5 * std::max(std::abs(x.back()), 1e-3);
+    }
+    const FlameColumns columns = MakeFlameColumns(record, *effect, x, tau);
+    const FlameSolution at = SolveFlame(record, *effect, x, tau, columns, weight);
+    const Eigen::MatrixXcd jacobian = FlameJacobian(record, *effect, x, tau, columns, at, steps);
+    // The whole predicted signal, in time, with the coefficients held: another path than the
+    // Jacobian's.
+    const auto residual = [&](const std::vector<double>& values, double delay) {
+      FlameColumns moved = columns;
+      if (effect->ChangesFlameInput() || effect->ModulatesDelay()) {
+        moved = MakeFlameColumns(record, *effect, values, delay);
+        // Knots stay where they were.
+        if (std::abs(moved.range / columns.range - 1.0) > 0.0) return Eigen::VectorXcd();
+      }
+      const Eigen::VectorXcd h = FlameMultiplier(record, *effect, values, delay);
+      const Eigen::VectorXcd phi = moved.spectrum * at.coefficients;
+      Eigen::VectorXcd out = record.windowed_heat_release.head(record.flame_count) -
+                             ApplyWindow(h.cwiseProduct(phi), record.flame_count);
+      const Response leak = effect->PressureLeak(record.at.cycle_frequency_hz, record.at, values);
+      out -= leak * record.windowed_pressure.head(record.flame_count);
+      return out;
+    };
+    const double by_tau = 1e-9;
+    const Eigen::VectorXcd up = residual(x, tau + by_tau);
+    const Eigen::VectorXcd down = residual(x, tau - by_tau);
+    if (up.size() > 0 && down.size() > 0) {
+      const Eigen::VectorXcd numeric = (up - down) / (2.0 * by_tau);
+      EXPECT_LT((jacobian.col(0) - numeric).norm(), 1e-4 * numeric.norm()) << effect->id();
+      ++checked;
+    }
+    for (Eigen::Index j = 0; j < steps.size(); ++j) {
+      std::vector<double> more = x;
+      std::vector<double> less = x;
+      more[static_cast<std::size_t>(j)] += steps[j];
+      less[static_cast<std::size_t>(j)] -= steps[j];
+      const Eigen::VectorXcd right = residual(more, tau);
+      const Eigen::VectorXcd left = residual(less, tau);
+      if (right.size() == 0 || left.size() == 0) continue;
+      const Eigen::VectorXcd numeric = (right - left) / (2.0 * steps[j]);
+      EXPECT_LT((jacobian.col(1 + j) - numeric).norm(), 1e-3 * numeric.norm() + 1e-9)
+          << effect->id() << " " << j;
+      ++checked;
+    }
+  }
+  EXPECT_GE(checked, 6U);
+}
+
+}  // namespace
+}  // namespace howl
