@@ -14,6 +14,7 @@ namespace {
 // What a second effect must bring beyond the least for a first: the first's form is never exact.
 constexpr double kSecondGain = 60.0;
 constexpr double kSecondShare = 0.02;            // of what the first brought
+constexpr double kAfterRepairShare = 0.15;       // a repair is rough
 constexpr double kBesideFluctuationShare = 0.3;  // a fluctuating gain disturbs every other fit
 constexpr double kBesideFluctuationGain = 100.0;
 
@@ -75,7 +76,7 @@ std::optional<Attempt> AfterRepair(const Attempt& first, const std::vector<Effec
     PayForParameters(&*attempt);
     if (!best || attempt->candidate.gain > best->candidate.gain) best = std::move(attempt);
   }
-  const double least = std::max(kSecondGain, kSecondShare * first.candidate.gain);
+  const double least = std::max(kSecondGain, kAfterRepairShare * first.candidate.gain);
   if (!best || best->candidate.gain < least) return std::nullopt;
   return Join(first, std::move(*best));
 }
