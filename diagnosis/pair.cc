@@ -13,8 +13,9 @@ namespace {
 
 // What a second effect must bring beyond the least for a first: the first's form is never exact.
 constexpr double kSecondGain = 60.0;
-constexpr double kSecondShare = 0.02;            // of what the first brought
-constexpr double kAfterRepairShare = 0.15;       // a repair is rough
+constexpr double kSecondShare = 0.02;       // of what the first brought
+constexpr double kAfterRepairShare = 0.25;  // a repair is rough
+constexpr double kBesideStepsGain = 300.0;
 constexpr double kBesideFluctuationShare = 0.3;  // a fluctuating gain disturbs every other fit
 constexpr double kBesideFluctuationGain = 100.0;
 
@@ -96,8 +97,10 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
   }
   if (top.seen) {
     if (!top.repaired.empty()) return AfterRepair(top, units, lines, threads);
-    const Attempt* other = BestOf(attempts, [](const Attempt& a) { return !a.seen; });
-    if (other && other->candidate.gain > kSecondGain) return Join(top, *other);
+    // Steps in p disturb whatever p drives: only cut A, where p is the answer, is to be trusted.
+    const Attempt* other = BestOf(
+        attempts, [](const Attempt& a) { return a.fit && a.fit->effect->ChangesAcousticCut(); });
+    if (other && other->candidate.gain > kBesideStepsGain) return Join(top, *other);
     return std::nullopt;
   }
   if (IsGain(top)) {

@@ -25,6 +25,7 @@ constexpr double kUnknownGapWidth = 0.004;
 constexpr double kUnexplainedLines = 0.9;
 constexpr double kTemperature = 3.0;
 constexpr double kTemperatureShare = 0.02;
+constexpr double kTemperatureMostGain = 1e4;
 
 double Logistic(double x) { return 1.0 / (1.0 + std::exp(-std::clamp(x, -50.0, 50.0))); }
 
@@ -58,7 +59,7 @@ Belief Weigh(const Evidence& at) {
 }
 
 double Temperature(double largest_gain) {
-  return kTemperature + kTemperatureShare * std::max(0.0, largest_gain);
+  return kTemperature + kTemperatureShare * std::clamp(largest_gain, 0.0, kTemperatureMostGain);
 }
 
 double DetectionGain(bool flame_alone) {
