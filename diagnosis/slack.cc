@@ -115,7 +115,10 @@ Slack ComputeSlack(const std::vector<CutRecord>& records, const EffectFit& fit) 
     e_a.push_back(&at.acoustic_residual);
     v_a.push_back(&at.acoustic_noise);
     const Eigen::Index n = records[i].flame_count;
-    const Eigen::VectorXcd x = records[i].windowed_heat_release.head(n) - at.flame_residual;
+    Eigen::VectorXcd x = records[i].windowed_heat_release.head(n) - at.flame_residual;
+    // The flame's part alone: a leak has no delay that the filter may shorten.
+    x -= fit.effect->PressureLeak(records[i].at.cycle_frequency_hz, records[i].at, fit.values) *
+         records[i].windowed_pressure.head(n);
     Eigen::VectorXd weight =
         at.flame_noise.cwiseMax(MedianPower(at.flame_residual)).cwiseInverse() / kBinCorrelation;
     Eigen::MatrixXcd columns(n, taps);

@@ -12,7 +12,7 @@ class Crosstalk final : public NamedEffect {
  public:
   Crosstalk()
       : NamedEffect("crosstalk_p_to_q", LoopBlock::kHeatReleaseInstrument,
-                    {{"rel", "", 0.0, -3.0, 3.0, {-0.2, 0.2}}}) {}
+                    {{"rel", "", 0.0, -3.0, 3.0, {-0.4, -0.2, -0.1, 0.1, 0.2, 0.4}}}) {}
   bool ChangesAcousticCut() const override { return true; }
   bool ChangesFlameCut() const override { return true; }
   Response PressureLeak(double /*frequency_hz*/, const EffectContext& at,
