@@ -253,6 +253,10 @@ CellContractor::CellContractor(const FamilyProblem& problem) {
       const double rad = Above(line_tolerance * kRadPerDeg);
       target.line_error_rad = Interval(-rad, rad);
     }
+    if (experiment.transfer_ellipsoid && std::isfinite(problem.test.transfer_distance_max)) {
+      target.transfer = MakeTransferBound(*experiment.transfer_ellipsoid, two_modes_,
+                                          problem.test.transfer_distance_max);
+    }
     targets_.push_back(target);
 
     const ExperimentTarget& bounds = targets[i];
@@ -297,6 +301,7 @@ Cell CellContractor::Root() const {
 
 bool CellContractor::ContractExperiment(std::size_t i, ExperimentBox& box) const {
   const ContractTarget& target = targets_[i];
+  if (!ContractTransfer(target, box)) return false;
   if (two_modes_) {
     return ContractTwoModes(target, box) && ContractDelay(target, box) &&
            ContractLines(target, box);

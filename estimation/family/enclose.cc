@@ -9,6 +9,8 @@
 #include "estimation/family/contract.h"
 #include "estimation/family/enumerate.h"
 #include "estimation/family/inside.h"
+#include "estimation/family/local_search.h"
+#include "estimation/family/transfer_starts.h"
 #include "estimation/family/two_mode_tradeoff.h"
 #include "estimation/parallel.h"
 #include "model/loop.h"
@@ -21,6 +23,7 @@ constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated
 constexpr double kFinest = 1e-9;     // of a root cell: no split below
 constexpr std::size_t kTrials = 12;  // candidates for a split
 constexpr std::size_t kBaseMembers = 1000;
+constexpr std::size_t kLocalStarts = 2;
 
 CellVariable VariableOf(FamilyParameter parameter) {
   switch (parameter) {
@@ -98,7 +101,8 @@ struct Enclosure::Impl {
   FamilyProblem problem;
   EncloseOptions options;
   CellContractor contractor;
-  MemberDrawer drawer;
+  std::unique_ptr<MemberDrawer> drawer;  // none where transfers leave it nothing to meet
+  LocalSearch local;
   std::vector<BoundSearch> searches;
   std::vector<double> range;  // of each search's parameter over the base members
   Enumeration base;
@@ -107,12 +111,13 @@ struct Enclosure::Impl {
   bool root_empty;
 
   Impl(const FamilyProblem& p, const EncloseOptions& o)
-      : problem(p), options(o), contractor(p), drawer(p), root(contractor.Root()) {
+      : problem(p), options(o), contractor(p), local(p), root(contractor.Root()) {
     root_empty = !contractor.Contract(root);
+    if (!NeedsTransferStarts(problem)) drawer = std::make_unique<MemberDrawer>(problem);
     if (options.max_cells == 0) {
       options.max_cells = problem.model.modes == 1
                               ? 4000
-                              : std::max<std::size_t>(60, 400 / problem.experiments.size());
+                              : std::max<std::size_t>(150, 1200 / problem.experiments.size());
     }
     base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
     if (HasGreedyTradeoff(problem)) {
@@ -157,7 +162,7 @@ struct Enclosure::Impl {
     }
   }
 
-  double Value(const BoundSearch& search, const Member& models) const {
+  double Value(const BoundSearch& search, std::span<const LoopModel> models) const {
     const std::size_t i = search.experiment;
     return search.expression ? search.expression->Evaluate(problem.experiments, models, i)
                              : ParameterValue(problem.experiments[i], models[i], search.parameter);
@@ -191,7 +196,8 @@ struct Enclosure::Impl {
   // Draws a member towards the bound; keeps it when it is the best so far.
   bool TryFocus(BoundSearch& search, const DrawFocus& focus, Member& models,
                 DrawGlobals& globals) const {
-    if (!drawer.HasSupport() || !drawer.DrawFocused(search.random, focus, models, globals)) {
+    if (!drawer || !drawer->HasSupport() ||
+        !drawer->DrawFocused(search.random, focus, models, globals)) {
       return false;
     }
     const double value = search.sign * Value(search, models);
@@ -200,6 +206,38 @@ struct Enclosure::Impl {
     search.witness = models;
     search.focus = focus;
     return true;
+  }
+
+  bool IsLocal() const {
+    return local.IsSupported() && !base.members.empty() &&
+           (contractor.TwoModes() || problem.HasTransfer());
+  }
+
+  // From the best member found and from some others to the farthest that a local search reaches.
+  void SearchLocally(BoundSearch& search, double scale) const {
+    if (!IsLocal() || search.witness.empty()) return;
+    MemberQuantity quantity;
+    quantity.value = [this, &search](std::span<const LoopModel> models) {
+      return Value(search, models);
+    };
+    for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+      if (search.expression ? search.expression->DependsOn(i, search.experiment)
+                            : i == search.experiment) {
+        quantity.experiments.push_back(i);
+      }
+    }
+    std::vector<Member> starts{search.witness};
+    for (std::size_t k = 0; k < kLocalStarts; ++k) {
+      starts.push_back(base.members[search.random.Index(base.members.size())]);
+    }
+    for (const Member& start : starts) {
+      std::optional<Member> member = local.Farthest(start, quantity, search.sign, scale);
+      if (!member) continue;
+      const double value = search.sign * Value(search, *member);
+      if (!(value > search.inner)) continue;
+      search.inner = value;
+      search.witness = *std::move(member);
+    }
   }
 
   // The best choice of ends so far, with some of them changed.
@@ -357,12 +395,13 @@ struct Enclosure::Impl {
     return (x.lower() == 0.0 ? 0.25 : 0.5) * (x.lower() + x.upper());
   }
 
-  void Start(BoundSearch& search) const {
+  void Start(BoundSearch& search, double scale) const {
     search.state = SearchState::kRunning;
     if (root_empty) {
       ++search.counts.outside;
     } else {
       SearchMember(search);
+      SearchLocally(search, scale);
       Push(search, Cell(root));
     }
   }
@@ -379,7 +418,7 @@ struct Enclosure::Impl {
   }
 
   void Step(BoundSearch& search, double tolerance) const {
-    if (search.state == SearchState::kNew) return Start(search);
+    if (search.state == SearchState::kNew) return Start(search, tolerance / (0.5 * options.width));
     if (search.heap.empty() || search.heap.front().bound <= search.inner + tolerance) {
       return Finish(search, SearchState::kClosed);
     }

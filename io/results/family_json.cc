@@ -16,7 +16,8 @@ Json TestJson(const MembershipTest& test) {
           {"second_crossing_tolerance_deg", NumberOrNull(test.second_crossing_tolerance_deg)},
           {"omega_spread_max", NumberOrNull(test.omega_spread_max)},
           {"xi_max", NumberOrNull(test.xi_max)},
-          {"xi_increasing", test.xi_increasing}};
+          {"xi_increasing", test.xi_increasing},
+          {"transfer_distance_max", NumberOrNull(test.transfer_distance_max)}};
 }
 
 Json ConflictJson(const Conflict& conflict) {
