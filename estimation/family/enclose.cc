@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated in doubles
 constexpr double kFinest = 1e-9;     // of a root cell: no split below
-constexpr std::size_t kTrials = 12;  // candidates for a split
+constexpr std::size_t kTrials = 30;  // candidates for a split
 constexpr std::size_t kBaseMembers = 1000;
 constexpr std::size_t kLocalStarts = 2;
 
@@ -117,7 +117,7 @@ struct Enclosure::Impl {
     if (options.max_cells == 0) {
       options.max_cells = problem.model.modes == 1
                               ? 4000
-                              : std::max<std::size_t>(150, 1200 / problem.experiments.size());
+                              : std::max<std::size_t>(60, 400 / problem.experiments.size());
     }
     base = EnumerateMembers(problem, kBaseMembers, options.seed, 1);
     if (HasGreedyTradeoff(problem)) {

@@ -52,7 +52,7 @@ struct BoundedExpression {
 struct EncloseOptions {
   double width = 0.01;  // (outer - inner) / inner range of the parameter, both ends together
   std::size_t max_cells =
-      0;  // a bound; 0: 4000 with one mode, 1200 / experiments (150 at least) with two
+      0;  // a bound; 0: 4000 with one mode, 400 / experiments (60 at least) with two
   std::uint64_t seed = 0;
   int threads = 1;
   bool parameters = true;  // false: the expressions alone
