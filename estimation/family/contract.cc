@@ -387,7 +387,7 @@ bool CellContractor::Contract(Cell& cell) const {
     for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
       const bool left = two_modes_ && pass % 2 == 1 ? ContractSliced(i, cell.boxes[i])
                                                     : ContractExperiment(i, cell.boxes[i]);
-      if (!left) return false;
+      if (!left || !ContractSlabs(targets_[i], cell.boxes[i])) return false;
     }
     const double after = size();
     if (pass >= 1 && !(after < before * (1.0 - kProgress))) break;

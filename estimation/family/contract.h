@@ -17,6 +17,9 @@ struct TransferBound {
   double distance = 0.0;  // widened by more than the rounding of the test
   TransferVector centre = TransferVector::Zero();
   TransferVector reach = TransferVector::Zero();       // half sides of the box around it
+  // Of `factor`, where it counts all of the model's parameters: `whole` of them, else 0.
+  TransferMatrix inverse = TransferMatrix::Zero();
+  int whole = 0;
   double reach_relative = kUnbounded;                  // the same of ln M - ln N
   TransferMatrix factor = TransferMatrix::Zero();      // upper triangular
   TransferMatrix backward = TransferMatrix::Zero();    // lower triangular, of the same form
@@ -54,6 +57,9 @@ bool ContractLines(const ContractTarget& target, ExperimentBox& box);
 
 // The transfer's distance.
 bool ContractTransfer(const ContractTarget& target, ExperimentBox& box);
+
+// The ellipsoid cut by the response's phase and gain: finer and dearer than ContractTransfer.
+bool ContractSlabs(const ContractTarget& target, ExperimentBox& box);
 
 // Whether a box of (omega, xi, N, M) may have a model near enough to the transfer; `always`: it has
 // no other.

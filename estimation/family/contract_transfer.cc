@@ -77,6 +77,12 @@ TransferBound MakeTransferBound(const TransferEllipsoid& ellipsoid, bool second_
     const Eigen::MatrixXd upper = factored.matrixU();
     bound.backward(backwards, backwards) = upper;
   }
+  const int all = second_mode ? 4 : 3;
+  if (static_cast<int>(kept.size()) == all) {
+    bound.whole = all;
+    const Eigen::MatrixXd block = bound.factor.topLeftCorner(all, all);
+    bound.inverse.topLeftCorner(all, all) = block.inverse();
+  }
   // The box around the ellipsoid.
   const Eigen::MatrixXd covariance = precision(kept, kept).inverse();
   for (std::size_t k = 0; k < kept.size(); ++k) {

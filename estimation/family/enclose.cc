@@ -22,6 +22,7 @@ namespace {
 constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated in doubles
 constexpr double kFinest = 1e-9;     // of a root cell: no split below
 constexpr std::size_t kTrials = 30;  // candidates for a split
+constexpr std::size_t kTransferTrials = 6;  // where contraction is dear
 constexpr std::size_t kBaseMembers = 1000;
 constexpr std::size_t kLocalStarts = 2;
 
@@ -329,7 +330,8 @@ struct Enclosure::Impl {
   // whose halves reach least far (an expression may depend on many), or simply the widest.
   Interval* ChooseSplit(const BoundSearch& search, Cell& cell, const Cell& start) const {
     std::array<std::pair<double, Interval*>, kTrials> widest{};
-    const std::size_t kept = search.expression || contractor.TwoModes() ? kTrials : 1;
+    const std::size_t trials = problem.HasTransfer() ? kTransferTrials : kTrials;
+    const std::size_t kept = search.expression || contractor.TwoModes() ? trials : 1;
     const auto offer = [&](Interval& x, const Interval& from, double weight) {
       const double width = Width(x);
       if (!std::isfinite(width) || !(width > 4e-16 * std::abs(x.upper()))) return;
@@ -347,14 +349,15 @@ struct Enclosure::Impl {
     };
     const bool two_modes = contractor.TwoModes();
     if (contractor.HasWindow() && cell.boxes.size() > 1) {
-      offer(cell.window_hz, start.window_hz, 1.0);
+      // Transfers fix each omega by itself.
+      offer(cell.window_hz, start.window_hz, problem.HasTransfer() ? 0.05 : 1.0);
     }
     for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
       const bool own = search.expression ? search.expression->DependsOn(i, search.experiment)
                                          : i == search.experiment;
       ExperimentBox& box = cell.boxes[i];
       const ExperimentBox& from = start.boxes[i];
-      const double rest = search.expression ? 1e-3 : (two_modes ? 0.4 : 0.1);
+      const double rest = search.expression ? 1e-3 : (two_modes && !problem.HasTransfer() ? 0.4 : 0.1);
       offer(box[kCellXi], from[kCellXi], own ? 1.0 : rest);
       offer(box[kCellOmega], from[kCellOmega], own ? 1.0 : rest);
       offer(box[kCellTangent], from[kCellTangent], own ? 0.7 : 0.5 * rest);
