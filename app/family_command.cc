@@ -25,13 +25,20 @@ int Run(const Options& options) {
                              .conflict = run.conflict,
                              .predictions = run.predictions,
                              .falsified = run.falsified,
-                             .advice = run.advice})
+                             .advice = run.advice,
+                             .transfer = run.transfer,
+                             .profile = run.profile})
                          .dump(2) +
                      "\n");
+  if (run.profile) {
+    WriteWholeFile(options.out / "profile.csv",
+                   ProfileCsv(run.problem.experiments, run.profile->profile));
+  }
   ForgetBounds(options);
   if (!options.quiet) {
     PrintFamily(run);
-    std::printf("written: family.csv, family.json and tradeoff.csv in %s\n", options.out.c_str());
+    std::printf("written: family.csv, %sfamily.json and tradeoff.csv in %s\n",
+                run.profile ? "profile.csv, " : "", options.out.c_str());
   }
   return run.members.empty() ? kNegativeAnswer : kDone;
 }
@@ -51,6 +58,8 @@ Command FamilyCommand() {
       "goes on where it stopped.",
       {{"--falsify", "OTHER.yaml", "which members survive the experiments of another config"},
        {"--advise", "", "which further measurement would remove most of the family"},
+       {"--profile", "QUANTITY",
+        "the best fit along exp1.tau_s, exp1.loop_gain, a prediction or any expression"},
        {"--save-every", "SECONDS", "how often the search for bounds saves its state (default: 2)"}},
       Run};
 }

@@ -35,12 +35,13 @@ std::vector<Member> Thinned(std::span<const Member> members, std::size_t most) {
 }
 
 std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
-                                               std::span<const Member> members) {
+                                               const SimulationSpec& simulation,
+                                               std::span<const Member> members, int threads) {
   std::vector<ExperimentPrediction> predictions;
   for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
     const Experiment& experiment = problem.experiments[i];
     const auto add = [&](const char* name, const MemberPredictor& predictor) {
-      predictions.push_back({experiment.name, PredictSampled(name, members, predictor)});
+      predictions.push_back({experiment.name, PredictSampled(name, members, predictor, threads)});
     };
     const bool two_modes = problem.model.modes == 2;
     if (two_modes) {
@@ -52,6 +53,12 @@ std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
     add("gain_margin_db", [i, slope](std::span<const LoopModel> m) {
       return Finite(Margins(m[i].Loop(), slope, kMarginsUpToHz).gain_margin_db);
     });
+    if (simulation.flame_is_given) {
+      const Flame<double> flame{simulation.flame_shape, slope, simulation.saturation, 0.0};
+      add("p_amplitude", [i, flame, f = experiment.frequency_hz](std::span<const LoopModel> m) {
+        return PressureAmplitude(m[i], flame, f);
+      });
+    }
     if (two_modes) {
       add("line_gain",
           [i, slope](std::span<const LoopModel> m) { return LineGain(m[i], kLineBandHz, slope); });

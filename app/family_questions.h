@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimation/family/advise.h"
+#include "io/config/simulation_spec.h"
 #include "io/results/family_json.h"
 
 namespace howl {
@@ -17,8 +18,11 @@ std::vector<Member> Thinned(std::span<const Member> members, std::size_t most);
 // Of each experiment with a flame slope: growth rate of the rest state (1/s),
 // gain margin (dB), phase margin (deg); with two modes the line near 750 Hz (Hz) and the loop's
 // gain there. All sampled, over the members given.
+// With a flame stated by the config, its slope at rest being the experiment's, also the amplitude of
+// p in the limit cycle.
 std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
-                                               std::span<const Member> members);
+                                               const SimulationSpec& simulation,
+                                               std::span<const Member> members, int threads);
 
 // DefaultMeasurements, and the growth rate of each experiment that has a flame slope.
 std::vector<Advice> AdviseMeasurements(const FamilyProblem& problem,

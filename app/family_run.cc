@@ -85,6 +85,53 @@ void DrawMembers(const Config& config, const Options& options, FamilyRun& run) {
   }
 }
 
+// A prediction of the config by its name (exp1.NAME where it differs from experiment to experiment),
+// or what ParseQuantity knows.
+MemberQuantity AskedQuantity(const Config& config, const std::string& text,
+                             const FamilyProblem& problem) {
+  ExpressionError error;
+  for (const PredictionSpec& spec : config.family.predictions) {
+    const auto expression = Expression::Parse(spec.expression, problem.experiments, error);
+    if (!expression) continue;
+    if (!expression->IsPerExperiment() && text == spec.name) {
+      return QuantityOf(*expression, problem, 0);
+    }
+    for (std::size_t i = 0; expression->IsPerExperiment() && i < problem.experiments.size(); ++i) {
+      if (text == problem.experiments[i].name + "." + spec.name) {
+        return QuantityOf(*expression, problem, i);
+      }
+    }
+  }
+  std::optional<MemberQuantity> quantity = ParseQuantity(text, problem, error);
+  if (!quantity) throw UsageError("--profile " + text + ": " + error.message);
+  return *std::move(quantity);
+}
+
+void AskProfile(const Config& config, const Options& options, FamilyRun& run) {
+  const std::optional<std::string> text = options.Text("--profile");
+  if (!text) return;
+  std::vector<Member> members = run.enclosure->Witnesses();
+  if (members.empty()) members = run.members;
+  const std::optional<Profile> profile =
+      ProfileFamily(run.problem, AskedQuantity(config, *text, run.problem), members);
+  if (!profile) {
+    throw UsageError("--profile: expected omega_hz, xi, N and tau_s of each experiment's own, and "
+                     "tolerances that are not zero");
+  }
+  run.profile = ProfileReport{*text, *profile};
+}
+
+void MeasureTransfer(const Options& options, FamilyRun& run) {
+  constexpr std::size_t kSeen = 400;
+  if (!run.problem.HasTransfer()) return;
+  TransferReport report;
+  report.volume =
+      MeasureTransferVolume(run.problem, {.seed = options.seed, .threads = options.threads});
+  report.without =
+      EnumerateMembers(WithoutTransfer(run.problem), kSeen, options.seed, options.threads).members;
+  run.transfer = std::move(report);
+}
+
 void AskFurther(const Options& options, FamilyRun& run) {
   if (const std::optional<std::string> other = options.Text("--falsify")) {
     const std::vector<Experiment> further = LoadExperiments(LoadConfig(*other), options);
@@ -103,6 +150,7 @@ FamilyRun RunFamily(const Config& config, const Options& options) {
   FamilyRun run;
   run.problem = MakeFamilyProblem(config, LoadExperiments(config, options));
   const std::vector<BoundedExpression> bounded = ParsePredictions(config, run.problem);
+  if (const auto text = options.Text("--profile")) AskedQuantity(config, *text, run.problem);
   run.enclosure =
       std::make_unique<Enclosure>(run.problem, EncloseOptions{.width = config.family.width,
                                                               .seed = options.seed,
@@ -116,10 +164,14 @@ FamilyRun RunFamily(const Config& config, const Options& options) {
     run.conflict = ExplainEmpty(run.problem, options.threads);
   } else {
     TakePredictions(config, bounded, run);
-    std::ranges::copy(PredictLoops(run.problem, Thinned(run.sample, kPredictedMembers)),
+    std::ranges::copy(PredictLoops(run.problem, config.simulation,
+                                   Thinned(run.sample, kPredictedMembers), options.threads),
                       std::back_inserter(run.predictions));
     AskFurther(options, run);
+    AskProfile(config, options, run);
   }
+  StopIfInterrupted(options);
+  MeasureTransfer(options, run);
   StopIfInterrupted(options);
   run.tradeoff =
       ComputeTradeoff(run.problem, DefaultSpreads(run.problem), options.threads, options.seed);

@@ -107,6 +107,73 @@ void PrintDiagnostics(const FamilyRun& run) {
   }
 }
 
+void PrintTransfer(const FamilyRun& run) {
+  const TransferVolume& volume = run.transfer->volume;
+  const double limit = run.problem.test.transfer_distance_max;
+  if (volume.least_distance && *volume.least_distance > limit) {
+    std::printf(
+        "no model that passes the other conditions comes nearer to the records' q-to-p transfers\n"
+        "than %s standard deviations; transfer_distance_max allows %s: the model's modes do not\n"
+        "carry what the records show (transfer_distance_max: null leaves the transfers out)\n",
+        Significant(*volume.least_distance, 3).c_str(), Significant(limit, 3).c_str());
+    return;
+  }
+  std::printf("the broadband q-to-p transfer of %zu experiments is part of the test", volume.experiments);
+  if (volume.ln_ratio) {
+    std::printf(": it leaves exp(%s +- %s) of the volume", Fixed(*volume.ln_ratio, 1).c_str(),
+                Fixed(volume.ln_std, 1).c_str());
+  } else if (!volume.finite_without) {
+    std::printf("; without it the volume is not finite (give xi a least value and M a largest)");
+  }
+  std::printf("\n");
+  if (run.transfer->without.empty()) return;
+  TextTable table({"experiment", "omega Hz", "xi", "N"});
+  for (std::size_t i = 0; i < run.problem.experiments.size(); ++i) {
+    std::vector<std::string> cells = {run.problem.experiments[i].name};
+    for (const FamilyParameter parameter :
+         {FamilyParameter::kOmega, FamilyParameter::kXi, FamilyParameter::kN}) {
+      Range seen{std::numeric_limits<double>::infinity(), 0.0};
+      for (const Member& member : run.transfer->without) {
+        const double value = ParameterValue(run.problem.experiments[i], member[i], parameter);
+        seen = {std::min(seen.lo, value), std::max(seen.hi, value)};
+      }
+      cells.push_back(RangeText(seen, 1.0, 4));
+    }
+    table.AddRow(std::move(cells));
+  }
+  std::printf("without it members were seen at:\n%s", table.Text().c_str());
+}
+
+void PrintProfile(const ProfileReport& report) {
+  const Profile& profile = report.profile;
+  const ProfilePoint* best = &profile.points.front();
+  for (const ProfilePoint& point : profile.points) {
+    if (point.cost < best->cost) best = &point;
+  }
+  const auto end = [](ProfileEnd reason) {
+    switch (reason) {
+      case ProfileEnd::kEdge:
+        return "edge of the tolerances";
+      case ProfileEnd::kBound:
+        return "edge of the other conditions";
+      case ProfileEnd::kFailed:
+        return "the search failed beyond";
+      case ProfileEnd::kPoints:
+        break;
+    }
+    return "out of points";
+  };
+  std::printf("profile of %s: %s (%s) .. %s (%s), best at %s\n", report.quantity.c_str(),
+              Significant(profile.lo).c_str(), end(profile.lo_end), Significant(profile.hi).c_str(),
+              end(profile.hi_end), Significant(best->value).c_str());
+  std::printf("  %zu points, cost (largest share of a tolerance) %s .. %s; %s\n",
+              profile.points.size(), Fixed(best->cost, 3).c_str(),
+              Fixed(std::max(profile.points.front().cost, profile.points.back().cost), 3).c_str(),
+              profile.IsSound()
+                  ? "each found again from its other neighbour"
+                  : (std::to_string(profile.flagged) + " flagged: found differently from the other side").c_str());
+}
+
 void PrintFurther(const FurtherTest& further) {
   const SurvivalCounts& counts = further.counts;
   std::printf("%s: %zu members survive, %zu are rejected, %zu are not tested (no phi in between)\n",
@@ -176,12 +243,15 @@ void PrintPredictions(const FamilyRun& run) {
 void PrintFamily(const FamilyRun& run) {
   if (run.members.empty()) {
     PrintConflict(run.conflict);
+    if (run.transfer) PrintTransfer(run);
     return;
   }
   PrintDiagnostics(run);
   PrintBounds(run.problem, *run.enclosure);
   PrintTightness(run.problem, *run.enclosure);
   PrintPredictions(run);
+  if (run.transfer) PrintTransfer(run);
+  if (run.profile) PrintProfile(*run.profile);
   if (run.falsified) PrintFurther(*run.falsified);
   if (run.advice) PrintAdvice(*run.advice);
 }

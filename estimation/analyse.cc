@@ -137,6 +137,9 @@ std::optional<Experiment> ToExperiment(const Analysis& analysis) {
   }
   experiment.reliable = c.stationary;
   if (analysis.transfer) experiment.transfer = WidenedPoints(analysis);
+  if (analysis.transfer_fit) {
+    experiment.transfer_ellipsoid = MakeTransferEllipsoid(*analysis.transfer_fit);
+  }
   // The loop closes a second time at one line: the strongest of p's that is no multiple of the
   // cycle and lies above it (below lie differences of the two).
   const SpectralLine* second = nullptr;

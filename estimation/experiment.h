@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/transfer_ellipsoid.h"
 #include "estimation/transfer_point.h"
 
 namespace howl {
@@ -36,6 +37,8 @@ struct Experiment {
 
   // Coherent q-to-p transfer of a record, thinned to independent points; empty for a published row.
   std::vector<TransferPoint> transfer;
+  // What that transfer leaves of the acoustics, where it determines any.
+  std::optional<TransferEllipsoid> transfer_ellipsoid;
 
   bool reliable = true;
   std::vector<ObservedLine> lines;

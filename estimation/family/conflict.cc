@@ -32,6 +32,8 @@ double* Tolerance(MembershipTest& test, Condition condition) {
       return &test.xi_max;
     case Condition::kXiIncreasing:
       return nullptr;
+    case Condition::kTransfer:
+      return &test.transfer_distance_max;
   }
   return nullptr;
 }
@@ -46,9 +48,9 @@ void SwitchOff(MembershipTest& test, Condition condition) {
 
 // A search draws best within tolerances of a moderate size, and a member at those is one without
 // them: they stand for "switched off", from narrow to wide, before the real thing.
-constexpr MembershipTest kModerate[] = {{0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false},
-                                        {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false},
-                                        {0.6, 30.0, 90.0, 0.0, 180.0, 1.5, 1.0, false}};
+constexpr MembershipTest kModerate[] = {{0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false, 8.0},
+                                        {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false, 20.0},
+                                        {0.6, 30.0, 90.0, 0.0, 180.0, 1.5, 1.0, false, kInfinity}};
 
 void Widen(MembershipTest& test, Condition condition, const MembershipTest& to) {
   MembershipTest wide = to;
@@ -139,6 +141,9 @@ Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
     std::vector<unsigned> candidates;
     for (unsigned set = 0; set < (1u << kNumConditions); ++set) {
       if (std::popcount(set) != size) continue;
+      if (!problem.HasTransfer() && ((set >> static_cast<unsigned>(Condition::kTransfer)) & 1u)) {
+        continue;
+      }
       const bool contains_smaller =
           std::any_of(minimal.begin(), minimal.end(),
                       [&](unsigned smaller) { return (set & smaller) == smaller; });

@@ -27,7 +27,7 @@ struct Conflict {
   std::vector<Relaxation> relaxations;  // of each condition that is in every minimal set
 };
 
-// Sets of all eight conditions are tried from the smallest. `threads` as in RunUnits.
+// Sets of all conditions are tried from the smallest. `threads` as in RunUnits.
 Conflict ExplainEmpty(const FamilyProblem& problem, int threads = 1);
 
 // The test with only the given conditions left on.

@@ -253,6 +253,10 @@ CellContractor::CellContractor(const FamilyProblem& problem) {
       const double rad = Above(line_tolerance * kRadPerDeg);
       target.line_error_rad = Interval(-rad, rad);
     }
+    if (experiment.transfer_ellipsoid && std::isfinite(problem.test.transfer_distance_max)) {
+      target.transfer = MakeTransferBound(*experiment.transfer_ellipsoid, two_modes_,
+                                          problem.test.transfer_distance_max);
+    }
     targets_.push_back(target);
 
     const ExperimentTarget& bounds = targets[i];
@@ -297,6 +301,7 @@ Cell CellContractor::Root() const {
 
 bool CellContractor::ContractExperiment(std::size_t i, ExperimentBox& box) const {
   const ContractTarget& target = targets_[i];
+  if (!ContractTransfer(target, box)) return false;
   if (two_modes_) {
     return ContractTwoModes(target, box) && ContractDelay(target, box) &&
            ContractLines(target, box);
@@ -382,7 +387,7 @@ bool CellContractor::Contract(Cell& cell) const {
     for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
       const bool left = two_modes_ && pass % 2 == 1 ? ContractSliced(i, cell.boxes[i])
                                                     : ContractExperiment(i, cell.boxes[i]);
-      if (!left) return false;
+      if (!left || !ContractSlabs(targets_[i], cell.boxes[i])) return false;
     }
     const double after = size();
     if (pass >= 1 && !(after < before * (1.0 - kProgress))) break;

@@ -3,12 +3,30 @@
 #ifndef HOWL_ESTIMATION_FAMILY_CONTRACT_H_
 #define HOWL_ESTIMATION_FAMILY_CONTRACT_H_
 
+#include <array>
 #include <vector>
 
 #include "estimation/family/cell.h"
 #include "estimation/family/problem.h"
 
 namespace howl {
+
+// An experiment's transfer ellipsoid, in the logarithms of omega, xi, N and M.
+struct TransferBound {
+  bool used = false;
+  double distance = 0.0;  // widened by more than the rounding of the test
+  TransferVector centre = TransferVector::Zero();
+  TransferVector reach = TransferVector::Zero();       // half sides of the box around it
+  // Of `factor`, where it counts all of the model's parameters: `whole` of them, else 0.
+  TransferMatrix inverse = TransferMatrix::Zero();
+  int whole = 0;
+  double reach_relative = kUnbounded;                  // the same of ln M - ln N
+  TransferMatrix factor = TransferMatrix::Zero();      // upper triangular
+  TransferMatrix backward = TransferMatrix::Zero();    // lower triangular, of the same form
+};
+
+TransferBound MakeTransferBound(const TransferEllipsoid& ellipsoid, bool second_mode,
+                                double distance);
 
 // The constants of one experiment, as intervals that hold the exact values.
 struct ContractTarget {
@@ -19,6 +37,7 @@ struct ContractTarget {
   double phi = 0.0;
   std::vector<Interval> lines_hz;
   Interval line_error_rad;  // second crossing tolerance
+  TransferBound transfer;
 };
 
 // y = xi t (one mode).
@@ -35,6 +54,16 @@ bool ContractDelay(const ContractTarget& target, ExperimentBox& box);
 
 // The loop's phase at every observed line, within its tolerance (two modes).
 bool ContractLines(const ContractTarget& target, ExperimentBox& box);
+
+// The transfer's distance.
+bool ContractTransfer(const ContractTarget& target, ExperimentBox& box);
+
+// The ellipsoid cut by the response's phase and gain: finer and dearer than ContractTransfer.
+bool ContractSlabs(const ContractTarget& target, ExperimentBox& box);
+
+// Whether a box of (omega, xi, N, M) may have a model near enough to the transfer; `always`: it has
+// no other.
+bool TransferMayHold(const TransferBound& bound, const std::array<Interval, 4>& box, bool* always);
 
 // The whole cell, until it narrows no more.
 class CellContractor {

@@ -9,6 +9,8 @@
 #include "estimation/family/contract.h"
 #include "estimation/family/enumerate.h"
 #include "estimation/family/inside.h"
+#include "estimation/family/local_search.h"
+#include "estimation/family/transfer_starts.h"
 #include "estimation/family/two_mode_tradeoff.h"
 #include "estimation/parallel.h"
 #include "model/loop.h"
@@ -19,8 +21,10 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated in doubles
 constexpr double kFinest = 1e-9;     // of a root cell: no split below
-constexpr std::size_t kTrials = 12;  // candidates for a split
+constexpr std::size_t kTrials = 30;  // candidates for a split
+constexpr std::size_t kTransferTrials = 6;  // where contraction is dear
 constexpr std::size_t kBaseMembers = 1000;
+constexpr std::size_t kLocalStarts = 2;
 
 CellVariable VariableOf(FamilyParameter parameter) {
   switch (parameter) {
@@ -98,7 +102,8 @@ struct Enclosure::Impl {
   FamilyProblem problem;
   EncloseOptions options;
   CellContractor contractor;
-  MemberDrawer drawer;
+  std::unique_ptr<MemberDrawer> drawer;  // none where transfers leave it nothing to meet
+  LocalSearch local;
   std::vector<BoundSearch> searches;
   std::vector<double> range;  // of each search's parameter over the base members
   Enumeration base;
@@ -107,8 +112,9 @@ struct Enclosure::Impl {
   bool root_empty;
 
   Impl(const FamilyProblem& p, const EncloseOptions& o)
-      : problem(p), options(o), contractor(p), drawer(p), root(contractor.Root()) {
+      : problem(p), options(o), contractor(p), local(p), root(contractor.Root()) {
     root_empty = !contractor.Contract(root);
+    if (!NeedsTransferStarts(problem)) drawer = std::make_unique<MemberDrawer>(problem);
     if (options.max_cells == 0) {
       options.max_cells = problem.model.modes == 1
                               ? 4000
@@ -157,7 +163,7 @@ struct Enclosure::Impl {
     }
   }
 
-  double Value(const BoundSearch& search, const Member& models) const {
+  double Value(const BoundSearch& search, std::span<const LoopModel> models) const {
     const std::size_t i = search.experiment;
     return search.expression ? search.expression->Evaluate(problem.experiments, models, i)
                              : ParameterValue(problem.experiments[i], models[i], search.parameter);
@@ -191,7 +197,8 @@ struct Enclosure::Impl {
   // Draws a member towards the bound; keeps it when it is the best so far.
   bool TryFocus(BoundSearch& search, const DrawFocus& focus, Member& models,
                 DrawGlobals& globals) const {
-    if (!drawer.HasSupport() || !drawer.DrawFocused(search.random, focus, models, globals)) {
+    if (!drawer || !drawer->HasSupport() ||
+        !drawer->DrawFocused(search.random, focus, models, globals)) {
       return false;
     }
     const double value = search.sign * Value(search, models);
@@ -200,6 +207,38 @@ struct Enclosure::Impl {
     search.witness = models;
     search.focus = focus;
     return true;
+  }
+
+  bool IsLocal() const {
+    return local.IsSupported() && !base.members.empty() &&
+           (contractor.TwoModes() || problem.HasTransfer());
+  }
+
+  // From the best member found and from some others to the farthest that a local search reaches.
+  void SearchLocally(BoundSearch& search, double scale) const {
+    if (!IsLocal() || search.witness.empty()) return;
+    MemberQuantity quantity;
+    quantity.value = [this, &search](std::span<const LoopModel> models) {
+      return Value(search, models);
+    };
+    for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+      if (search.expression ? search.expression->DependsOn(i, search.experiment)
+                            : i == search.experiment) {
+        quantity.experiments.push_back(i);
+      }
+    }
+    std::vector<Member> starts{search.witness};
+    for (std::size_t k = 0; k < kLocalStarts; ++k) {
+      starts.push_back(base.members[search.random.Index(base.members.size())]);
+    }
+    for (const Member& start : starts) {
+      std::optional<Member> member = local.Farthest(start, quantity, search.sign, scale);
+      if (!member) continue;
+      const double value = search.sign * Value(search, *member);
+      if (!(value > search.inner)) continue;
+      search.inner = value;
+      search.witness = *std::move(member);
+    }
   }
 
   // The best choice of ends so far, with some of them changed.
@@ -291,7 +330,8 @@ struct Enclosure::Impl {
   // whose halves reach least far (an expression may depend on many), or simply the widest.
   Interval* ChooseSplit(const BoundSearch& search, Cell& cell, const Cell& start) const {
     std::array<std::pair<double, Interval*>, kTrials> widest{};
-    const std::size_t kept = search.expression || contractor.TwoModes() ? kTrials : 1;
+    const std::size_t trials = problem.HasTransfer() ? kTransferTrials : kTrials;
+    const std::size_t kept = search.expression || contractor.TwoModes() ? trials : 1;
     const auto offer = [&](Interval& x, const Interval& from, double weight) {
       const double width = Width(x);
       if (!std::isfinite(width) || !(width > 4e-16 * std::abs(x.upper()))) return;
@@ -309,14 +349,15 @@ struct Enclosure::Impl {
     };
     const bool two_modes = contractor.TwoModes();
     if (contractor.HasWindow() && cell.boxes.size() > 1) {
-      offer(cell.window_hz, start.window_hz, 1.0);
+      // Transfers fix each omega by itself.
+      offer(cell.window_hz, start.window_hz, problem.HasTransfer() ? 0.05 : 1.0);
     }
     for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
       const bool own = search.expression ? search.expression->DependsOn(i, search.experiment)
                                          : i == search.experiment;
       ExperimentBox& box = cell.boxes[i];
       const ExperimentBox& from = start.boxes[i];
-      const double rest = search.expression ? 1e-3 : (two_modes ? 0.4 : 0.1);
+      const double rest = search.expression ? 1e-3 : (two_modes && !problem.HasTransfer() ? 0.4 : 0.1);
       offer(box[kCellXi], from[kCellXi], own ? 1.0 : rest);
       offer(box[kCellOmega], from[kCellOmega], own ? 1.0 : rest);
       offer(box[kCellTangent], from[kCellTangent], own ? 0.7 : 0.5 * rest);
@@ -357,12 +398,13 @@ struct Enclosure::Impl {
     return (x.lower() == 0.0 ? 0.25 : 0.5) * (x.lower() + x.upper());
   }
 
-  void Start(BoundSearch& search) const {
+  void Start(BoundSearch& search, double scale) const {
     search.state = SearchState::kRunning;
     if (root_empty) {
       ++search.counts.outside;
     } else {
       SearchMember(search);
+      SearchLocally(search, scale);
       Push(search, Cell(root));
     }
   }
@@ -379,7 +421,7 @@ struct Enclosure::Impl {
   }
 
   void Step(BoundSearch& search, double tolerance) const {
-    if (search.state == SearchState::kNew) return Start(search);
+    if (search.state == SearchState::kNew) return Start(search, tolerance / (0.5 * options.width));
     if (search.heap.empty() || search.heap.front().bound <= search.inner + tolerance) {
       return Finish(search, SearchState::kClosed);
     }

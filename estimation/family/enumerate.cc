@@ -5,6 +5,8 @@
 
 #include "estimation/closed_form.h"
 #include "estimation/family/chain.h"
+#include "estimation/family/sample.h"
+#include "estimation/family/transfer_starts.h"
 #include "estimation/family/two_mode_solve.h"
 #include "estimation/family/window.h"
 #include "estimation/parallel.h"
@@ -496,6 +498,12 @@ Enumeration EnumerateMembers(const FamilyProblem& problem, std::size_t count, st
                              int threads) {
   Enumeration result;
   result.counts.requested = count;
+  if (count > 0 && NeedsTransferStarts(problem)) {
+    SampleOptions sampling{.count = count, .burn_in = 50, .seed = seed, .threads = threads};
+    result.members = SampleMembers(problem, sampling).members;
+    result.counts.drawn = result.counts.complete = result.counts.members = result.members.size();
+    return result;
+  }
   const MemberDrawer drawer(problem);
   if (!drawer.HasSupport() || count == 0) return result;
   const std::size_t units = (count + kChunk - 1) / kChunk;

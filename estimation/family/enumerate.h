@@ -87,6 +87,9 @@ class MemberDrawer {
   std::unique_ptr<Impl> impl_;
 };
 
+// Where the test looks at transfers the members are drawn uniformly, by chains: a member's
+// parameters then lie within a few percent, and there is no broader density to aim at.
+//
 // Up to `count` members: fewer where attempts run out, none where the family is (or seems) empty.
 // The same for a seed whatever the number of threads (0: all cores).
 Enumeration EnumerateMembers(const FamilyProblem& problem, std::size_t count, std::uint64_t seed,

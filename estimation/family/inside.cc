@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "estimation/family/contract.h"
 #include "estimation/family/interval.h"
 #include "model/loop.h"
 
@@ -83,6 +84,16 @@ void TestExperiment(const Experiment& experiment, const ModelBox& box, double ha
     }
   }
   verdict.At(Of(box.xi), 0.0, test.xi_max);
+  if (experiment.transfer_ellipsoid && std::isfinite(test.transfer_distance_max)) {
+    const bool second_mode = box.M.hi > 0.0;
+    bool always = false;
+    const TransferBound bound =
+        MakeTransferBound(*experiment.transfer_ellipsoid, second_mode, test.transfer_distance_max);
+    if (!TransferMayHold(bound, {Of(box.omega_hz), Of(box.xi), Of(box.N), Of(box.M)}, &always)) {
+      verdict.none = true;
+    }
+    verdict.all &= always;
+  }
 }
 
 }  // namespace

@@ -27,6 +27,9 @@ ExperimentErrors ComputeErrors(const Experiment& experiment, const LoopModel& mo
       errors.second_crossing_error_deg = error_deg;
     }
   }
+  if (experiment.transfer_ellipsoid) {
+    errors.transfer_distance = TransferDistance(*experiment.transfer_ellipsoid, model);
+  }
   return errors;
 }
 
@@ -51,6 +54,9 @@ void FalsifyOne(const Experiment& experiment, const LoopModel& model, const Memb
     failed.Insert(Condition::kSecondCrossing);
   }
   if (!(model.xi <= test.xi_max)) failed.Insert(Condition::kXiMax);
+  if (!(errors.transfer_distance <= test.transfer_distance_max)) {
+    failed.Insert(Condition::kTransfer);
+  }
 }
 
 }  // namespace

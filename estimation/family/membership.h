@@ -10,6 +10,9 @@
 //   omega_spread_max           max omega / min omega - 1 <= maximum        over experiments
 //   xi_max                     xi                        <= maximum
 //   xi_increasing              xi does not fall as phi grows
+//   transfer_distance_max      distance of (omega, xi, N, M) from the broadband q-to-p transfer, in
+//                              standard deviations (estimation/transfer_ellipsoid.h): experiments
+//                              whose record has one
 //
 // An infinite tolerance or maximum, or a loop_gain_min of zero, switches its condition off.
 #ifndef HOWL_ESTIMATION_FAMILY_MEMBERSHIP_H_
@@ -33,12 +36,14 @@ enum class Condition {
   kOmegaSpread,
   kXiMax,
   kXiIncreasing,
+  kTransfer,
 };
 
 inline constexpr std::array kConditions = {Condition::kGain,           Condition::kPhase,
                                            Condition::kLoopPhase,      Condition::kLoopGain,
                                            Condition::kSecondCrossing, Condition::kOmegaSpread,
-                                           Condition::kXiMax,          Condition::kXiIncreasing};
+                                           Condition::kXiMax,          Condition::kXiIncreasing,
+                                           Condition::kTransfer};
 inline constexpr std::size_t kNumConditions = kConditions.size();
 
 // The condition's key in a config's `family: test:`.
@@ -50,7 +55,8 @@ constexpr std::string_view ConditionName(Condition condition) {
                                                                    "second_crossing_tolerance_deg",
                                                                    "omega_spread_max",
                                                                    "xi_max",
-                                                                   "xi_increasing"};
+                                                                   "xi_increasing",
+                                                                   "transfer_distance_max"};
   return kNames[static_cast<std::size_t>(condition)];
 }
 
@@ -63,6 +69,9 @@ struct MembershipTest {
   double omega_spread_max = 0.25;
   double xi_max = 0.3;
   bool xi_increasing = true;
+  // The squared distance of a true model is chi-square with four degrees of freedom at most: it is
+  // beyond 4 with a probability of 0.3 % an experiment, 2 % over six of them.
+  double transfer_distance_max = 4.0;
 };
 
 // How far one experiment's model is from the data; zero is a perfect fit.
@@ -72,6 +81,7 @@ struct ExperimentErrors {
   double loop_phase_error_deg = 0.0;       // arg L - 180 degrees, wrapped
   double loop_gain = 0.0;                  // |L Phi'(0)|; NaN where the slope is not known
   double second_crossing_error_deg = 0.0;  // largest over the lines; zero without lines
+  double transfer_distance = 0.0;          // zero without a transfer
 };
 
 // In the full form (5a); with M = 0 it is the reduced form (5c).

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/parallel.h"
+#include "model/harmonic_balance.h"
 #include "model/loop.h"
 
 namespace howl {
@@ -34,14 +36,14 @@ std::optional<Between> Neighbours(std::span<const Experiment> experiments, doubl
 }  // namespace
 
 Prediction PredictSampled(std::string name, std::span<const Member> members,
-                          const MemberPredictor& predictor) {
+                          const MemberPredictor& predictor, int threads) {
   Prediction prediction;
   prediction.name = std::move(name);
-  std::vector<double> values;
-  for (const Member& member : members) {
-    const std::optional<double> value = predictor(member);
-    if (value && std::isfinite(*value)) values.push_back(*value);
-  }
+  std::vector<double> values(members.size());
+  RunUnits(members.size(), threads, [&](std::size_t k) {
+    values[k] = predictor(members[k]).value_or(std::numeric_limits<double>::quiet_NaN());
+  });
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
   prediction.members = values.size();
   if (values.empty()) return prediction;
   std::sort(values.begin(), values.end());
@@ -85,6 +87,30 @@ std::optional<double> LineGain(const LoopModel& model, const Range& band_hz, dou
   const std::optional<double> line = CrossingNear(model, band_hz);
   if (!line) return std::nullopt;
   return LoopGain(model.Loop(), *line, flame_slope);
+}
+
+std::optional<double> PressureAmplitude(const LoopModel& model, const Flame<double>& flame,
+                                        double frequency_hz) {
+  constexpr double kReach = 0.2;
+  constexpr double kLargest = 1e4;  // amplitude over the one at which the flame saturates
+  const std::optional<double> f =
+      CrossingNear(model, {frequency_hz * (1.0 - kReach), frequency_hz * (1.0 + kReach)});
+  if (!f) return std::nullopt;
+  const double response = Magnitude(LoopResponse(model.Loop(), *f));
+  const auto excess = [&](double amplitude) {
+    return response * std::abs(DescribingFunction(flame, amplitude)) - 1.0;
+  };
+  const double knee = flame.saturation / std::abs(flame.slope);
+  double lo = 1e-9 * knee;
+  double hi = kLargest * knee;
+  if (!(excess(lo) > 0.0) || !(excess(hi) < 0.0)) return std::nullopt;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = std::sqrt(lo * hi);
+    (excess(middle) > 0.0 ? lo : hi) = middle;
+  }
+  const std::optional<LimitCycle> cycle = SolveLimitCycle({model.Loop(), flame}, *f, lo);
+  if (!cycle || std::abs(cycle->frequency_hz / frequency_hz - 1.0) > kReach) return std::nullopt;
+  return cycle->pressure_amplitude();
 }
 
 std::optional<LoopModel> InterpolateModel(std::span<const Experiment> experiments,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "estimation/family/problem.h"
+#include "model/flame.h"
 
 namespace howl {
 
@@ -29,8 +30,19 @@ struct Prediction {
 // A member's value; nothing where it has none.
 using MemberPredictor = std::function<std::optional<double>(std::span<const LoopModel>)>;
 
+// Members are asked on `threads` threads (0: all cores); the answer does not depend on the number.
 Prediction PredictSampled(std::string name, std::span<const Member> members,
-                          const MemberPredictor& predictor);
+                          const MemberPredictor& predictor, int threads = 1);
+
+// The amplitude of p in the limit cycle that the member has with that flame, next to a frequency:
+// the describing function closes the loop at the phase crossing within 20 % of it,
+//
+//   |L(j 2 pi f) D(A)| = 1,
+//
+// and harmonic balance (model/harmonic_balance.h) refines frequency and amplitude. Nothing where the
+// loop has no such crossing or its gain at rest does not exceed one there.
+std::optional<double> PressureAmplitude(const LoopModel& model, const Flame<double>& flame,
+                                        double frequency_hz);
 
 // A frequency within (lo, hi) at which arg L = 180 degrees (mod 360): the one nearest to the middle
 // of the band. Near 750 Hz it is the seed's non-harmonic line.

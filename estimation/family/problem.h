@@ -8,7 +8,9 @@
 #ifndef HOWL_ESTIMATION_FAMILY_PROBLEM_H_
 #define HOWL_ESTIMATION_FAMILY_PROBLEM_H_
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
@@ -43,6 +45,12 @@ struct FamilyProblem {
   MembershipTest test;
   FamilyDomain domain;
 
+  // Some experiment has a transfer that the test looks at.
+  bool HasTransfer() const {
+    return std::isfinite(test.transfer_distance_max) &&
+           std::any_of(experiments.begin(), experiments.end(),
+                       [](const Experiment& e) { return e.transfer_ellipsoid.has_value(); });
+  }
   bool IsShared(ParameterKind kind) const {
     return model.Uses(kind) && model[kind].scope == ParameterScope::kShared;
   }

@@ -7,6 +7,9 @@ namespace howl {
 
 namespace {
 
+constexpr double kSteepest = 0.3;  // of the way up to the edge, in one step
+constexpr int kMostRefined = 4;
+
 struct Branch {
   std::vector<ProfilePoint> points;  // outwards, from the start
   double end = 0.0;
@@ -26,6 +29,7 @@ class Walker {
     ProfilePoint last{best_value, best.cost, !best.converged, best.parameters};
     branch.points.push_back(last);
     branch.end = best_value;
+    int refined = 0;  // times in a row that a step was found too long
     while (branch.points.size() <= options_.max_points) {
       if (direction * (bound - last.value) <= 0.0) {
         branch.reason = ProfileEnd::kBound;
@@ -47,8 +51,14 @@ class Walker {
         branch.end = FindEdge(best_value, last, point, branch.points);
         return branch;
       }
-      // A tenth of the way up to the edge a step.
+      // A tenth of the way up to the edge a step; a step far beyond that passes a bend unseen.
       const double climbed = std::abs(point.cost - last.cost) / std::max(rise_, 1e-300);
+      if (climbed > kSteepest && point.cost > last.cost && refined < kMostRefined) {
+        step = 0.3 * std::abs(value - last.value);
+        ++refined;
+        continue;
+      }
+      refined = 0;
       step = std::abs(value - last.value) * std::clamp(0.1 / std::max(climbed, 1e-3), 0.3, 2.5);
       branch.points.push_back(point);
       branch.end = value;

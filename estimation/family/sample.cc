@@ -6,6 +6,7 @@
 #include "estimation/family/convergence.h"
 #include "estimation/family/enumerate.h"
 #include "estimation/family/targets.h"
+#include "estimation/family/transfer_starts.h"
 #include "estimation/family/two_mode_solve.h"
 #include "estimation/parallel.h"
 
@@ -175,7 +176,8 @@ class Chart {
   // Gain and loop phase error that nothing else depends on are drawn afresh for each member.
   bool FreeGain() const {
     const Range N = problem_.RangeOf(ParameterKind::kN);
-    return !two_modes_ && !shared_N_ && N.lo <= 0.0 && !std::isfinite(N.hi);
+    return !two_modes_ && !shared_N_ && N.lo <= 0.0 && !std::isfinite(N.hi) &&
+           !problem_.HasTransfer();
   }
   bool FreeLoopPhase() const {
     const Range tau = problem_.RangeOf(ParameterKind::kTau);
@@ -304,6 +306,14 @@ class Chart {
     if (two_modes_ &&
         !problem_.RangeOf(second_kind_).Contains(relative_ ? place.M / place.N : place.M)) {
       return false;
+    }
+    const Experiment& experiment = problem_.experiments[i];
+    if (experiment.transfer_ellipsoid && std::isfinite(problem_.test.transfer_distance_max)) {
+      const LoopModel model{place.omega_hz, place.xi, place.N, place.M, 0.0, ratio_};
+      if (!(TransferDistance(*experiment.transfer_ellipsoid, model) <=
+            problem_.test.transfer_distance_max)) {
+        return false;
+      }
     }
     if (!has_lines_ && FreeLoopPhase()) return true;
     const double tau = shared_tau_ ? state.tau_s
@@ -467,8 +477,15 @@ MemberSample SampleMembers(const FamilyProblem& problem, const SampleOptions& op
   Chart chart(problem);
   if (!chart.IsSupported() || options.count == 0) return sample;
   const std::size_t chains = std::max<std::size_t>(1, options.chains);
-  const Enumeration starts =
-      EnumerateMembers(problem, std::max(kProbes, chains), options.seed + 1, options.threads);
+  Enumeration starts;
+  if (!options.starts.empty()) {
+    starts.members = options.starts;
+  } else if (NeedsTransferStarts(problem)) {
+    starts.members = TransferStarts(problem, 4 * chains, options.seed + 1, options.threads);
+  } else {
+    starts =
+        EnumerateMembers(problem, std::max(kProbes, chains), options.seed + 1, options.threads);
+  }
   if (starts.members.empty()) return sample;
   std::vector<State> states(1);
   for (const Member& member : starts.members) {

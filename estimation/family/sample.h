@@ -24,6 +24,7 @@ struct SampleOptions {
   std::size_t thin = 0;       // sweeps a member; 0: 8 with one mode, 4 with two
   std::uint64_t seed = 0;
   int threads = 1;
+  std::vector<Member> starts;  // of the chains; empty: found by the sampler itself
 };
 
 struct SampleDiagnostics {

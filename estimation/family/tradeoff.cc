@@ -5,6 +5,8 @@
 
 #include "estimation/family/enumerate.h"
 #include "estimation/family/feasible.h"
+#include "estimation/family/local_search.h"
+#include "estimation/family/transfer_starts.h"
 #include "estimation/family/two_mode_tradeoff.h"
 #include "estimation/family/window.h"
 #include "estimation/parallel.h"
@@ -41,6 +43,26 @@ std::optional<double> SearchSmallestXi(FamilyProblem problem, std::uint64_t seed
   return best;
 }
 
+// The least largest xi that a local search reaches from members; the starts have to keep all other
+// conditions.
+std::optional<double> LeastXiLocally(FamilyProblem problem, const std::vector<Member>& starts) {
+  std::optional<double> best;
+  for (const Member& start : starts) {
+    const double largest = LargestXi(start);
+    problem.test.xi_max = 1.01 * largest;
+    const LocalSearch search(problem);
+    ConditionSet soft;
+    soft.Insert(Condition::kXiMax);
+    const std::optional<Approach> inside = search.FindMember(start);
+    if (!inside || !Holds(problem, inside->member)) continue;
+    const std::optional<Approach> least = search.Minimise(inside->member, soft);
+    if (!least || !Holds(problem, least->member)) continue;
+    const double xi = LargestXi(least->member);
+    best = best ? std::min(*best, xi) : xi;
+  }
+  return best;
+}
+
 }  // namespace
 
 TradeoffPoint ComputeTradeoff(const FamilyProblem& problem, double omega_spread,
@@ -51,6 +73,8 @@ TradeoffPoint ComputeTradeoff(const FamilyProblem& problem, double omega_spread,
   at.test.xi_max = std::numeric_limits<double>::infinity();
   if (point.exact) {
     point.xi_max = SmallestLargestXi(MakeWindowProblem(at, 0.0));
+  } else if (NeedsTransferStarts(at)) {
+    point.xi_max = LeastXiLocally(at, TransferStarts(at, 1, seed));
   } else {
     if (HasGreedyTradeoff(at)) point.xi_max = GreedySmallestXi(at);
     if (!point.xi_max) point.xi_max = SearchSmallestXi(at, seed);

@@ -256,7 +256,9 @@ class Greedy {
 }  // namespace
 
 bool HasGreedyTradeoff(const FamilyProblem& problem) {
-  if (problem.model.modes != 2 || !problem.test.xi_increasing) return false;
+  if (problem.model.modes != 2 || !problem.test.xi_increasing || problem.HasTransfer()) {
+    return false;
+  }
   const bool shares_m = problem.IsShared(ParameterKind::kM);
   if (!shares_m && !problem.IsShared(ParameterKind::kMOverN)) return false;
   for (const ParameterKind kind :

@@ -22,6 +22,7 @@ void ReadTest(const ConfigCursor& cursor, MembershipTest& test) {
   ReadLimit(cursor, "omega_spread_max", kInfinity, test.omega_spread_max);
   ReadLimit(cursor, "xi_max", kInfinity, test.xi_max);
   cursor.Read("xi_increasing", test.xi_increasing);
+  ReadLimit(cursor, "transfer_distance_max", kInfinity, test.transfer_distance_max);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ void ReadSimulation(const ConfigCursor& root, Config& config) {
     }
   }
   simulation->Read("saturation", spec.saturation);
+  spec.flame_is_given = simulation->Find("flame_shape") || simulation->Find("saturation");
   simulation->Read("combustion_noise_relative", spec.combustion_noise_relative);
   simulation->Read("combustion_noise_corner_hz", spec.combustion_noise_corner_hz);
   simulation->Read("sensor_noise_relative", spec.sensor_noise_relative);

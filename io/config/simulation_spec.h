@@ -26,6 +26,7 @@ struct SimulationSpec {
   double settle_s = 1.0;  // run and thrown away first
   FlameShape flame_shape = FlameShape::kTanh;
   double saturation = 1.0;                  // of the heat release, in units of q
+  bool flame_is_given = false;              // by the config: shape or saturation
   double combustion_noise_relative = 0.01;  // rms over saturation
   double combustion_noise_corner_hz = 500.0;
   double sensor_noise_relative = 0.001;  // rms over the cycle's amplitude, in each channel

@@ -1,5 +1,7 @@
 #include "io/results/family_json.h"
 
+#include <algorithm>
+
 #include "io/results/csv_writer.h"
 #include "io/results/solution_json.h"
 
@@ -16,7 +18,8 @@ Json TestJson(const MembershipTest& test) {
           {"second_crossing_tolerance_deg", NumberOrNull(test.second_crossing_tolerance_deg)},
           {"omega_spread_max", NumberOrNull(test.omega_spread_max)},
           {"xi_max", NumberOrNull(test.xi_max)},
-          {"xi_increasing", test.xi_increasing}};
+          {"xi_increasing", test.xi_increasing},
+          {"transfer_distance_max", NumberOrNull(test.transfer_distance_max)}};
 }
 
 Json ConflictJson(const Conflict& conflict) {
@@ -113,7 +116,53 @@ Json AdviceJson(const std::vector<Advice>& advice) {
   return json;
 }
 
+// Where members were seen without the condition.
+Json WithoutJson(const FamilyProblem& problem, const std::vector<Member>& members) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < problem.experiments.size() && !members.empty(); ++i) {
+    Json& own = json[problem.experiments[i].name] = Json::object();
+    for (const FamilyParameter parameter : kFamilyParameters) {
+      if (parameter == FamilyParameter::kM && problem.model.modes == 1) continue;
+      Range seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+      for (const Member& member : members) {
+        const double value = ParameterValue(problem.experiments[i], member[i], parameter);
+        seen = {std::min(seen.lo, value), std::max(seen.hi, value)};
+      }
+      if (seen.lo <= seen.hi) own[std::string(FamilyParameterName(parameter))] = RangeJson(seen);
+    }
+  }
+  return json;
+}
+
+Json TransferJson(const FamilyProblem& problem, const TransferReport& report) {
+  const TransferVolume& volume = report.volume;
+  const auto value_or_null = [](const std::optional<double>& value) {
+    return value ? NumberOrNull(*value) : Json(nullptr);
+  };
+  return {{"experiments", volume.experiments},
+          {"finite_without", volume.finite_without},
+          {"ln_volume_ratio", value_or_null(volume.ln_ratio)},
+          {"ln_volume_ratio_std", volume.ln_ratio ? Json(volume.ln_std) : Json(nullptr)},
+          {"least_distance", value_or_null(volume.least_distance)},
+          {"seen_without", WithoutJson(problem, report.without)}};
+}
+
+Json ProfileJson(const ProfileReport& report) {
+  const Profile& profile = report.profile;
+  return {{"quantity", report.quantity},
+          {"interval", RangeJson({profile.lo, profile.hi})},
+          {"ends", {ProfileEndName(profile.lo_end), ProfileEndName(profile.hi_end)}},
+          {"points", profile.points.size()},
+          {"flagged", profile.flagged},
+          {"sound", profile.IsSound()}};
+}
+
 }  // namespace
+
+std::string_view ProfileEndName(ProfileEnd end) {
+  constexpr std::string_view kNames[] = {"edge", "bound", "failed", "points"};
+  return kNames[static_cast<std::size_t>(end)];
+}
 
 Json FamilyJson(const FamilyReport& report) {
   const bool has_members = report.members > 0;
@@ -128,8 +177,27 @@ Json FamilyJson(const FamilyReport& report) {
       {"empty_because", empty_because}};
   if (report.falsified) json["falsified"] = FurtherJson(*report.falsified);
   if (report.advice) json["advice"] = AdviceJson(*report.advice);
+  if (report.transfer) json["transfer"] = TransferJson(report.problem, *report.transfer);
+  if (report.profile) json["profile"] = ProfileJson(*report.profile);
   if (report.conflict.is_empty) json["conflict"] = ConflictJson(report.conflict);
   return json;
+}
+
+std::string ProfileCsv(std::span<const Experiment> experiments, const Profile& profile) {
+  constexpr std::string_view kNames[kProfileParameters] = {"omega_hz", "xi", "N", "M", "tau_s"};
+  std::string header = "value,cost,flagged";
+  for (const Experiment& experiment : experiments) {
+    for (const std::string_view name : kNames) {
+      header += "," + experiment.name + "." + std::string(name);
+    }
+  }
+  CsvWriter csv(header);
+  for (const ProfilePoint& point : profile.points) {
+    csv.Cell(point.value).Cell(point.cost).Cell(point.flagged ? "true" : "false");
+    for (const double parameter : point.parameters) csv.Cell(parameter);
+    csv.EndRow();
+  }
+  return csv.Text();
 }
 
 std::string TradeoffCsv(std::span<const TradeoffPoint> points) {

@@ -11,9 +11,11 @@
 #include "estimation/family/advise.h"
 #include "estimation/family/conflict.h"
 #include "estimation/family/enclose.h"
+#include "estimation/family/family_profile.h"
 #include "estimation/family/predict.h"
 #include "estimation/family/sample.h"
 #include "estimation/family/tradeoff.h"
+#include "estimation/family/transfer_volume.h"
 
 namespace howl {
 
@@ -29,6 +31,17 @@ struct FurtherTest {
   SurvivalCounts counts;
 };
 
+// What the records' transfers do to the family.
+struct TransferReport {
+  TransferVolume volume;
+  std::vector<Member> without;  // members of the family without them, spread
+};
+
+struct ProfileReport {
+  std::string quantity;
+  Profile profile;
+};
+
 struct FamilyReport {
   const FamilyProblem& problem;
   const Enclosure& enclosure;
@@ -39,6 +52,8 @@ struct FamilyReport {
   const std::vector<ExperimentPrediction>& predictions;
   const std::optional<FurtherTest>& falsified;       // where it was asked for
   const std::optional<std::vector<Advice>>& advice;  // where it was asked for
+  const std::optional<TransferReport>& transfer;     // where the test looks at transfers
+  const std::optional<ProfileReport>& profile;       // where it was asked for
 };
 
 nlohmann::ordered_json FamilyJson(const FamilyReport& report);
@@ -46,6 +61,13 @@ nlohmann::ordered_json FamilyJson(const FamilyReport& report);
 // omega_spread,xi_max: the smallest largest-xi that any member has at that spread. Spreads without
 // any member are left out.
 std::string TradeoffCsv(std::span<const TradeoffPoint> points);
+
+// value,cost,flagged and every experiment's parameters, one row a point: cost is the largest share of
+// its tolerance that an error uses, one at the edge of the family.
+std::string ProfileCsv(std::span<const Experiment> experiments, const Profile& profile);
+
+// "edge" (cost one), "bound" (the farthest member), "failed" or "points".
+std::string_view ProfileEndName(ProfileEnd end);
 
 }  // namespace howl
 

@@ -4,6 +4,8 @@
 
 #include "estimation/family/advise.h"
 #include "estimation/family/sample.h"
+#include "estimation/closed_form.h"
+#include "estimation/family/enumerate.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
@@ -68,6 +70,42 @@ TEST(AdviseTest, FurtherExperimentsFalsifyWhatTheyShould) {
   EXPECT_EQ(none.counts.rejected_by[static_cast<std::size_t>(Condition::kGain)], 300u);
   // Outside the measured phi nothing is tested.
   EXPECT_EQ(TestFurther(problem, sample.members, std::span(&all[5], 1)).counts.untested, 300u);
+}
+
+// A cubic flame has the describing function k (1 - a^2 / 9), a = A |k| / Q up to 3 / 2: the cycle has
+// a = 3 sqrt(1 - 1 / loop gain), and p the amplitude A / w, a lightly damped loop passing little of
+// the harmonics.
+TEST(PressureAmplitudeTest, CubicFlameAgainstItsDescribingFunction) {
+  const Experiment e = R228()[0];
+  const double xi = 0.02, w = 2 * M_PI * e.frequency_hz;
+  LoopModel model = ClosedFormMember(e, xi);
+  for (const double loop_gain : {1.05, 1.2, 1.3}) {
+    const double slope = -loop_gain / (e.gain * w);
+    const Flame<double> flame{FlameShape::kCubic, slope, 0.7, 0.0};
+    const double expected = 3.0 * std::sqrt(1.0 - 1.0 / loop_gain) * 0.7 / std::abs(slope) / w;
+    const auto amplitude = PressureAmplitude(model, flame, e.frequency_hz);
+    ASSERT_TRUE(amplitude.has_value()) << loop_gain;
+    EXPECT_NEAR(*amplitude, expected, 2e-3 * expected) << loop_gain;
+  }
+  const Flame<double> weak{FlameShape::kCubic, -0.9 / (e.gain * w), 0.7, 0.0};
+  EXPECT_FALSE(PressureAmplitude(model, weak, e.frequency_hz).has_value());
+}
+
+TEST(PredictSampledTest, TheThreadsDoNotMatter) {
+  const FamilyProblem problem{.experiments = R228()};
+  const std::vector<Member> members = EnumerateMembers(problem, 200, 1, 1).members;
+  const auto predictor = [](std::span<const LoopModel> m) -> std::optional<double> {
+    if (m[0].xi < 0.1) return std::nullopt;
+    return m[0].xi * m[5].N;
+  };
+  const Prediction one = PredictSampled("x", members, predictor, 1);
+  const Prediction four = PredictSampled("x", members, predictor, 4);
+  EXPECT_LT(one.members, members.size());
+  EXPECT_EQ(one.members, four.members);
+  EXPECT_EQ(one.interval.lo, four.interval.lo);
+  EXPECT_EQ(one.interval.hi, four.interval.hi);
+  EXPECT_EQ(one.central_90.lo, four.central_90.lo);
+  EXPECT_EQ(one.central_90.hi, four.central_90.hi);
 }
 
 // Truth by hand: predictions uniform on [0, 1] with std s << 1 leave about 4 s of the family inside

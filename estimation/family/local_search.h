@@ -1,0 +1,70 @@
+// Local searches over the family: from a start to a member, and from a member to the farthest that a
+// quantity reaches within the family.
+//
+// Interior-point steps (logarithmic barrier, Gauss-Newton curvature) in the coordinates in which most
+// conditions of the test are bounds: ln xi, and the errors of phase, gain and loop phase, each in
+// units of its tolerance; with a second mode of each experiment's own ln omega as well; the shared
+// second mode counts once. Every iterate keeps the hard conditions strictly, so that what is found
+// is a member. A local search proves nothing: it makes `inner` wide, never `outer` tight.
+#ifndef HOWL_ESTIMATION_FAMILY_LOCAL_SEARCH_H_
+#define HOWL_ESTIMATION_FAMILY_LOCAL_SEARCH_H_
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "estimation/family/problem.h"
+
+namespace howl {
+
+// A smooth quantity of a member, and the experiments that it depends on.
+struct MemberQuantity {
+  std::function<double(std::span<const LoopModel>)> value;
+  std::vector<std::size_t> experiments;
+};
+
+// A model, and how far it uses the conditions that were minimised: the largest error over its
+// tolerance. At most one: a member.
+struct Approach {
+  Member member;
+  double violation = 0.0;
+  bool converged = false;
+};
+
+class LocalSearch {
+ public:
+  explicit LocalSearch(const FamilyProblem& problem);
+  ~LocalSearch();
+  LocalSearch(const LocalSearch&) = delete;
+  LocalSearch& operator=(const LocalSearch&) = delete;
+
+  // False where omega, xi, N or tau is shared, or omega_spread_max is zero.
+  bool IsSupported() const;
+
+  // Minimises the largest violation of all conditions until it is below `enough`. Nothing where the
+  // start is no model of the kind (a second mode that no omega goes with).
+  std::optional<Approach> FindMember(const Member& start, double enough = 0.97) const;
+
+  // Minimises the largest violation of the conditions in `soft` among the models that keep the
+  // others, `start` being one. With a quantity, among those where it has the value `at`.
+  std::optional<Approach> Minimise(const Member& start, const ConditionSet& soft,
+                                   const MemberQuantity* quantity = nullptr, double at = 0.0) const;
+
+  // The member with the largest sign * quantity that the search reaches from `start`, a member;
+  // `scale`: a typical range of the quantity. Nothing where it found none.
+  std::optional<Member> Farthest(const Member& start, const MemberQuantity& quantity, double sign,
+                                 double scale) const;
+
+  // A model for each experiment from the centre of its transfer and the characteristics, to start
+  // from; nothing where an experiment has no transfer, or no such model.
+  std::optional<Member> FromTransfer() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_FAMILY_LOCAL_SEARCH_H_
