@@ -121,7 +121,8 @@ Command DiagnoseCommand() {
           "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
           "cannot tell from it, the place, the gap before and after, and every candidate.",
           {},
-          Run};
+          Run,
+          true};
 }
 
 }  // namespace howl

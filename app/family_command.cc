@@ -52,7 +52,8 @@ Command FamilyCommand() {
       {{"--falsify", "OTHER.yaml", "which members survive the experiments of another config"},
        {"--advise", "", "which further measurement would remove most of the family"},
        {"--save-every", "SECONDS", "how often the search for bounds saves its state (default: 2)"}},
-      Run};
+      Run,
+      true};
 }
 
 }  // namespace howl
