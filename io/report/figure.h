@@ -19,8 +19,8 @@ struct Figure {
   std::string seed;     // the seed's figure that it answers to: "7"; empty where there is none
   std::string csv;
   std::string script;  // gnuplot commands; io/report/script.h puts the common ones before them
-  int width = 720;     // in points of the page
-  int height = 420;
+  int width = 560;     // in points of the page
+  int height = 360;
 };
 
 }  // namespace howl

@@ -1,23 +1,16 @@
 #include "io/report/page_tables.h"
 
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "io/report/figures/curves.h"
 #include "io/report/page.h"
+#include "io/report/script.h"
 
 namespace howl {
 namespace {
 
-std::string Text(double value, int digits = 5) {
-  if (!std::isfinite(value)) return "–";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  std::string out = text;
-  if (!out.empty() && out[0] == '-') out = "−" + out.substr(1);
-  return out;
-}
+std::string Text(double value, int digits = 5) { return Spelled(value, digits); }
 
 std::string WithInterval(const Estimate& estimate, double scale = 1.0) {
   if (!std::isfinite(estimate.value)) return "–";

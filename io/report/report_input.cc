@@ -109,6 +109,8 @@ MeasuredPoint Published(const Experiment& experiment) {
   if (experiment.flame_slope) {
     point.flame_slope = {*experiment.flame_slope, experiment.flame_slope_std.value_or(kNotANumber)};
     point.loop_gain = LoopGainFromSlope(point.gain, point.frequency_hz, point.flame_slope);
+    // An error that is not known is not zero.
+    if (!experiment.flame_slope_std || !experiment.gain_std) point.loop_gain.std = kNotANumber;
   }
   return point;
 }

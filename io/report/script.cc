@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace howl {
 namespace {
@@ -49,6 +50,23 @@ std::string Number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
+}
+
+std::string Spelled(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  const std::string plain = text;
+  const std::size_t power = plain.find('e');
+  std::string out = plain.substr(0, power);
+  if (out.front() == '-') out = "−" + out.substr(1);
+  if (power == std::string::npos) return out;
+  static constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const int exponent = std::atoi(plain.c_str() + power + 1);
+  out += " · 10";
+  if (exponent < 0) out += "⁻";
+  for (const char digit : std::to_string(std::abs(exponent))) out += kRaised[digit - '0'];
+  return out;
 }
 
 std::string WholeScript(const Figure& figure) {

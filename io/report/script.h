@@ -33,6 +33,9 @@ std::string Quoted(std::string_view text);
 // "1.2345": as many digits as a plot needs.
 std::string Number(double value);
 
+// The same for a reader: a true minus sign, powers of ten as such.
+std::string Spelled(double value, int digits = 4);
+
 // A script being written, line by line.
 class Script {
  public:

@@ -105,7 +105,7 @@ std::optional<Figure> BifurcationFigure(const ReportInput& input) {
       .Line("set ylabel 'amplitude of p (units of the record)'")
       .Line("set xrange [0.5:" + Number(highest) + "]")
       .Line("set yrange [0:*]")
-      .Line("set key top left");
+      .Line("set key outside top center horizontal maxcols 2");
   if (std::isfinite(reference->loop_gain.value)) {
     const std::string x = Number(reference->loop_gain.value);
     script.Line("set arrow from " + x + ", graph 0 to " + x +

@@ -1,5 +1,5 @@
 // Figure 9 of the seed: Bode's diagrams of G, one for each experiment, with the measured points.
-// The curves are the joint fit's, and where the family was listed its range over members.
+// The curves are the joint fit's and one member's of the family.
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +12,6 @@ namespace howl {
 namespace {
 
 constexpr int kGridPoints = 120;
-constexpr std::size_t kRangeMembers = 400;
-constexpr std::size_t kMostRanges = 6;  // more would cover each other
 
 }  // namespace
 
@@ -30,48 +28,42 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
     high = std::max(high, point->frequency_hz.value);
   }
   const std::vector<double> grid = LinearGrid(0.6 * low, 1.5 * high, kGridPoints);
-  const bool with_range = input.members.has_value() && points.size() <= kMostRanges;
-  CsvWriter csv("curve,frequency_hz,gain,phase_deg,gain_lo,gain_hi,phase_lo_deg,phase_hi_deg");
-  for (const MeasuredPoint* point : points) {
-    const LoopModel& model = input.Fitted(point->name)->model;
-    const int experiment = with_range ? input.members->Experiment(point->name) : -1;
-    const auto range_members =
-        experiment >= 0 ? input.members->Thinned(kRangeMembers) : std::vector<std::size_t>{};
+  // Beside the fit, the member whose omega varies least: the seed's first qualitative condition.
+  std::optional<std::size_t> steady;
+  if (input.members) steady = input.members->Thinned(2).front();
+  CsvWriter csv("curve,frequency_hz,gain,phase_deg");
+  const auto add = [&](const std::string& curve, const LoopModel& model) {
     for (const double frequency : grid) {
       const std::complex<double> value = AcousticsAt(model, frequency);
-      double bounds[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-      for (const std::size_t member : range_members) {
-        const std::complex<double> other = AcousticsAt(
-            input.members->models[member][static_cast<std::size_t>(experiment)], frequency);
-        bounds[0] = std::min(bounds[0], std::abs(other));
-        bounds[1] = std::max(bounds[1], std::abs(other));
-        bounds[2] = std::min(bounds[2], PhaseDeg(other));
-        bounds[3] = std::max(bounds[3], PhaseDeg(other));
-      }
-      csv.Cell(point->name).Cell(frequency).Cell(std::abs(value)).Cell(PhaseDeg(value));
-      for (const double bound : bounds) csv.Cell(bound);
-      csv.EndRow();
+      csv.Cell(curve).Cell(frequency).Cell(std::abs(value)).Cell(PhaseDeg(value)).EndRow();
+    }
+  };
+  for (const MeasuredPoint* point : points) {
+    add(point->name, input.Fitted(point->name)->model);
+    const int experiment = steady ? input.members->Experiment(point->name) : -1;
+    if (experiment >= 0) {
+      add("member " + point->name,
+          input.members->models[*steady][static_cast<std::size_t>(experiment)]);
     }
   }
   for (const MeasuredPoint* point : points) {
     csv.Cell("measured " + point->name).Cell(point->frequency_hz.value).Cell(point->gain.value);
-    csv.Cell(point->phase_deg.value);
-    for (int k = 0; k < 4; ++k) csv.Cell(NAN);
-    csv.EndRow();
+    csv.Cell(point->phase_deg.value).EndRow();
   }
   Figure figure;
   figure.name = "bode_all";
   figure.seed = "9";
   figure.title = "Acoustics G at every operating point";
-  figure.caption = "Lines: the joint fit, one choice among many" +
-                   std::string(with_range ? "; shaded: the range over the family's members" : "") +
+  figure.caption = "Solid: the joint fit, one choice among many" +
+                   (steady ? "; dashed: member " + std::to_string(*steady + 1) +
+                                 " of the family, whose ω varies least"
+                           : std::string()) +
                    "; stars: measured at the limit cycle.";
   figure.csv = csv.Text();
-  figure.height = 560;
+  figure.height = 460;
   Script script;
   script.Line("set xrange [" + Number(grid.front()) + ":" + Number(grid.back()) + "]")
-      .Line("set multiplot layout 2,1 margins 0.12,0.80,0.11,0.97 spacing 0,0.06")
-      .Line("set style fill transparent solid 0.10 noborder");
+      .Line("set multiplot layout 2,1 margins 0.14,0.78,0.15,0.97 spacing 0,0.06");
   for (const bool phase : {false, true}) {
     const std::string column = phase ? "4" : "3";
     if (phase) {
@@ -82,13 +74,12 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
       script.Line("set ylabel '|G| (units of p per q)' offset 1");
       script.Line("set key at screen 0.99, screen 0.97");
     }
-    const std::string bounds = phase ? ":7:8" : ":5:6";
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::string colour = SeriesColour(i, points.size());
       const std::string name = points[i]->name;
-      if (with_range) {
-        script.Plot("data using (pick(" + Quoted(name) + ",2))" + bounds +
-                    " with filledcurves linecolor rgb '" + colour + "' notitle");
+      if (steady) {
+        script.Plot("data using (pick(" + Quoted("member " + name) + ",2)):" + column +
+                    " with lines linewidth 0.9 dashtype 2 linecolor rgb '" + colour + "' notitle");
       }
       script.Plot("data using (pick(" + Quoted(name) + ",2)):" + column +
                   " with lines linewidth 1.3 linecolor rgb '" + colour + "' title " + Quoted(name));

@@ -51,11 +51,11 @@ std::optional<Figure> FamilyBodeFigure(const ReportInput& input) {
                    " members: all pass through the measured point (star), where alone the limit "
                    "cycle shows the acoustics.";
   figure.csv = csv.Text();
-  figure.height = 520;
+  figure.height = 440;
   Script script;
   script.Line("set logscale x")
       .Line("set xrange [" + Number(grid.front()) + ":" + Number(grid.back()) + "]")
-      .Line("set multiplot layout 2,1 margins 0.12,0.98,0.12,0.97 spacing 0,0.06");
+      .Line("set multiplot layout 2,1 margins 0.14,0.96,0.15,0.97 spacing 0,0.06");
   for (const bool phase : {false, true}) {
     const std::string column = phase ? "4" : "3";
     if (phase) {

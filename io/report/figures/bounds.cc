@@ -20,6 +20,16 @@ constexpr Panel kPanels[] = {{"omega_hz", "ω (Hz)", 1.0},      {"xi", "ξ", 1.0
                              {"N", "N (10³ p/q rad/s)", 1e-3}, {"M", "M (10³ p/q rad/s)", 1e-3},
                              {"tau_s", "τ (ms)", 1e3},         {"loop_gain", "loop gain", 1.0}};
 
+// A round step that puts four or five ticks on the range.
+double TickStep(double range) {
+  const double raw = range / 4.0;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * power >= raw) return step * power;
+  }
+  return 10.0 * power;
+}
+
 double Fitted(const ReportInput& input, const std::string& experiment, const std::string& key) {
   const ExperimentModel* fit = input.Fitted(experiment);
   if (fit == nullptr) return NAN;
@@ -47,8 +57,11 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
   }
   CsvWriter csv("curve,row,outer_lo,outer_hi,inner_lo,inner_hi,fit,experiment");
   std::vector<const Panel*> panels;
+  std::vector<double> steps;
   for (const Panel& panel : kPanels) {
     bool any = false;
+    double low = INFINITY;
+    double high = -INFINITY;
     for (std::size_t i = 0; i < experiments.size(); ++i) {
       if (!bounds.contains(experiments[i]) || !bounds[experiments[i]].contains(panel.key)) continue;
       const auto& each = bounds[experiments[i]][panel.key];
@@ -59,16 +72,20 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
       };
       if (std::isnan(end("outer", 0))) continue;
       any = any || end("outer", 1) > 0.0;
+      low = std::min(low, end("outer", 0));
+      high = std::max(high, end("outer", 1));
       csv.Cell(panel.key).Cell(static_cast<double>(i + 1));
       csv.Cell(end("outer", 0)).Cell(end("outer", 1)).Cell(end("inner", 0)).Cell(end("inner", 1));
       csv.Cell(panel.scale * Fitted(input, experiments[i], panel.key)).Cell(experiments[i]);
       csv.EndRow();
     }
-    if (any) panels.push_back(&panel);
+    if (!any) continue;
+    panels.push_back(&panel);
+    steps.push_back(TickStep(std::max(high - low, 1e-9)));
   }
   if (panels.empty()) return std::nullopt;
   const auto count = static_cast<double>(experiments.size());
-  const int rows = static_cast<int>((panels.size() + 1) / 2);
+  const int rows = static_cast<int>((panels.size() + 2) / 3);
   Figure figure;
   figure.name = "bounds";
   figure.title = "Guaranteed bounds of the family";
@@ -77,6 +94,7 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
       "of "
       "the dark ones. Crosses: the joint fit.";
   figure.csv = csv.Text();
+  figure.width = 900;
   figure.height = static_cast<int>(rows * (70.0 + 20.0 * count) + 20);
   Script script;
   std::string names;
@@ -84,15 +102,16 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
     names += (i == 0 ? "" : ", ") + Quoted(experiments[i]) + " " + std::to_string(i + 1);
   }
   script
-      .Line("set multiplot layout " + std::to_string(rows) + ",2 margins 0.09,0.97," +
+      .Line("set multiplot layout " + std::to_string(rows) + ",3 margins 0.07,0.98," +
             Number(50.0 / figure.height) + "," + Number(1.0 - 12.0 / figure.height) +
-            " spacing 0.10," + Number(58.0 / figure.height))
+            " spacing 0.07," + Number(58.0 / figure.height))
       .Line("unset key")
       .Line("set ytics noenhanced (" + names + ")")
       .Line("set yrange [" + Number(count + 0.6) + ":0.4]")
-      .Line("set xtics autofreq")
       .Line("set style fill solid noborder");
-  for (const Panel* panel : panels) {
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const Panel* panel = panels[i];
+    script.Line("set xtics " + Number(steps[i]));
     const std::string pick = "(pick('" + std::string(panel->key) + "',";
     script.Line("set xlabel '" + std::string(panel->label) + "' offset 0,0.4");
     script.Line("set offsets graph 0.03, graph 0.03, 0, 0");
@@ -103,7 +122,7 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
                 "5)):2:5:6:($2-0.22):($2+0.22) with boxxyerror linecolor rgb '" +
                 std::string(colour::kBlue) + "'");
     script.Plot("data using " + pick +
-                "7)):2 with points pointtype 2 pointsize 0.7 linewidth 1.6 "
+                "7)):2 with points pointtype 2 pointsize 0.9 linewidth 2 "
                 "linecolor rgb '" +
                 std::string(colour::kOrange) + "'");
     script.EndPlot();

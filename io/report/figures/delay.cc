@@ -19,7 +19,7 @@ std::optional<Figure> DelayFigure(const ReportInput& input) {
     const double half = HalfWidth95(point.tau_s);
     any_interval = any_interval || std::isfinite(half);
     any_unreliable = any_unreliable || !point.reliable;
-    csv.Cell(point.reliable ? "delay" : "delay, not stationary").Cell(point.phi);
+    csv.Cell(point.reliable ? "delay" : "delay (not stationary)").Cell(point.phi);
     csv.Cell(1e3 * point.tau_s.value).Cell(1e3 * (point.tau_s.value - half));
     csv.Cell(1e3 * (point.tau_s.value + half)).Cell(point.name).EndRow();
     csv.Cell("period").Cell(point.phi).Cell(1e3 / point.frequency_hz.value).Cell(NAN).Cell(NAN);
@@ -55,13 +55,13 @@ std::optional<Figure> DelayFigure(const ReportInput& input) {
   Script script;
   script.Line("set xlabel " + Quoted(input.OperatingLabel()))
       .Line("set ylabel 'ms'")
-      .Line("set key outside right top")
+      .Line("set key outside top center horizontal maxcols 3")
       .Line("set offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08");
   if (has_bounds) {
     script.Plot(
-        "data using (pick('family',2)):4:4:5:5 with candlesticks fill solid 0.35 border "
-        "linewidth 4 linecolor rgb '" +
-        std::string(colour::kSky) + "' title 'τ, family (outer)'");
+        "data using (pick('family',2)):4:(0):($5-$4) with vectors nohead linewidth 13 "
+        "linecolor rgb '" +
+        std::string(colour::kSky) + "' title 'τ, family'");
   }
   script.Plot(
       "data using (pick('period',2)):3 with linespoints pointtype 4 pointsize 0.7 "
@@ -72,25 +72,25 @@ std::optional<Figure> DelayFigure(const ReportInput& input) {
       std::string(colour::kBlue) + "' title 'τ measured'");
   if (any_interval) {
     script.Plot(
-        "data using (pick('delay',2)):3:4:5 with yerrorbars pointtype 7 pointsize 0.01 "
+        "data using (pick('delay',2)):3:4:5 with yerrorbars pointtype 0 "
         "linecolor rgb '" +
         std::string(colour::kBlue) + "' notitle");
   }
   if (any_unreliable) {
     script.Plot(
-        "data using (pick('delay, not stationary',2)):3 with points pointtype 6 "
+        "data using (pick('delay (not stationary)',2)):3 with points pointtype 6 "
         "pointsize 0.9 linecolor rgb '" +
         std::string(colour::kBlue) + "' title 'τ, not stationary'");
     if (any_interval) {
       script.Plot(
-          "data using (pick('delay, not stationary',2)):3:4:5 with yerrorbars pointtype 7 "
-          "pointsize 0.01 linecolor rgb '" +
+          "data using (pick('delay (not stationary)',2)):3:4:5 with yerrorbars pointtype 0 "
+          " linecolor rgb '" +
           std::string(colour::kBlue) + "' notitle");
     }
   }
   if (!input.fitted.empty()) {
     script.Plot(
-        "data using (pick('fit',2)):3 with points pointtype 2 pointsize 0.9 linewidth 1.5 "
+        "data using (pick('fit',2)):3 with points pointtype 2 pointsize 0.8 linewidth 1.5 "
         "linecolor rgb '" +
         std::string(colour::kVermillion) + "' title 'τ of the fit'");
   }

@@ -54,8 +54,9 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
   figure.caption =
       "Heat release against the delayed derivative of pressure, (4) with the fundamental alone; "
       "the characteristic is the mean of q in bins. Slope at zero " +
-      Number(curve.slope.value) +
-      (std::isfinite(curve.slope.std) ? " ± " + Number(HalfWidth95(curve.slope)) + " (95 %)" : "") +
+      Spelled(curve.slope.value) +
+      (std::isfinite(curve.slope.std) ? " ± " + Spelled(HalfWidth95(curve.slope), 2) + " (95 %)"
+                                      : "") +
       "." + (shown->simulated ? " Simulated: no measured record is at hand." : "");
   figure.csv = csv.Text();
   Script script;

@@ -33,6 +33,8 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
   }
   top *= 1.15;
   bool any_line = false;
+  double line_sum_hz = 0.0;
+  int line_count = 0;
   for (const MeasuredLine& line : input.lines) {
     if (line.harmonic != 0 || line.frequency_hz.value > top) continue;
     const double half = std::isfinite(line.frequency_hz.std) ? HalfWidth95(line.frequency_hz) : 0.0;
@@ -40,8 +42,12 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
     csv.Cell(line.frequency_hz.value - half).Cell(line.frequency_hz.value + half);
     csv.Cell(line.experiment).EndRow();
     any_line = true;
+    line_sum_hz += line.frequency_hz.value;
+    ++line_count;
   }
-  // The loop's further phase crossings, nearest above the fundamental's, with the largest gain.
+  const double mean_line_hz = line_sum_hz / std::max(line_count, 1);
+  // Of the loop's further phase crossings the one nearest to the observed lines, or without any the
+  // one with the largest gain.
   bool any_crossing = false;
   for (const MeasuredPoint* point : points) {
     const ExperimentModel* fit = input.Fitted(point->name);
@@ -51,7 +57,14 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
         PhaseCrossings(fit->model.Loop(), SimulatedSlope(input, *point, fit->model), top);
     for (const PhaseCrossing& crossing : crossings) {
       if (crossing.frequency_hz < 1.5 * point->frequency_hz.value) continue;
-      if (best == nullptr || crossing.gain > best->gain) best = &crossing;
+      const auto better = [&] {
+        if (any_line) {
+          return std::abs(crossing.frequency_hz - mean_line_hz) <
+                 std::abs(best->frequency_hz - mean_line_hz);
+        }
+        return crossing.gain > best->gain;
+      };
+      if (best == nullptr || better()) best = &crossing;
     }
     if (best == nullptr) continue;
     csv.Cell("second crossing").Cell(point->phi).Cell(best->frequency_hz).Cell(NAN).Cell(NAN);
@@ -74,7 +87,7 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
       .Line("set ylabel 'frequency (Hz)'")
       .Line("set yrange [0:" + Number(top) + "]")
       .Line("set offsets graph 0.04, graph 0.04, 0, 0")
-      .Line("set key outside right top");
+      .Line("set key outside top center horizontal maxcols 4");
   for (int harmonic = kHarmonics; harmonic >= 1; --harmonic) {
     script.Plot("data using (pick('harmonic " + std::to_string(harmonic) +
                 "',2)):3 with linespoints pointsize 0.6 linewidth 1 pointtype " +
@@ -88,8 +101,8 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
         "linewidth 1.4 linecolor rgb '" +
         std::string(colour::kVermillion) + "' title 'non-harmonic'");
     script.Plot(
-        "data using (pick('non-harmonic',2)):3:4:5 with yerrorbars pointtype 7 pointsize "
-        "0.01 linecolor rgb '" +
+        "data using (pick('non-harmonic',2)):3:4:5 with yerrorbars pointtype 0"
+        " linecolor rgb '" +
         std::string(colour::kVermillion) + "' notitle");
   }
   if (any_crossing) {

@@ -72,8 +72,8 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
     figure.caption +=
         " A straight line through the stationary experiments reaches one at " +
         Number(vanishing.phi) +
-        " (95 %: " + (std::isfinite(vanishing.lo) ? Number(vanishing.lo) : "no lower limit") +
-        " to " + (std::isfinite(vanishing.hi) ? Number(vanishing.hi) : "no upper limit") +
+        " (95 %: " + (std::isfinite(vanishing.lo) ? Spelled(vanishing.lo) : "no lower limit") +
+        " to " + (std::isfinite(vanishing.hi) ? Spelled(vanishing.hi) : "no upper limit") +
         "; cut at the edges of the figure).";
   }
   figure.csv = csv.Text();
@@ -82,7 +82,7 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
       .Line("set ylabel 'loop gain |L Φ′(0)|'")
       .Line("set xrange [" + Number(left) + ":" + Number(right) + "]")
       .Line("set offsets 0, 0, graph 0.12, graph 0.08")
-      .Line("set key bottom left");
+      .Line("set key outside top center horizontal maxcols 2");
   script.Plot("1 with lines linewidth 1 dashtype 3 linecolor rgb '" + std::string(colour::kInk) +
               "' title 'one: the cycle vanishes'");
   if (vanishing.available) {
@@ -93,7 +93,7 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
     script.Plot(
         "data using (pick('vanishes',2)):3:4:5 with xerrorbars pointtype 9 pointsize 1 "
         "linewidth 1.3 linecolor rgb '" +
-        std::string(colour::kVermillion) + "' title 'where the line reaches one, 95 %'");
+        std::string(colour::kVermillion) + "' title 'line reaches one, 95 %'");
   }
   script.Plot(
       "data using (pick('measured',2)):3 with points pointtype 3 pointsize 1 linewidth 1.5 "
@@ -107,13 +107,13 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   }
   if (any_interval) {
     script.Plot(
-        "data using (pick('measured',2)):3:4:5 with yerrorbars pointtype 7 pointsize 0.01 "
+        "data using (pick('measured',2)):3:4:5 with yerrorbars pointtype 0 "
         "linecolor rgb '" +
         std::string(colour::kBlue) + "' notitle");
     if (any_unreliable) {
       script.Plot(
-          "data using (pick('not stationary',2)):3:4:5 with yerrorbars pointtype 7 "
-          "pointsize 0.01 linecolor rgb '" +
+          "data using (pick('not stationary',2)):3:4:5 with yerrorbars pointtype 0 "
+          " linecolor rgb '" +
           std::string(colour::kBlue) + "' notitle");
     }
   }

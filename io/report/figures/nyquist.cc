@@ -1,6 +1,8 @@
 // Figure 12 of the seed: Nyquist's curve of the loop at one experiment, with its crossings of the
 // negative real axis.
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
@@ -25,8 +27,13 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   const double slope = SimulatedSlope(input, *reference, model);
   const double max_hz = 4.2 * reference->frequency_hz.value;
   CsvWriter csv("curve,re,im,frequency_hz,label");
+  double left = -1.2, right = 1.0, bottom = -1.0, top = 1.0;
   const auto add = [&](const std::string& curve, const LoopModel& loop, double step_deg) {
     for (const NyquistPoint& point : NyquistCurve(loop.Loop(), slope, max_hz, step_deg)) {
+      left = std::min(left, point.response.real());
+      right = std::max(right, point.response.real());
+      bottom = std::min(bottom, point.response.imag());
+      top = std::max(top, point.response.imag());
       csv.Cell(curve).Cell(point.response.real()).Cell(point.response.imag());
       csv.Cell(point.frequency_hz).Cell("").EndRow();
     }
@@ -42,9 +49,15 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   }
   add("fit", model, 2.0);
   std::string told;
-  for (const PhaseCrossing& crossing : PhaseCrossings(model.Loop(), slope, max_hz)) {
-    if (crossing.gain < kMinGain) continue;
-    csv.Cell("crossing").Cell(-crossing.gain).Cell(0.0).Cell(crossing.frequency_hz);
+  int named = 0;
+  std::vector<PhaseCrossing> crossings = PhaseCrossings(model.Loop(), slope, max_hz);
+  std::erase_if(crossings, [](const PhaseCrossing& each) { return each.gain < kMinGain; });
+  std::ranges::sort(crossings, std::greater<>(), &PhaseCrossing::gain);
+  for (const PhaseCrossing& crossing : crossings) {
+    csv.Cell(++named % 2 == 1 ? "crossing" : "crossing below")
+        .Cell(-crossing.gain)
+        .Cell(0.0)
+        .Cell(crossing.frequency_hz);
     csv.Cell(Number(std::round(crossing.frequency_hz * 10.0) / 10.0) + " Hz").EndRow();
     char text[64];
     std::snprintf(text, sizeof text, "%s%.1f Hz (%.3f)", told.empty() ? "" : ", ",
@@ -65,16 +78,18 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
                               : " The flame slope is not known: it is the one that simulate "
                                 "takes.");
   figure.csv = csv.Text();
-  figure.width = 640;
-  figure.height = 560;
+  figure.height = 520;
   Script script;
   script.Line("set size ratio -1")
       .Line("set xlabel 'real part of |Φ′(0)| L'")
       .Line("set ylabel 'imaginary part of |Φ′(0)| L'")
       .Line("set xzeroaxis linewidth 0.8 linecolor rgb '" + std::string(colour::kInk) + "'")
       .Line("set yzeroaxis linewidth 0.8 linecolor rgb '" + std::string(colour::kInk) + "'")
-      .Line("set offsets graph 0.08, graph 0.05, graph 0.05, graph 0.05")
-      .Line("set key outside right top");
+      .Line("set xrange [" + Number(left - 0.12 * (right - left)) + ":" +
+            Number(right + 0.05 * (right - left)) + "]")
+      .Line("set yrange [" + Number(bottom - 0.05 * (top - bottom)) + ":" +
+            Number(top + 0.05 * (top - bottom)) + "]")
+      .Line("set key outside top center horizontal");
   for (std::size_t k = 0; k < drawn.size(); ++k) {
     script.Plot("data using (pick('member " + std::to_string(drawn[k] + 1) +
                 "',2)):3 with lines linewidth 0.5 linecolor rgb '" + colour::kGrey +
@@ -88,14 +103,18 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
           "linecolor rgb '" +
           std::string(colour::kInk) + "' title '−1'")
       .Plot(
-          "data using (pick('crossing',2)):3 with points pointtype 7 pointsize 0.8 linecolor rgb "
-          "'" +
-          std::string(colour::kVermillion) + "' title 'crossings'")
-      .Plot(
-          "data using (pick('crossing',2)):3:(strcol(5)) with labels noenhanced left "
-          "rotate by 40 offset 0.4,0.5 font ',11' textcolor rgb '" +
-          std::string(colour::kVermillion) + "' notitle")
-      .EndPlot();
+          "data using (strcol(1)[1:8] eq 'crossing' ? $2 : NaN):3 with points pointtype 7 "
+          "pointsize 0.8 linecolor rgb '" +
+          std::string(colour::kVermillion) + "' title 'crossings'");
+  // Names above and below the axis in turn, where neighbours would write over each other.
+  for (const bool below : {false, true}) {
+    script.Plot(
+        "data using (pick('crossing" + std::string(below ? " below" : "") +
+        "',2)):3:(strcol(5)) with labels noenhanced " +
+        (below ? "right rotate by 40 offset -0.4,-0.6" : "left rotate by 40 offset 0.4,0.6") +
+        " font ',11' textcolor rgb '" + colour::kVermillion + "' notitle");
+  }
+  script.EndPlot();
   figure.script = script.Text();
   return figure;
 }

@@ -50,7 +50,7 @@ std::optional<Figure> RecordsFigure(const ReportInput& input) {
   Script script;
   script.Line("set xrange [0:" + Number(1e3 * window_s) + "]").Line("unset key");
   if (has_q) {
-    script.Line("set multiplot layout 2,1 margins 0.11,0.98,0.13,0.97 spacing 0,0.06");
+    script.Line("set multiplot layout 2,1 margins 0.14,0.98,0.16,0.97 spacing 0,0.07");
     script.Line("set format x ''");
   } else {
     script.Line("set xlabel 'time (ms)'");

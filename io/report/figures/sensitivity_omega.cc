@@ -46,10 +46,10 @@ std::optional<Figure> OmegaSensitivityFigure(const ReportInput& input) {
       std::string(base.M > 0.0 ? "beyond the second mode" : "well above the mode") +
       " gain and phase hardly depend on it.";
   figure.csv = csv.Text();
-  figure.height = 520;
+  figure.height = 440;
   Script script;
   script.Line("set xrange [" + Number(grid.front()) + ":" + Number(grid.back()) + "]")
-      .Line("set multiplot layout 2,1 margins 0.11,0.98,0.12,0.97 spacing 0,0.06");
+      .Line("set multiplot layout 2,1 margins 0.14,0.96,0.15,0.97 spacing 0,0.06");
   for (const bool phase : {false, true}) {
     if (phase) {
       script.Line("set format x '%g'").Line("set xlabel 'frequency (Hz)'").Line("unset key");

@@ -70,7 +70,7 @@ std::optional<Figure> SpectraFigure(const ReportInput& input) {
   script.Line("set xrange [0:" + Number(max_hz) + "]").Line("unset key");
   const bool has_q = spectrum.HasHeatRelease();
   if (has_q) {
-    script.Line("set multiplot layout 2,1 margins 0.11,0.98,0.12,0.96 spacing 0,0.08");
+    script.Line("set multiplot layout 2,1 margins 0.14,0.96,0.15,0.97 spacing 0,0.09");
   }
   for (const bool heat_release : {false, true}) {
     if (heat_release && !has_q) break;
@@ -96,7 +96,7 @@ std::optional<Figure> SpectraFigure(const ReportInput& input) {
         .Plot("data using (pick('" + curve + "',2)):3 with lines linewidth 1 linecolor rgb '" +
               (heat_release ? colour::kVermillion : colour::kBlue) + "'")
         .Plot("data using (pick('" + curve +
-              " line',2)):3:(strcol(4)) with labels noenhanced offset 0,0.8 font ',10'")
+              " line',2)):3:(strcol(4)) with labels noenhanced offset 0,0.8 font ',11'")
         .EndPlot();
   }
   if (has_q) script.Line("unset multiplot");
@@ -113,7 +113,7 @@ std::optional<Figure> SpectraFigure(const ReportInput& input) {
       std::string(shown->simulated ? " Simulated: no measured record is at hand." : "");
   figure.csv = csv.Text();
   figure.script = script.Text();
-  figure.height = 520;
+  figure.height = 440;
   return figure;
 }
 

@@ -49,13 +49,17 @@ std::optional<Figure> TradeoffFigure(const ReportInput& input) {
   Figure figure;
   figure.name = "tradeoff";
   figure.title = "Trade-off between constant ω and small damping";
-  figure.caption =
-      "The smallest largest-ξ that any model has at each spread of ω over the "
-      "operating points; nothing below the line is compatible with the data" +
-      std::string(input.members ? "; dots: members of the family" : "") + ".";
+  // With two modes the curve is what a search found, not a bound.
+  const bool bound = !input.config || input.config->model.modes == 1;
+  figure.caption = std::string("The smallest largest-ξ that any model ") +
+                   (bound ? "has" : "was found to have") +
+                   " at each spread of ω over the operating points" +
+                   (bound ? "; nothing below the line is compatible with the data" : "") +
+                   (input.members ? "; dots: members of the family" : "") + ".";
   figure.csv = csv.Text();
   Script script;
   script.Line("set xlabel 'spread of ω over the operating points, max/min − 1 (%)'")
+      .Line("set key bottom left")
       .Line("set ylabel 'largest damping ratio ξ'")
       .Line("set xrange [0:" + Number(right * 1.03) + "]")
       .Line("set yrange [0:" + Number(top * 1.05) + "]");
