@@ -105,7 +105,8 @@ std::string WholeScript(const Figure& figure) {
          "set grid linetype 1 linewidth 0.4 linecolor rgb '#c8c8c8'\n"
          "set key top right reverse Left samplen 1.5 spacing 1.1 noenhanced\n"
          "set style fill transparent solid 0.25 noborder\n"
-         "set bars small\n\n" +
+         "set bars small\n"
+         "set pointintervalbox 0\n\n" +
          figure.script;
 }
 

@@ -27,13 +27,14 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   const double slope = SimulatedSlope(input, *reference, model);
   const double max_hz = 4.2 * reference->frequency_hz.value;
   CsvWriter csv("curve,re,im,frequency_hz,label");
+  // Of the fit: members that run far away leave the picture.
   double left = -1.2, right = 1.0, bottom = -1.0, top = 1.0;
   const auto add = [&](const std::string& curve, const LoopModel& loop, double step_deg) {
     for (const NyquistPoint& point : NyquistCurve(loop.Loop(), slope, max_hz, step_deg)) {
-      left = std::min(left, point.response.real());
-      right = std::max(right, point.response.real());
-      bottom = std::min(bottom, point.response.imag());
-      top = std::max(top, point.response.imag());
+      if (curve == "fit") left = std::min(left, point.response.real());
+      if (curve == "fit") right = std::max(right, point.response.real());
+      if (curve == "fit") bottom = std::min(bottom, point.response.imag());
+      if (curve == "fit") top = std::max(top, point.response.imag());
       csv.Cell(curve).Cell(point.response.real()).Cell(point.response.imag());
       csv.Cell(point.frequency_hz).Cell("").EndRow();
     }

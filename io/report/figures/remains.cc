@@ -1,4 +1,5 @@
 // What is left of the gap: before, with the best effect, and the floor that a right model leaves.
+#include <algorithm>
 #include <cmath>
 
 #include "io/report/figures/catalogue.h"
@@ -22,10 +23,12 @@ std::optional<Figure> RemainsFigure(const ReportInput& input) {
                       {"floor", "floor: a right model", colour::kGrey}};
   std::string names;
   int count = 0;
+  double widest = 1e-3;
   for (const Bar& bar : bars) {
     const double value = NumberAt(gap, bar.key);
     if (!std::isfinite(value)) continue;
     ++count;
+    widest = std::max(widest, value);
     csv.Cell(bar.key).Cell(value).Cell(static_cast<double>(count)).EndRow();
     names += (count == 1 ? "" : ", ") + Quoted(bar.label) + " " + std::to_string(count);
   }
@@ -42,7 +45,7 @@ std::optional<Figure> RemainsFigure(const ReportInput& input) {
   script.Line("unset key")
       .Line("set xlabel 'gap (1: as much again as the noise)'")
       .Line("set lmargin 24")
-      .Line("set xrange [0:*]")
+      .Line("set xrange [0:" + Number(1.2 * widest) + "]")
       .Line("set ytics (" + names + ")")
       .Line("set yrange [" + Number(count + 0.6) + ":0.4]")
       .Line("set style fill solid noborder");
@@ -55,7 +58,6 @@ std::optional<Figure> RemainsFigure(const ReportInput& input) {
                 "',2)):3:(sprintf('%.3f',$2)) with labels left offset 0.6,0");
   }
   script.EndPlot();
-  script.Line("");
   figure.script = script.Text();
   return figure;
 }

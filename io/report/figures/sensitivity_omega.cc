@@ -56,7 +56,9 @@ std::optional<Figure> OmegaSensitivityFigure(const ReportInput& input) {
       script.Line("set ylabel 'phase (degrees)' offset 1").Line("set yrange [0:185]");
       script.Line("set ytics 45");
     } else {
-      script.Line("set format x ''").Line("set ylabel '|s G| (dB)' offset 1");
+      script.Line("set key bottom right")
+          .Line("set format x ''")
+          .Line("set ylabel '|s G| (dB)' offset 1");
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
       script.Plot("data using (pick(" + Quoted(names[i]) + ",2)):" + (phase ? "4" : "3") +

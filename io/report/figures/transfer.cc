@@ -96,7 +96,7 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
   Script script;
   script.Line("set logscale x")
       .Line("set xrange [" + Number(0.9 * low) + ":" + Number(1.1 * high) + "]")
-      .Line("set multiplot layout 2," + columns + " margins 0.08,0.98,0.11,0.87 spacing 0.06,0.05");
+      .Line("set multiplot layout 2," + columns + " margins 0.08,0.98,0.11,0.80 spacing 0.06,0.05");
   for (const bool phase : {false, true}) {
     if (phase) {
       script.Line("unset logscale y").Line("set format y '%g'").Line("set format x '%g'");
@@ -104,7 +104,7 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
       script.Line("set yrange [-180:180]").Line("set ytics 90");
     } else {
       script.Line("set logscale y").Line("set format y '%g'").Line("set format x ''");
-      script.Line("set key at screen 0.98, screen 0.985 horizontal maxrows 1");
+      script.Line("set key at screen 0.98, screen 0.99");
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (i == 0) {
