@@ -453,6 +453,8 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
       }
     }
   }
+  out.map =
+      GapMap(records, at.base_held_out, top ? &top->held_out : nullptr, flame_noise, !count_lines);
   const Slack slack_after = ComputeSlack(records, best);
   out.slack_acoustic_after = slack_after.acoustic_excess;
   out.slack_flame_after = slack_after.flame_excess;

@@ -9,7 +9,8 @@
   const kParameters = 5;  // omega_hz, xi, N, M, tau_s
   const count = data.experiments.length;
   const values = floats(data.parameters);
-  const colours = { member: "#D55E00", fit: "#0072B2", data: "#009E73", other: "#8c8c8c" };
+  const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const colours = { member: "#D55E00", fit: () => css("--blue"), data: "#009E73", other: "#8c8c8c" };
   let experiment = Math.max(0, data.experiments.findIndex((e) => e.frequency_hz && e.reliable));
   let member = 0;
 
@@ -202,7 +203,6 @@
 
   // Plots.
 
-  const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const axis = (label, more) => ({
     label, stroke: () => css("--ink"), labelSize: 22, font: "12px sans-serif",
     labelFont: "12px sans-serif", grid: { stroke: () => css("--line"), width: 1 },
@@ -303,14 +303,14 @@
   };
   const empty = [[1, 10], [1, 1], [1, 1], [null, null], [null, null]];
   const gain = make("plot-gain", {
-    scales: { x: { time: false, distr: 3 }, y: { distr: 3 } },
+    scales: { x: { time: false, distr: 3, range: (u, lo, hi) => [lo, hi] }, y: { distr: 3 } },
     cursor: { drag: { x: false, y: false } },
     axes: [bodeAxis, axis("|G| (p per q)", { size: 64,
         filter: (u, splits) => splits.map((v) => /^[1]/.test(v.toExponential()) ? v : null) })],
     series: bodeSeries()
   }, empty);
   const phase = make("plot-phase", {
-    scales: { x: { time: false, distr: 3 }, y: { range: [-185, 185] } },
+    scales: { x: { time: false, distr: 3, range: (u, lo, hi) => [lo, hi] }, y: { range: [-185, 185] } },
     cursor: { drag: { x: false, y: false } },
     axes: [bodeAxis, axis("phase (degrees)", { size: 60, splits: () => [-180, -90, 0, 90, 180] })],
     series: bodeSeries()

@@ -156,15 +156,6 @@ std::string InlineSvg(const std::string& svg, const std::string& name, const std
   ReplaceAll(out, "id=\"", "id=\"" + name + "_");
   ReplaceAll(out, "href='#", "href='#" + name + "_");
   ReplaceAll(out, "url(#", "url(#" + name + "_");
-  for (const char* black : {"rgb(  0,   0,   0)", "rgb(0, 0, 0)", "rgb(0,0,0)"}) {
-    ReplaceAll(out, black, "currentColor");
-  }
-  for (const char* quote : {"'", "\""}) {
-    const std::string q(quote);
-    ReplaceAll(out, "stroke=" + q + "black" + q, "stroke=" + q + "currentColor" + q);
-    ReplaceAll(out, "fill=" + q + "black" + q, "fill=" + q + "currentColor" + q);
-    ReplaceAll(out, "fill=" + q + "#ffffff" + q, "fill=" + q + "none" + q);
-  }
   ReplaceAll(out, "<svg", "<svg role=\"img\" aria-label=\"" + title + "\"");
   const std::size_t own_title = out.find("<title>");
   const std::size_t end = out.find("</title>");

@@ -19,8 +19,8 @@ std::map<std::string, std::string> RenderFigures(
     std::vector<std::string>& missing,
     const std::function<void(std::size_t, std::size_t)>& progress);
 
-// An SVG of gnuplot's made fit to stand inside a page: no XML head, ids of its own, ink and paper
-// in the page's colours.
+// An SVG of gnuplot's made fit to stand inside a page: no XML head and ids of its own. The
+// page's style gives ink and grid the page's colours.
 std::string InlineSvg(const std::string& svg, const std::string& name, const std::string& title);
 
 }  // namespace howl

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::array kFew = {colour::kBlue,   colour::kVermillion, colour::kGreen, colour::kPurple,
                              colour::kOrange, colour::kSky,        colour::kInk};
-// Viridis, without its palest end.
+// Much as viridis, without the ends that vanish on a dark or a light page.
 constexpr std::array<std::array<int, 3>, 5> kScale = {
-    {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {190, 210, 40}}};
+    {{75, 90, 160}, {44, 113, 142}, {33, 145, 140}, {70, 180, 110}, {160, 200, 50}}};
 constexpr std::array kPoints = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
 constexpr double kPixelsPerInch = 100.0;
 
@@ -104,9 +104,7 @@ std::string WholeScript(const Figure& figure) {
          "set tics nomirror out scale 0.6\n"
          "set grid linetype 1 linewidth 0.4 linecolor rgb '#c8c8c8'\n"
          "set key top right reverse Left samplen 1.5 spacing 1.1 noenhanced\n"
-         "set style fill transparent solid 0.25 noborder\n"
-         "set bars small\n"
-         "set pointintervalbox 0\n\n" +
+         "set style fill transparent solid 0.25 noborder\n\n" +
          figure.script;
 }
 

@@ -72,7 +72,7 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
     } else {
       script.Line("set logscale y").Line("set format x ''").Line("set format y '%g'");
       script.Line("set ylabel '|G| (units of p per q)' offset 1");
-      script.Line("set key at screen 0.99, screen 0.97");
+      script.Line("set key at screen 0.99, screen 0.99 vertical maxrows 20");
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::string colour = SeriesColour(i, points.size());

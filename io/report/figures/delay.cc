@@ -72,7 +72,7 @@ std::optional<Figure> DelayFigure(const ReportInput& input) {
       std::string(colour::kBlue) + "' title 'τ measured'");
   if (any_interval) {
     script.Plot(
-        "data using (pick('delay',2)):3:4:5 with yerrorbars pointtype 0 "
+        "data using (pick('delay',2)):4:(0):($5-$4) with vectors nohead linewidth 1.3 "
         "linecolor rgb '" +
         std::string(colour::kBlue) + "' notitle");
   }
@@ -83,8 +83,9 @@ std::optional<Figure> DelayFigure(const ReportInput& input) {
         std::string(colour::kBlue) + "' title 'τ, not stationary'");
     if (any_interval) {
       script.Plot(
-          "data using (pick('delay (not stationary)',2)):3:4:5 with yerrorbars pointtype 0 "
-          " linecolor rgb '" +
+          "data using (pick('delay (not stationary)',2)):4:(0):($5-$4) with vectors nohead "
+          "linewidth 1.3 "
+          "linecolor rgb '" +
           std::string(colour::kBlue) + "' notitle");
     }
   }

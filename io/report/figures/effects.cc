@@ -68,10 +68,9 @@ std::optional<Figure> EffectsFigure(const ReportInput& input) {
     if (curve == std::string("verdict") && verdict.empty()) continue;
     script.Plot("data using (pick('" + std::string(curve) +
                 "',2)):3:(0):2:($3-0.32):($3+0.32) with boxxyerror linecolor rgb '" + colour + "'");
-    script.Plot(
-        "data using (pick('" + std::string(curve) +
-        "',2)):3:4:5 with xerrorbars pointtype 7 pointsize 0.2 linewidth 1.2 linecolor rgb '" +
-        std::string(colour::kInk) + "'");
+    script.Plot("data using (pick('" + std::string(curve) +
+                "',4)):3:($5-$4):(0) with vectors nohead linewidth 1.3 linecolor rgb '" +
+                std::string(colour::kInk) + "'");
   }
   script.EndPlot();
   figure.script = script.Text();

@@ -101,8 +101,8 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
         "linewidth 1.4 linecolor rgb '" +
         std::string(colour::kVermillion) + "' title 'non-harmonic'");
     script.Plot(
-        "data using (pick('non-harmonic',2)):3:4:5 with yerrorbars pointtype 0"
-        " linecolor rgb '" +
+        "data using (pick('non-harmonic',2)):4:(0):($5-$4) with vectors nohead linewidth 1.3 "
+        "linecolor rgb '" +
         std::string(colour::kVermillion) + "' notitle");
   }
   if (any_crossing) {

@@ -91,9 +91,13 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   }
   if (near) {
     script.Plot(
-        "data using (pick('vanishes',2)):3:4:5 with xerrorbars pointtype 9 pointsize 1 "
+        "data using (pick('vanishes',2)):3 with points pointtype 9 pointsize 1 "
         "linewidth 1.3 linecolor rgb '" +
         std::string(colour::kVermillion) + "' title 'line reaches one, 95 %'");
+    script.Plot(
+        "data using (pick('vanishes',4)):3:($5-$4):(0) with vectors nohead linewidth 1.3 "
+        "linecolor rgb '" +
+        std::string(colour::kVermillion) + "' notitle");
   }
   script.Plot(
       "data using (pick('measured',2)):3 with points pointtype 3 pointsize 1 linewidth 1.5 "
@@ -107,13 +111,13 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   }
   if (any_interval) {
     script.Plot(
-        "data using (pick('measured',2)):3:4:5 with yerrorbars pointtype 0 "
+        "data using (pick('measured',2)):4:(0):($5-$4) with vectors nohead linewidth 1.3 "
         "linecolor rgb '" +
         std::string(colour::kBlue) + "' notitle");
     if (any_unreliable) {
       script.Plot(
-          "data using (pick('not stationary',2)):3:4:5 with yerrorbars pointtype 0 "
-          " linecolor rgb '" +
+          "data using (pick('not stationary',2)):4:(0):($5-$4) with vectors nohead linewidth 1.3 "
+          "linecolor rgb '" +
           std::string(colour::kBlue) + "' notitle");
     }
   }

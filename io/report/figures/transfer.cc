@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kColumns = 3;
 constexpr std::size_t kMostPoints = 150;
+constexpr int kGridPoints = 300;
 
 // Experiments that the figure has room for: spread evenly over the operating range.
 std::vector<std::string> Chosen(const std::vector<std::string>& names) {
@@ -22,6 +23,23 @@ std::vector<std::string> Chosen(const std::vector<std::string>& names) {
     out.push_back(names[k * (names.size() - 1) / (kColumns - 1)]);
   }
   return out;
+}
+
+// The two modes that analyse fitted to the transfer alone.
+std::optional<LoopModel> TransferFitModel(const ReportInput& input, const std::string& name) {
+  if (!input.analysis.contains("experiments")) return std::nullopt;
+  for (const auto& each : input.analysis["experiments"]) {
+    if (each.value("name", "") != name || !each.contains("transfer")) continue;
+    const auto& fit = each["transfer"];
+    LoopModel model;
+    model.omega_hz = EstimateAt(fit, "omega_hz").value;
+    model.xi = EstimateAt(fit, "xi").value;
+    model.N = EstimateAt(fit, "N").value;
+    model.M = EstimateAt(fit, "M").value;
+    if (input.config) model.harmonic_ratio = input.config->model.harmonic_ratio;
+    if (std::isfinite(model.omega_hz + model.xi + model.N + model.M)) return model;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -62,20 +80,18 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
       csv.Cell(gain + half).Cell(PhaseDeg(h)).Cell(PhaseDeg(h) - phase_half);
       csv.Cell(PhaseDeg(h) + phase_half).EndRow();
     }
-    for (const std::size_t row : rows) {
-      const std::complex<double> m(table.Number(row, "model_re"), table.Number(row, "model_im"));
-      if (!std::isfinite(m.real())) continue;
-      csv.Cell("transfer fit " + name).Cell(table.Number(row, "frequency_hz")).Cell(std::abs(m));
-      csv.Cell(NAN).Cell(NAN).Cell(PhaseDeg(m)).Cell(NAN).Cell(NAN).EndRow();
-    }
-    if (const ExperimentModel* fit = input.Fitted(name)) {
-      for (const std::size_t row : rows) {
-        const double frequency = table.Number(row, "frequency_hz");
-        const std::complex<double> m = AcousticsAt(fit->model, frequency);
-        csv.Cell("joint fit " + name).Cell(frequency).Cell(std::abs(m)).Cell(NAN).Cell(NAN);
-        csv.Cell(PhaseDeg(m)).Cell(NAN).Cell(NAN).EndRow();
+    if (rows.empty()) continue;
+    const auto grid = LogarithmicGrid(table.Number(rows.front(), "frequency_hz"),
+                                      table.Number(rows.back(), "frequency_hz"), kGridPoints);
+    const auto add = [&](const std::string& curve, const LoopModel& model) {
+      for (const double frequency : grid) {
+        const std::complex<double> value = AcousticsAt(model, frequency);
+        csv.Cell(curve + name).Cell(frequency).Cell(std::abs(value)).Cell(NAN).Cell(NAN);
+        csv.Cell(PhaseDeg(value)).Cell(NAN).Cell(NAN).EndRow();
       }
-    }
+    };
+    if (const auto fit = TransferFitModel(input, name)) add("transfer fit ", *fit);
+    if (const ExperimentModel* fit = input.Fitted(name)) add("joint fit ", fit->model);
   }
   if (!(high > low)) return std::nullopt;
   Figure figure;
@@ -113,10 +129,13 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
         script.Line("unset ylabel").Line("unset key");
       }
       if (!phase) script.Line("set title " + Quoted(names[i]) + " noenhanced offset 0,-0.6");
-      script.Plot("data using (pick(" + Quoted("data " + names[i]) +
-                  ",2)):" + (phase ? "6:7:8" : "3:4:5") +
-                  " with yerrorbars pointtype 7 pointsize 0.25 linewidth 0.6 linecolor rgb '" +
-                  colour::kGrey + "' title 'measured, 95 %'");
+      const std::string pick = "data using (pick(" + Quoted("data " + names[i]) + ",2)):";
+      script.Plot(pick + (phase ? "7:(0):($8-$7)" : "4:(0):($5-$4)") +
+                  " with vectors nohead linewidth 0.6 linecolor rgb '" + colour::kGrey +
+                  "' notitle");
+      script.Plot(pick + (phase ? "6" : "3") +
+                  " with points pointtype 7 pointsize 0.25 linecolor rgb '" + colour::kGrey +
+                  "' title 'measured, 95 %'");
       script.Plot("data using (pick(" + Quoted("transfer fit " + names[i]) +
                   ",2)):" + (phase ? "6" : "3") + " with lines linewidth 1.6 linecolor rgb '" +
                   colour::kVermillion + "' title 'fitted to the transfer'");
