@@ -141,7 +141,8 @@ Command AnalyseCommand() {
           "two are coherent. Writes characteristics.csv, lines.csv, transfer.csv, flame_curve.csv\n"
           "and analysis.json. Standard deviations are 95 % intervals' half widths over 1.96.",
           {},
-          Run};
+          Run,
+          true};
 }
 
 }  // namespace howl

@@ -20,6 +20,7 @@ struct Command {
   std::string details;  // what it reads, computes and writes
   std::vector<OptionHelp> options;
   int (*run)(const Options&);
+  bool writes_results = false;  // to the output folder, whose run.json then names the run
 };
 
 const std::vector<Command>& Commands();
@@ -30,6 +31,7 @@ Command FitCommand();
 Command FamilyCommand();
 Command ListCommand();
 Command RegressCommand();
+Command ReportCommand();
 Command SimulateCommand();
 
 }  // namespace howl

@@ -147,7 +147,8 @@ Command DiagnoseCommand() {
           "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
           "cannot tell from it, the place, the gap before and after, and every candidate.",
           {{"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"}},
-          Run};
+          Run,
+          true};
 }
 
 }  // namespace howl

@@ -61,7 +61,8 @@ Command FamilyCommand() {
        {"--profile", "QUANTITY",
         "the best fit along exp1.tau_s, exp1.loop_gain, a prediction or any expression"},
        {"--save-every", "SECONDS", "how often the search for bounds saves its state (default: 2)"}},
-      Run};
+      Run,
+      true};
 }
 
 }  // namespace howl

@@ -104,7 +104,8 @@ Command FitCommand() {
       "starts, and reports which directions in parameter space the data leave undetermined.\n"
       "Writes solution.json. Exit status 1 when no start converged.",
       {},
-      Run};
+      Run,
+      true};
 }
 
 }  // namespace howl

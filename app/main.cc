@@ -7,6 +7,7 @@
 
 #include "app/command.h"
 #include "app/interruption.h"
+#include "io/report/run_file.h"
 #include "io/user_error.h"
 #include "model/version.h"
 
@@ -75,7 +76,9 @@ int Run(const std::vector<std::string>& words) {
     throw UsageError(command->name + ": no config given, expected howl " + command->name +
                      " CONFIG");
   }
-  return command->run(options);
+  const int status = command->run(options);
+  if (command->writes_results) NoteRun(options.out, options.config, command->name, options.seed);
+  return status;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "diagnosis/advice.h"
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/gap.h"
+#include "diagnosis/gap_map.h"
 #include "diagnosis/pair.h"
 #include "diagnosis/place.h"
 #include "diagnosis/slack.h"
@@ -75,6 +76,9 @@ class Search {
     out.slack_flame_before = slack_before_.flame_excess;
     out.slack_acoustic_after = after.acoustic_excess;
     out.slack_flame_after = after.flame_excess;
+    out.map =
+        GapMap(records_, at_.base_held_out, attempts_.empty() ? nullptr : &attempts_[0].held_out,
+               flame_noise_, lines_.empty());
     if (out.kind != VerdictKind::kNone) {
       out.where = FindPlaces(records_, attempts_, out.kind, slack_before_);
     }

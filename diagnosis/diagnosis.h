@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "diagnosis/cut_record.h"
+#include "diagnosis/gap_map.h"
 #include "model/effects/catalogue.h"
 
 namespace howl {
@@ -65,6 +66,7 @@ struct Diagnosis {
   double gap_before = 0.0;
   double gap_after = 0.0;
   double gap_floor = 0.0;
+  std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first
   // What free slack takes off the likelihood, before and after the best effect, in cuts A and B.
   double slack_acoustic_before = 0.0;

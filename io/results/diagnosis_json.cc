@@ -33,6 +33,18 @@ Json WhereJson(const Diagnosis& diagnosis) {
   return where;
 }
 
+Json MapJson(const Diagnosis& diagnosis) {
+  Json map = Json::array();
+  for (const GapCell& cell : diagnosis.map) {
+    map.push_back({{"signal", cell.signal},
+                   {"experiment", cell.experiment},
+                   {"band_hz", {cell.low_hz, cell.high_hz}},
+                   {"before", NumberOrNull(cell.before)},
+                   {"after", NumberOrNull(cell.after)}});
+  }
+  return map;
+}
+
 Json CandidateJson(const Candidate& candidate) {
   Json parameters = Json::object();
   for (const EstimatedParameter& parameter : candidate.parameters) {
@@ -79,6 +91,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
         {"after", NumberOrNull(diagnosis.gap_after)},
         {"floor", NumberOrNull(diagnosis.gap_floor)},
         {"held_out", true}}},
+      {"map", MapJson(diagnosis)},
       {"candidates", candidates},
       {"free_slack",
        {{"acoustic_cut",

@@ -1,0 +1,35 @@
+// Progress on standard error, with the time that remains: from two seconds on, on a terminal only,
+// and never when quiet.
+#ifndef HOWL_APP_PROGRESS_H_
+#define HOWL_APP_PROGRESS_H_
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace howl {
+
+class Progress {
+ public:
+  Progress(std::string what, bool quiet);
+  ~Progress() { Clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // Not to be called from two threads at once.
+  void Show(std::size_t done, std::size_t total);
+  // Takes the line away.
+  void Clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  bool enabled_ = false;
+  bool shown_ = false;
+  Clock::time_point start_;
+  Clock::time_point last_;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_APP_PROGRESS_H_

@@ -1,0 +1,51 @@
+#include <cstdio>
+#include <filesystem>
+
+#include "app/command.h"
+#include "app/progress.h"
+#include "io/report/figures/catalogue.h"
+#include "io/report/page.h"
+#include "io/report/render.h"
+#include "io/report/report_input.h"
+#include "io/whole_file.h"
+
+namespace howl {
+namespace {
+
+// The argument is an output folder, or a config whose output folder is meant.
+std::filesystem::path Folder(const Options& options) {
+  return std::filesystem::is_regular_file(options.config) ? options.out : options.config;
+}
+
+int Run(const Options& options) {
+  const std::filesystem::path folder = Folder(options);
+  ReportInput input = ReadReportInput(folder, options.threads);
+  const std::vector<Figure> figures = AllFigures(input, input.missing);
+  Progress progress("drawing", options.quiet);
+  const auto svgs =
+      RenderFigures(figures, folder / "figures", options.threads, input.missing,
+                    [&](std::size_t done, std::size_t total) { progress.Show(done, total); });
+  progress.Clear();
+  WriteWholeFile(folder / "report.html", ReportPage(input, figures, svgs));
+  if (!options.quiet) {
+    for (const std::string& each : input.missing) std::printf("missing: %s\n", each.c_str());
+    std::printf("written: report.html and %zu figures in %s\n", figures.size(), folder.c_str());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command ReportCommand() {
+  return {"report",
+          "turn what the other commands wrote to a folder into one page of figures",
+          "howl report DIR reads what analyse, fit, family, simulate, diagnose and trial wrote to\n"
+          "DIR (or to the output folder of a config) and writes DIR/report.html, one page that\n"
+          "needs no network: tables, figures, and a browser of the family. DIR/figures/ has each\n"
+          "figure as SVG and PDF, its data as CSV and its gnuplot script, to restyle. What is\n"
+          "missing is named on the page, and the rest shown.",
+          {},
+          Run};
+}
+
+}  // namespace howl

@@ -1,0 +1,76 @@
+#include "diagnosis/gap_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace howl {
+namespace {
+
+constexpr int kBands = 16;
+
+struct Band {
+  Eigen::Index first = 0;
+  Eigen::Index last = 0;  // one beyond
+  double low_hz = 0.0;
+  double high_hz = 0.0;
+};
+
+std::vector<Band> Bands(const CutRecord& record, Eigen::Index count) {
+  std::vector<Band> bands;
+  const double low = std::max(record.frequency(0), record.bin_hz);
+  const double high = record.frequency(count - 1) + record.bin_hz;
+  Eigen::Index next = 0;
+  for (int k = 0; k < kBands; ++k) {
+    Band band;
+    band.low_hz = low * std::pow(high / low, static_cast<double>(k) / kBands);
+    band.high_hz = low * std::pow(high / low, static_cast<double>(k + 1) / kBands);
+    band.first = next;
+    while (next < count && record.frequency(next) < band.high_hz) ++next;
+    band.last = k + 1 == kBands ? count : next;
+    if (band.last > band.first) bands.push_back(band);
+  }
+  return bands;
+}
+
+double BandGap(const CutRecord& record, const Band& band, const Eigen::VectorXcd& residual,
+               const Eigen::VectorXd& variance, bool without_masked) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (Eigen::Index k = band.first; k < std::min(band.last, residual.size()); ++k) {
+    if (without_masked && record.masked[static_cast<std::size_t>(k)]) continue;
+    sum += std::norm(residual[k]) / variance[k];
+    count += 1.0;
+  }
+  if (count == 0.0) return std::numeric_limits<double>::quiet_NaN();
+  return std::sqrt(std::max(0.0, sum / count - 1.0));
+}
+
+}  // namespace
+
+std::vector<GapCell> GapMap(const std::vector<CutRecord>& records,
+                            const std::vector<ExperimentFit>& before,
+                            const std::vector<ExperimentFit>* after,
+                            const std::vector<Eigen::VectorXd>& flame_noise, bool without_masked) {
+  std::vector<GapCell> cells;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const CutRecord& record = records[e];
+    for (const bool flame : {false, true}) {
+      const Eigen::VectorXd& variance = flame ? flame_noise[e] : record.sensor_noise;
+      const auto residual = [&](const ExperimentFit& fit) -> const Eigen::VectorXcd& {
+        return flame ? fit.flame_residual : fit.acoustic_residual;
+      };
+      for (const Band& band : Bands(record, flame ? record.flame_count : record.acoustic_count)) {
+        const auto gap = [&](const std::vector<ExperimentFit>& fits) {
+          return BandGap(record, band, residual(fits[e]), variance, without_masked);
+        };
+        const double nothing = std::numeric_limits<double>::quiet_NaN();
+        cells.push_back({flame ? "q" : "p", record.name, band.low_hz, band.high_hz, gap(before),
+                         after != nullptr ? gap(*after) : nothing});
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace howl

@@ -1,0 +1,33 @@
+// The gap by signal, band and experiment, where it is held out as the whole gap is (gap.h): in each
+// band the root of the mean of |E|^2 / V less one, or zero where that is negative.
+//
+// "p": cut A, pressure from measured heat release; "q": cut B, heat release from measured pressure.
+// Bands in Hz, evenly spaced in the logarithm.
+#ifndef HOWL_DIAGNOSIS_GAP_MAP_H_
+#define HOWL_DIAGNOSIS_GAP_MAP_H_
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/effect_fit.h"
+
+namespace howl {
+
+struct GapCell {
+  std::string signal;
+  std::string experiment;
+  double low_hz = 0.0;
+  double high_hz = 0.0;
+  double before = 0.0;
+  double after = 0.0;  // NaN where nothing was tried
+};
+
+// `after` is null where no effect is left to show. `without_masked`: lines are not counted.
+std::vector<GapCell> GapMap(const std::vector<CutRecord>& records,
+                            const std::vector<ExperimentFit>& before,
+                            const std::vector<ExperimentFit>* after,
+                            const std::vector<Eigen::VectorXd>& flame_noise, bool without_masked);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_GAP_MAP_H_

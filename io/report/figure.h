@@ -1,0 +1,28 @@
+// A figure of the report: its data, and the gnuplot commands that draw it. Each lives in a file of
+// its own in figures/, and figures/catalogue.cc lists them in the report's order.
+//
+// In figures/ of the output folder a figure NAME is four files: NAME.csv, NAME.gp, NAME.svg and
+// NAME.pdf. Its CSV is long: one row a point, the first column names the curve that it belongs to,
+// and `pick(curve, column)` in the script takes that curve's points.
+#ifndef HOWL_IO_REPORT_FIGURE_H_
+#define HOWL_IO_REPORT_FIGURE_H_
+
+#include <string>
+#include <vector>
+
+namespace howl {
+
+struct Figure {
+  std::string name;  // of its files
+  std::string title;
+  std::string caption;  // what is seen, of which data
+  std::string seed;     // the seed's figure that it answers to: "7"; empty where there is none
+  std::string csv;
+  std::string script;  // gnuplot commands; io/report/script.h puts the common ones before them
+  int width = 560;     // in points of the page
+  int height = 360;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_IO_REPORT_FIGURE_H_

@@ -1,0 +1,65 @@
+#include "io/report/figures/curves.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "model/loop.h"
+#include "model/units.h"
+
+namespace howl {
+
+std::vector<double> LinearGrid(double low, double high, int count) {
+  std::vector<double> grid;
+  for (int i = 0; i < count; ++i) grid.push_back(low + (high - low) * i / (count - 1));
+  return grid;
+}
+
+std::vector<double> LogarithmicGrid(double low, double high, int count) {
+  std::vector<double> grid;
+  for (int i = 0; i < count; ++i) grid.push_back(low * std::pow(high / low, i / (count - 1.0)));
+  return grid;
+}
+
+double Decibels(double ratio) { return 20.0 * std::log10(ratio); }
+
+double PhaseDeg(std::complex<double> value) { return std::arg(value) * 180.0 / std::numbers::pi; }
+
+std::complex<double> AcousticsAt(const LoopModel& model, double frequency_hz) {
+  const Complex<double> value = AcousticResponse(model.Loop().acoustics, frequency_hz);
+  return {value.re, value.im};
+}
+
+std::complex<double> RateAt(const LoopModel& model, double frequency_hz) {
+  return std::complex<double>(0.0, kRadPerSPerHz * frequency_hz) * AcousticsAt(model, frequency_hz);
+}
+
+double HalfWidth95(const Estimate& estimate) { return kNormal95 * estimate.std; }
+
+std::optional<ShownRecord> ReferenceRecord(const ReportInput& input) {
+  const MeasuredPoint* reference = input.Reference();
+  if (reference != nullptr) {
+    if (const NamedRecord* record = input.RecordOf(reference->name))
+      return ShownRecord{record, false};
+    if (const NamedRecord* record = input.SimulatedOf(reference->name)) {
+      return ShownRecord{record, true};
+    }
+  }
+  if (!input.records.empty()) return ShownRecord{&input.records.front(), false};
+  if (!input.simulated.empty()) return ShownRecord{&input.simulated.front(), true};
+  return std::nullopt;
+}
+
+double SimulatedSlope(const ReportInput& input, const MeasuredPoint& point,
+                      const LoopModel& model) {
+  const double least = input.config ? input.config->simulation.loop_gain_min : 1.1;
+  const double response = std::abs(RateAt(model, point.frequency_hz.value));
+  const double slope = std::isfinite(point.flame_slope.value) ? point.flame_slope.value : 0.0;
+  return response * std::abs(slope) < least ? -least / response : slope;
+}
+
+double ShownFrequencyMax(double fundamental_hz) {
+  const double step = fundamental_hz > 100.0 ? 100.0 : 50.0;
+  return step * std::ceil(4.5 * fundamental_hz / step);
+}
+
+}  // namespace howl

@@ -1,0 +1,164 @@
+#include "io/report/page_tables.h"
+
+#include <cmath>
+#include <vector>
+
+#include "io/report/figures/curves.h"
+#include "io/report/page.h"
+#include "io/report/script.h"
+
+namespace howl {
+namespace {
+
+std::string Text(double value, int digits = 5) { return Spelled(value, digits); }
+
+std::string WithInterval(const Estimate& estimate, double scale = 1.0) {
+  if (!std::isfinite(estimate.value)) return "–";
+  std::string out = Text(scale * estimate.value);
+  if (std::isfinite(estimate.std)) out += " ± " + Text(scale * HalfWidth95(estimate), 2);
+  return out;
+}
+
+std::string Table(const std::string& caption, const std::vector<std::string>& head,
+                  const std::vector<std::vector<std::string>>& rows) {
+  std::string out = "<div class=\"scroll\"><table><caption>" + caption + "</caption><thead><tr>";
+  for (const std::string& cell : head) out += "<th scope=\"col\">" + EscapeHtml(cell) + "</th>";
+  out += "</tr></thead><tbody>";
+  for (const auto& row : rows) {
+    out += "<tr>";
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      out += (k == 0 ? "<th scope=\"row\">" : "<td>") + EscapeHtml(row[k]) +
+             (k == 0 ? "</th>" : "</td>");
+    }
+    out += "</tr>";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string MeasuredTable(const ReportInput& input) {
+  if (input.measured.empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const MeasuredPoint& point : input.measured) {
+    rows.push_back({point.name + (point.reliable ? "" : " *"), Text(point.phi),
+                    WithInterval(point.frequency_hz), WithInterval(point.phase_deg),
+                    WithInterval(point.gain), WithInterval(point.tau_s, 1e3),
+                    WithInterval(point.flame_slope), WithInterval(point.loop_gain)});
+  }
+  return Table(
+      "Characteristics of the limit cycle; ± is half of a 95 % interval where one is "
+      "known; * not stationary, or no limit cycle",
+      {"experiment", input.OperatingLabel(), "f (Hz)", "phase q to p (°)", "gain (p/q)", "τ (ms)",
+       "Φ′(0)", "loop gain"},
+      rows);
+}
+
+std::string FitTable(const ReportInput& input) {
+  if (input.fitted.empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const ExperimentModel& fit : input.fitted) {
+    rows.push_back({fit.name, Text(fit.phi), Text(fit.model.omega_hz), Text(fit.model.xi, 4),
+                    Text(fit.model.N), Text(fit.model.M), Text(1e3 * fit.model.tau_s)});
+  }
+  const bool converged = input.solution.value("converged", false);
+  return Table("Joint fit: one choice among those that the data leave" +
+                   std::string(converged ? "" : "; no start converged") +
+                   ". N and M in (units of p per unit of q) rad/s",
+               {"experiment", input.OperatingLabel(), "ω (Hz)", "ξ", "N", "M", "τ (ms)"}, rows);
+}
+
+std::string FamilySummary(const ReportInput& input) {
+  if (input.family.is_null()) return {};
+  std::string out = "<p>";
+  if (input.members) {
+    out += std::to_string(input.members->models.size()) +
+           " models are listed that the data cannot reject.";
+  } else {
+    out += "No model passes the test.";
+  }
+  if (input.family.contains("empty_because") && input.family["empty_because"].is_array() &&
+      !input.family["empty_because"].empty()) {
+    out += " Conditions that exclude each other: ";
+    bool first = true;
+    for (const auto& name : input.family["empty_because"]) {
+      out += (first ? "" : ", ") +
+             EscapeHtml(name.is_string() ? name.get<std::string>() : name.dump());
+      first = false;
+    }
+    out += ".";
+  }
+  return out + "</p>\n";
+}
+
+std::string DiagnosisSummary(const ReportInput& input) {
+  if (!input.diagnosis.contains("verdict")) return {};
+  const auto& verdict = input.diagnosis["verdict"];
+  const std::string kind = verdict.value("kind", "");
+  std::string out = "<p>Verdict: <strong>";
+  if (kind == "effect" && verdict["effect"].is_string()) {
+    out += EscapeHtml(verdict["effect"].get<std::string>());
+  } else {
+    out += kind == "none" ? "none: the model explains the records" : "unknown";
+  }
+  out += "</strong>";
+  if (verdict.contains("probability") && verdict["probability"].is_object()) {
+    const std::string key = kind == "effect" && verdict["effect"].is_string()
+                                ? verdict["effect"].get<std::string>()
+                                : kind;
+    const double probability = NumberAt(verdict["probability"], key.c_str());
+    if (std::isfinite(probability)) out += " (probability " + Text(probability, 2) + ")";
+  }
+  if (verdict.contains("indistinguishable") && !verdict["indistinguishable"].empty()) {
+    out += "; the data cannot tell it from ";
+    bool first = true;
+    for (const auto& id : verdict["indistinguishable"]) {
+      out += (first ? "" : ", ") + EscapeHtml(id.get<std::string>());
+      first = false;
+    }
+  }
+  out += ".</p>\n";
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& place : input.diagnosis.value("where", nlohmann::json::array())) {
+    std::string names;
+    for (const auto& name : place["experiments"]) {
+      names += (names.empty() ? "" : ", ") + name.get<std::string>();
+    }
+    rows.push_back({place.value("block", ""),
+                    Text(place["band_hz"][0].get<double>(), 4) + " to " +
+                        Text(place["band_hz"][1].get<double>(), 4),
+                    names, Text(NumberAt(place, "share"), 2)});
+  }
+  if (!rows.empty()) {
+    out += Table("Where", {"block", "band (Hz)", "experiments", "share of the gap"}, rows);
+  }
+  rows.clear();
+  for (const auto& candidate : input.diagnosis.value("candidates", nlohmann::json::array())) {
+    if (rows.size() == 5) break;
+    std::string parameters;
+    const nlohmann::json estimates = candidate.value("parameters", nlohmann::json::object());
+    for (const auto& [name, value] : estimates.items()) {
+      parameters +=
+          (parameters.empty() ? "" : "; ") + name + " " + Text(NumberAt(value, "value"), 4);
+      if (std::isfinite(NumberAt(value, "lo"))) {
+        parameters +=
+            " (" + Text(NumberAt(value, "lo"), 4) + " to " + Text(NumberAt(value, "hi"), 4) + ")";
+      }
+      const std::string unit = value.value("unit", "");
+      if (!unit.empty()) parameters += " " + unit;
+    }
+    rows.push_back({candidate.value("effect", ""),
+                    Text(100.0 * NumberAt(candidate, "shrinkage"), 3),
+                    Text(NumberAt(candidate, "gap_after"), 3), parameters});
+  }
+  if (!rows.empty()) {
+    out += Table("The most probable candidates, with 95 % intervals",
+                 {"effect", "gap removed (%)", "gap left", "estimate"}, rows);
+  }
+  if (input.diagnosis.contains("advice") && input.diagnosis["advice"].is_string()) {
+    out += "<p>Next: " + EscapeHtml(input.diagnosis["advice"].get<std::string>()) + ".</p>\n";
+  }
+  return out;
+}
+
+}  // namespace howl

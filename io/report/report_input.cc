@@ -1,0 +1,373 @@
+#include "io/report/report_input.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+#include "estimation/delay.h"
+#include "io/records/records.h"
+#include "io/user_error.h"
+#include "io/whole_file.h"
+
+namespace howl {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+std::string FileText(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Runs `read` where the file is there; a fault becomes a note, an absent file is left to `absent`.
+void Try(ReportInput& input, const char* file, const char* command,
+         const std::function<void(const std::filesystem::path&)>& read) {
+  const std::filesystem::path path = input.folder / file;
+  if (!std::filesystem::exists(path)) return;
+  try {
+    read(path);
+  } catch (const std::exception& error) {
+    std::string what = error.what();
+    input.missing.push_back(std::string(file) + " is not usable (" + what + "); howl " + command +
+                            " writes it anew");
+  }
+}
+
+Json ReadJson(const std::filesystem::path& path, const std::string& schema) {
+  std::ifstream file(path);
+  Json json = Json::parse(file, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw std::runtime_error("half written");
+  const std::string found = json.contains("schema") && json["schema"].is_string()
+                                ? json["schema"].get<std::string>()
+                                : std::string();
+  if (found != schema) {
+    throw std::runtime_error("its schema is \"" + found + "\", expected " + schema);
+  }
+  return json;
+}
+
+// The config where it was when the commands ran; else the text that they kept.
+void ReadConfig(ReportInput& input) {
+  Try(input, "run.json", "fit",
+      [&](const std::filesystem::path&) { input.run = ReadRunFile(input.folder); });
+  if (!input.run) {
+    if (!std::filesystem::exists(input.folder / "run.json")) {
+      input.missing.push_back(
+          "run.json, which names the config, is not here: records, tests and priors are unknown; "
+          "any command of howl run on the config writes it");
+    }
+    return;
+  }
+  const RunFile& run = *input.run;
+  try {
+    if (std::filesystem::is_regular_file(run.config)) {
+      if (FileText(run.config) != run.config_text) {
+        input.missing.push_back(
+            "the config has changed since the last command ran: what the "
+            "files hold may belong to its former text");
+      }
+      input.config = LoadConfig(run.config);
+    } else {
+      const auto copy = std::filesystem::temp_directory_path() /
+                        ("howl_report_" + std::to_string(getpid()) + ".yaml");
+      WriteWholeFile(copy, run.config_text);
+      try {
+        input.config = LoadConfig(copy);
+      } catch (...) {
+        std::filesystem::remove(copy);
+        throw;
+      }
+      std::filesystem::remove(copy);
+      input.missing.push_back("the config " + run.config.filename().string() +
+                              " is no longer where it was: its kept text is used, and records "
+                              "that it names by a relative path are out of reach");
+    }
+  } catch (const std::exception& error) {
+    input.missing.push_back(std::string("the config is not usable: ") + error.what());
+  }
+}
+
+MeasuredPoint Published(const Experiment& experiment) {
+  MeasuredPoint point;
+  point.name = experiment.name;
+  point.phi = experiment.phi;
+  point.frequency_hz = {experiment.frequency_hz, experiment.frequency_std_hz.value_or(kNotANumber)};
+  point.phase_deg = {experiment.phase_deg, experiment.phase_std_deg.value_or(kNotANumber)};
+  point.gain = {experiment.gain, experiment.gain_std.value_or(kNotANumber)};
+  point.reliable = experiment.reliable;
+  point.tau_s = DelayOnBranch({point.frequency_hz, point.phase_deg}, experiment.delay_periods);
+  if (!experiment.phase_std_deg) point.tau_s.std = kNotANumber;
+  if (experiment.flame_slope) {
+    point.flame_slope = {*experiment.flame_slope, experiment.flame_slope_std.value_or(kNotANumber)};
+    point.loop_gain = LoopGainFromSlope(point.gain, point.frequency_hz, point.flame_slope);
+    // An error that is not known is not zero.
+    if (!experiment.flame_slope_std || !experiment.gain_std) point.loop_gain.std = kNotANumber;
+  }
+  return point;
+}
+
+MeasuredPoint Analysed(const Json& json) {
+  MeasuredPoint point;
+  point.name = json.value("name", "");
+  point.phi = NumberAt(json, "phi");
+  const Json cycle = json.value("cycle", Json::object());
+  point.reliable = false;
+  if (cycle.value("state", "") == "no_limit_cycle") return point;
+  point.reliable = cycle.value("stationary", false);
+  point.frequency_hz = EstimateAt(cycle, "frequency");
+  point.phase_deg = EstimateAt(cycle, "phase");
+  point.gain = EstimateAt(cycle, "gain");
+  point.tau_s = EstimateAt(json, "tau");
+  point.loop_gain = EstimateAt(json, "loop_gain");
+  if (json.contains("flame") && json["flame"].is_object()) {
+    point.flame_slope = EstimateAt(json["flame"], "slope");
+  }
+  return point;
+}
+
+void ReadMeasured(ReportInput& input) {
+  const auto analysed = [&](const std::string& name) -> const Json* {
+    if (!input.analysis.contains("experiments")) return nullptr;
+    for (const Json& each : input.analysis["experiments"]) {
+      if (each.is_object() && each.value("name", "") == name) return &each;
+    }
+    return nullptr;
+  };
+  if (input.config) {
+    for (const ExperimentConfig& each : input.config->experiments) {
+      if (const Json* json = analysed(each.experiment.name)) {
+        input.measured.push_back(Analysed(*json));
+        input.measured.back().reliable = input.measured.back().reliable && each.experiment.reliable;
+      } else if (!each.record) {
+        input.measured.push_back(Published(each.experiment));
+      } else if (const ExperimentModel* fit = input.Fitted(each.experiment.name)) {
+        // Not analysed, but fitted: the fit's own summary of the record.
+        for (const Json& row : input.solution["experiments"]) {
+          if (row.value("name", "") != fit->name) continue;
+          Experiment experiment = each.experiment;
+          experiment.frequency_hz = NumberAt(row, "frequency_hz");
+          experiment.phase_deg = NumberAt(row, "phase_deg");
+          experiment.gain = NumberAt(row, "gain");
+          if (const double slope = NumberAt(row, "flame_slope"); std::isfinite(slope)) {
+            experiment.flame_slope = slope;
+          }
+          input.measured.push_back(Published(experiment));
+        }
+      }
+      for (const ObservedLine& line : each.experiment.lines) {
+        input.lines.push_back({each.experiment.name,
+                               each.experiment.phi,
+                               {line.frequency_hz, line.frequency_std_hz},
+                               0});
+      }
+    }
+    return;
+  }
+  for (const Json& row : input.solution.value("experiments", Json::array())) {
+    Experiment experiment;
+    experiment.name = row.value("name", "");
+    experiment.phi = NumberAt(row, "phi");
+    experiment.frequency_hz = NumberAt(row, "frequency_hz");
+    experiment.phase_deg = NumberAt(row, "phase_deg");
+    experiment.gain = NumberAt(row, "gain");
+    experiment.reliable = row.value("reliable", true);
+    if (const double slope = NumberAt(row, "flame_slope"); std::isfinite(slope)) {
+      experiment.flame_slope = slope;
+    }
+    input.measured.push_back(Published(experiment));
+  }
+}
+
+void ReadLines(ReportInput& input, const std::filesystem::path& path) {
+  const CsvTable table = ReadCsvTable(path);
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    input.lines.push_back(
+        {table.Text(row, "name"),
+         table.Number(row, "phi"),
+         {table.Number(row, "frequency_hz"), table.Number(row, "frequency_std_hz")},
+         static_cast<int>(table.Number(row, "harmonic"))});
+  }
+}
+
+void ReadRecords(ReportInput& input, const Config& config, std::vector<NamedRecord>& records) {
+  std::string first_fault;
+  int faults = 0;
+  for (const ExperimentConfig& each : config.experiments) {
+    if (!each.record) continue;
+    try {
+      records.push_back({each.experiment.name, each.experiment.phi,
+                         LoadRecord(*each.record, config.source.string(), each.record_line)});
+    } catch (const std::exception& error) {
+      if (++faults == 1) first_fault = error.what();
+    }
+  }
+  if (faults > 0) {
+    input.missing.push_back(std::to_string(faults) + " of the records could not be read: " +
+                            first_fault + (faults > 1 ? " ..." : ""));
+  }
+}
+
+void ReadFitted(ReportInput& input) {
+  for (const Json& row : input.solution.value("experiments", Json::array())) {
+    LoopModel model{.omega_hz = NumberAt(row, "omega_hz"),
+                    .xi = NumberAt(row, "xi"),
+                    .N = NumberAt(row, "N"),
+                    .M = NumberAt(row, "M"),
+                    .tau_s = NumberAt(row, "tau_s"),
+                    .harmonic_ratio = row.value("harmonic_ratio", kSeedHarmonicRatio)};
+    if (std::isnan(model.M)) model.M = 0.0;
+    const bool whole = model.omega_hz > 0.0 && model.xi > 0.0 && model.N > 0.0 && model.tau_s > 0.0;
+    if (whole) input.fitted.push_back({row.value("name", ""), NumberAt(row, "phi"), model});
+  }
+}
+
+void NoteAbsent(ReportInput& input) {
+  struct Source {
+    const char* file;
+    const char* command;
+    const char* what;
+    bool needs_records;
+  };
+  const bool has_records =
+      input.config && std::ranges::any_of(input.config->experiments,
+                                          [](const auto& each) { return each.record.has_value(); });
+  if (!input.config && !input.solution.is_object() && input.trial.is_object()) return;
+  for (const Source& source :
+       {Source{"analysis.json", "analyse", "spectral lines, flame curves and transfers", true},
+        Source{"solution.json", "fit", "the fitted loops", false},
+        Source{"family.csv", "family", "what the data cannot reject, and the browser", false},
+        Source{"diagnosis.json", "diagnose", "where and why the model falls short", true}}) {
+    if (source.needs_records && !has_records) continue;
+    if (!std::filesystem::exists(input.folder / source.file)) {
+      input.missing.push_back(std::string("howl ") + source.command +
+                              " has not run here: " + source.what + " (" + source.file + ")");
+    }
+  }
+}
+
+}  // namespace
+
+double NumberAt(const Json& json, const char* key) {
+  if (!json.is_object()) return kNotANumber;
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? found->get<double>() : kNotANumber;
+}
+
+Estimate EstimateAt(const Json& json, const char* key) {
+  if (!json.is_object() || !json.contains(key)) return {};
+  return {NumberAt(json[key], "value"), NumberAt(json[key], "std")};
+}
+
+const MeasuredPoint* ReportInput::Measured(const std::string& name) const {
+  const auto found = std::ranges::find(measured, name, &MeasuredPoint::name);
+  return found == measured.end() ? nullptr : &*found;
+}
+
+const ExperimentModel* ReportInput::Fitted(const std::string& name) const {
+  const auto found = std::ranges::find(fitted, name, &ExperimentModel::name);
+  return found == fitted.end() ? nullptr : &*found;
+}
+
+const NamedRecord* ReportInput::RecordOf(const std::string& name) const {
+  const auto found = std::ranges::find(records, name, &NamedRecord::name);
+  return found == records.end() ? nullptr : &*found;
+}
+
+const NamedRecord* ReportInput::SimulatedOf(const std::string& name) const {
+  const auto found = std::ranges::find(simulated, name, &NamedRecord::name);
+  return found == simulated.end() ? nullptr : &*found;
+}
+
+const MeasuredPoint* ReportInput::Reference() const {
+  const MeasuredPoint* best = nullptr;
+  int best_score = 0;
+  for (const MeasuredPoint& point : measured) {
+    const int score = (point.has_cycle() ? 1 : 0) + (point.has_cycle() && point.reliable ? 1 : 0) +
+                      (point.has_cycle() && Fitted(point.name) != nullptr ? 2 : 0);
+    if (score > best_score) {
+      best = &point;
+      best_score = score;
+    }
+  }
+  return best;
+}
+
+std::string ReportInput::OperatingLabel() const {
+  if (operating_parameter == "phi") return "equivalence ratio φ";
+  const std::size_t unit = operating_parameter.rfind('_');
+  if (unit == std::string::npos) return operating_parameter;
+  std::string words = operating_parameter.substr(0, unit);
+  std::ranges::replace(words, '_', ' ');
+  return words + " (" + operating_parameter.substr(unit + 1) + ")";
+}
+
+ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
+  if (!std::filesystem::is_directory(folder)) {
+    throw UserError(folder.string(), 0, "",
+                    "no such folder, expected one that the other commands wrote to");
+  }
+  ReportInput input;
+  input.folder = folder;
+  ReadConfig(input);
+  Try(input, "analysis.json", "analyse",
+      [&](const auto& path) { input.analysis = ReadJson(path, "howl.analysis/1"); });
+  Try(input, "solution.json", "fit", [&](const auto& path) {
+    input.solution = ReadJson(path, "howl.solution/1");
+    ReadFitted(input);
+  });
+  Try(input, "family.json", "family",
+      [&](const auto& path) { input.family = ReadJson(path, "howl.family/1"); });
+  Try(input, "diagnosis.json", "diagnose",
+      [&](const auto& path) { input.diagnosis = ReadJson(path, "howl.diagnosis/1"); });
+  Try(input, "trial.json", "trial",
+      [&](const auto& path) { input.trial = ReadJson(path, "howl.trial/1"); });
+  Try(input, "transfer.csv", "analyse",
+      [&](const auto& path) { input.transfer = ReadCsvTable(path); });
+  Try(input, "flame_curve.csv", "analyse",
+      [&](const auto& path) { input.flame_curve = ReadCsvTable(path); });
+  Try(input, "tradeoff.csv", "family",
+      [&](const auto& path) { input.tradeoff = ReadCsvTable(path); });
+  Try(input, "trial.csv", "trial",
+      [&](const auto& path) { input.trial_table = ReadCsvTable(path); });
+  Try(input, "lines.csv", "analyse", [&](const auto& path) { ReadLines(input, path); });
+  Try(input, "family.csv", "family", [&](const auto& path) {
+    const FamilyTable table = ReadFamilyCsv(path);
+    if (table.rows.empty()) return;
+    input.members = MakeFamilyMembers(
+        table, input.config ? input.config->model.harmonic_ratio : kSeedHarmonicRatio);
+  });
+  if (input.config) {
+    input.title = input.config->title;
+    input.operating_parameter = input.config->operating_parameter;
+    ReadRecords(input, *input.config, input.records);
+  }
+  if (input.title.empty()) input.title = folder.lexically_normal().filename().string();
+  ReadMeasured(input);
+  Try(input, "records.yaml", "simulate", [&](const auto& path) {
+    ReadRecords(input, LoadConfig(path), input.simulated);
+    AnalysisOptions options;
+    options.threads = threads;
+    options.fit_transfer = false;
+    input.simulated_analysis = AnalyseRecords(input.simulated, options);
+  });
+  const bool empty = !input.run && input.analysis.is_null() && input.solution.is_null() &&
+                     input.family.is_null() && input.diagnosis.is_null() && input.trial.is_null() &&
+                     !input.members && input.simulated.empty();
+  if (empty && input.missing.size() <= 1) {
+    throw UserError(folder.string(), 0, "",
+                    "holds nothing to report, expected files that the other commands wrote");
+  }
+  NoteAbsent(input);
+  return input;
+}
+
+}  // namespace howl
