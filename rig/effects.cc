@@ -96,7 +96,7 @@ const std::vector<EffectInfo>& Effects() {
       {"x_entropy_wave", "acoustics", false, "rel", 0.04, 0.1, 0.28},
       {"x_mode_damping", "acoustics", false, "factor", 1.12, 1.4, 2.5},
       {"x_flame_resonance", "flame", false, "gain", 0.06, 0.2, 0.6},
-      {"x_flame_play", "flame", false, "rel", 0.03, 0.08, 0.22},
+      {"x_flame_play", "flame", false, "rel", 0.02, 0.05, 0.13},
       {"x_delay_wander", "delay", false, "rel_rms", 0.004, 0.012, 0.035},
       {"x_duct_noise", "source", false, "rel", 0.1, 0.3, 1.0},
       {"x_swept_source", "source", false, "rel", 0.02, 0.06, 0.2},

@@ -31,13 +31,17 @@ double OmegaFor(Modes modes, double frequency_hz, double phase_deg) {
   return 0.5 * (low + high);
 }
 
-// What effects that are linear and inside the loop add to it.
+// What effects that are linear and inside the loop add to it: before the flame ...
+Complex DelayFactor(const Behaviour& at, Complex s) {
+  return std::exp(0.5 * at.delay_spread_s * at.delay_spread_s * s * s) *
+         (1.0 - at.second_path_share +
+          at.second_path_share * std::exp(-s * at.second_path_extra_s));
+}
+
+// ... and everywhere.
 Complex LoopFactor(const Behaviour& at, Complex s) {
-  Complex factor = 1.0;
+  Complex factor = DelayFactor(at, s);
   if (at.flame_cutoff_hz < kNever) factor /= 1.0 + s / (kTwoPi * at.flame_cutoff_hz);
-  factor *= std::exp(0.5 * at.delay_spread_s * at.delay_spread_s * s * s);
-  factor *=
-      1.0 - at.second_path_share + at.second_path_share * std::exp(-s * at.second_path_extra_s);
   factor *= 1.0 + at.entropy_share * std::exp(-s * at.entropy_delay_s);
   return factor;
 }
@@ -84,7 +88,8 @@ double CloseLoop(const Behaviour& behaviour, double wanted_hz, Point& point) {
   point.frequency_hz = at_hz;
   point.flame.slope = -point.loop_gain / strength;
   point.rate_amplitude = point.flame.AmplitudeAt(1.0 / point.loop_gain);
-  point.p_amplitude = point.rate_amplitude / (kTwoPi * at_hz);
+  point.p_amplitude = point.rate_amplitude / (kTwoPi * at_hz) /
+                      std::abs(DelayFactor(behaviour, Complex(0.0, kTwoPi * at_hz)));
   const Complex response = ModalResponse(point.modes, Complex(0.0, kTwoPi * at_hz));
   point.q_amplitude = point.p_amplitude / std::abs(response);
   point.phase_deg = std::arg(response) / kDegree;
@@ -171,7 +176,6 @@ Plan MakePlan(const Spec& spec) {
       // The effects' part.
       modes.ratio = behaviour.second_mode_ratio;
       modes.second_xi_factor = behaviour.second_mode_damping;
-      modes.xi = std::max(0.4 * modes.xi, modes.xi - behaviour.damping_at_cycle);
       point.tau_s = tau_s * (1.0 + behaviour.delay_phi_span * point.position);
       if (behaviour.odd_point != 0.0 && k == static_cast<std::size_t>(behaviour.odd_point_index)) {
         point.tau_s *= 1.0 + behaviour.odd_point;
@@ -179,6 +183,8 @@ Plan MakePlan(const Spec& spec) {
       point.flame = {spec.flame.value_or(static_cast<FlameShape>(shape)), -1.0, kSaturation};
       point.loop_gain = loop_gains[k];
       other = std::max(other, CloseLoop(behaviour, cycle_hz, point));
+      // At the cycle's amplitude the damping is what it would be without the effect.
+      modes.xi = std::max(0.4 * modes.xi, modes.xi - behaviour.damping_at_cycle);
       plan.points.push_back(point);
     }
     if (other < kSecondGainMax) break;

@@ -26,7 +26,7 @@ struct Point {
   double frequency_hz = 0.0;
   double phase_deg = 0.0;
   double loop_gain = 0.0;
-  double rate_amplitude = 0.0;  // of p'
+  double rate_amplitude = 0.0;  // of what drives the flame
   double p_amplitude = 0.0;
   double q_amplitude = 0.0;
 };
