@@ -31,6 +31,7 @@ Command FamilyCommand();
 Command ListCommand();
 Command RegressCommand();
 Command SimulateCommand();
+Command TrialCommand();
 
 }  // namespace howl
 

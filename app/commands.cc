@@ -4,8 +4,8 @@ namespace howl {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {
-      AnalyseCommand(), DiagnoseCommand(), FitCommand(),    FamilyCommand(),
-      ListCommand(),    SimulateCommand(), RegressCommand()};
+      AnalyseCommand(), DiagnoseCommand(), FitCommand(),     FamilyCommand(),
+      ListCommand(),    SimulateCommand(), RegressCommand(), TrialCommand()};
   return commands;
 }
 
