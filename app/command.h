@@ -33,6 +33,7 @@ Command ListCommand();
 Command RegressCommand();
 Command ReportCommand();
 Command SimulateCommand();
+Command TrialCommand();
 
 }  // namespace howl
 

@@ -5,7 +5,7 @@ howl_install_packages() {
   local wanted=(g++ cmake ninja-build pkg-config clang-format clang-tidy python3
     libeigen3-dev libceres-dev libgoogle-glog-dev libgflags-dev libyaml-cpp-dev
     libtbb-dev libboost-dev libmpfi-dev nlohmann-json3-dev libvalijson-dev
-    libmatio-dev libhdf5-dev zlib1g-dev libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox)
+    libmatio-dev libhdf5-dev zlib1g-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox)
   local missing=() package
   for package in "${wanted[@]}"; do
     if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then

@@ -1,0 +1,45 @@
+// A trial's folder:
+//
+//   cases/NAME/         what the diagnosis sees: config.yaml and data/
+//   key/key.sealed      what was withheld, enciphered; nobody can read it without the seed
+//   seal.json           SHA-256 of the key, of its sealed form, and of every case; written, and its
+//   own
+//                       SHA-256 logged, before the first diagnosis starts
+//   diagnoses/NAME/     diagnosis.json
+//   log.jsonl           sealed, each diagnosis with its SHA-256, opened, scored (trial_log.h)
+//   key/key.json        the key, once it has been opened
+//   trial.json, trial.csv, sheet.md
+#ifndef HOWL_APP_TRIAL_FOLDER_H_
+#define HOWL_APP_TRIAL_FOLDER_H_
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/trial_log.h"
+
+namespace howl {
+
+struct TrialFolder {
+  std::filesystem::path root;
+
+  std::filesystem::path CaseFolder(const std::string& name) const { return root / "cases" / name; }
+  std::filesystem::path Diagnosis(const std::string& name) const {
+    return root / "diagnoses" / name / "diagnosis.json";
+  }
+  std::filesystem::path SealedKey() const { return root / "key" / "key.sealed"; }
+  std::filesystem::path OpenKey() const { return root / "key" / "key.json"; }
+  std::filesystem::path Seal() const { return root / "seal.json"; }
+  std::filesystem::path Log() const { return root / "log.jsonl"; }
+};
+
+// Over the names, sizes and contents of all files of a folder.
+std::string Sha256OfFolder(const std::filesystem::path& folder);
+
+// What is no longer as it was sealed, diagnosed, opened or scored: one line each.
+std::vector<std::string> FindChanges(const TrialFolder& folder, const TrialLog& log);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_TRIAL_FOLDER_H_

@@ -1,0 +1,66 @@
+#include "app/trial_log.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+
+#include "app/digest.h"
+#include "io/user_error.h"
+
+namespace howl {
+
+TrialLog::TrialLog(std::filesystem::path path) : path_(std::move(path)) {
+  last_hash_ = Sha256("");
+  const std::optional<std::string> text = ReadWholeFile(path_);
+  if (!text) return;
+  std::size_t from = 0;
+  std::size_t to = 0;
+  while ((to = text->find('\n', from)) != std::string::npos) {
+    const std::string line = text->substr(from, to - from);
+    from = to + 1;
+    nlohmann::json entry = nlohmann::json::parse(line, nullptr, false);
+    const bool holds = entry.is_object() && entry.value("previous", "") == last_hash_;
+    if (!holds && broken_line_ == 0) broken_line_ = entries_.size() + 1;
+    last_hash_ = Sha256(line);
+    entries_.push_back(entry.is_object() ? std::move(entry) : nlohmann::json::object());
+  }
+  if (from < text->size()) std::filesystem::resize_file(path_, from);
+}
+
+void TrialLog::Append(nlohmann::ordered_json entry) {
+  const std::lock_guard<std::mutex> hold(lock_);
+  entry["previous"] = last_hash_;
+  const std::string line = entry.dump() + "\n";
+  const int file = open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  const bool written = file >= 0 &&
+                       write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
+                       fsync(file) == 0;
+  const std::string reason = std::strerror(errno);
+  if (file >= 0) close(file);
+  if (!written) throw UserError(path_.string(), 0, "", "cannot be written: " + reason);
+  last_hash_ = Sha256(std::string_view(line).substr(0, line.size() - 1));
+  entries_.push_back(nlohmann::json::parse(line));
+}
+
+std::optional<nlohmann::json> TrialLog::Find(const std::string& event) const {
+  for (const nlohmann::json& entry : entries_) {
+    if (entry.value("event", "") == event) return entry;
+  }
+  return std::nullopt;
+}
+
+std::string TimeStamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+}  // namespace howl

@@ -1,0 +1,40 @@
+// The trial's log: one JSON object a line, only ever appended to. Each line holds the SHA-256 of
+// the one before, so that no line can be changed, left out or put in afterwards unnoticed; what a
+// killed run left unfinished at the end is dropped.
+#ifndef HOWL_APP_TRIAL_LOG_H_
+#define HOWL_APP_TRIAL_LOG_H_
+
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace howl {
+
+class TrialLog {
+ public:
+  explicit TrialLog(std::filesystem::path path);
+
+  // From several threads. On the disk when it returns.
+  void Append(nlohmann::ordered_json entry);
+  const std::vector<nlohmann::json>& entries() const { return entries_; }
+  // The first line whose predecessor is not what it was; 0 if all are.
+  std::size_t broken_line() const { return broken_line_; }
+  std::optional<nlohmann::json> Find(const std::string& event) const;
+
+ private:
+  std::filesystem::path path_;
+  std::vector<nlohmann::json> entries_;
+  std::string last_hash_;
+  std::size_t broken_line_ = 0;
+  std::mutex lock_;
+};
+
+// Universal time, to the second.
+std::string TimeStamp();
+
+}  // namespace howl
+
+#endif  // HOWL_APP_TRIAL_LOG_H_

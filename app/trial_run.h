@@ -1,0 +1,52 @@
+// The steps of a blind trial. Each can be killed at any point; the same command then goes on.
+#ifndef HOWL_APP_TRIAL_RUN_H_
+#define HOWL_APP_TRIAL_RUN_H_
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/trial_folder.h"
+#include "app/trial_rig.h"
+#include "diagnosis/trial/score.h"
+
+namespace howl {
+
+// All that decides what the cases are, and that the key's passphrase is made of.
+struct TrialRequest {
+  RigSetting setting;
+  TrialOptions options;
+  std::string config_sha256;
+  std::string command;  // what reproduces the trial
+  std::string Passphrase() const;
+};
+
+// Makes the cases, seals key and cases. `progress` as in RunDiagnoses.
+using Progress = std::function<void(std::size_t done, std::size_t total)>;
+void MakeCases(const TrialFolder& folder, const TrialRequest& request, int threads,
+               const Progress& progress, TrialLog& log);
+
+// Runs the diagnoses that the log has not, each in a process of its own. Throws Interrupted.
+void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progress, TrialLog& log);
+
+// Deciphers the key; empty where the request is not the one that sealed it.
+std::string DecipherKey(const TrialFolder& folder, const TrialRequest& request);
+
+// Writes key.json and logs the opening.
+void OpenKey(const TrialFolder& folder, const std::string& key, TrialLog& log);
+
+struct ScoredTrial {
+  nlohmann::json key;
+  std::vector<CaseOutcome> cases;
+  std::vector<RigEffect> effects;
+  ScoreSheet sheet;
+};
+ScoredTrial ScoreTrial(const TrialFolder& folder, const TrialLog& log);
+
+// trial.json, trial.csv and sheet.md, and their entry in the log.
+void WriteScores(const TrialFolder& folder, const ScoredTrial& trial, TrialLog& log);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_TRIAL_RUN_H_
