@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <memory>
 
 #include "app/command.h"
 #include "app/record_input.h"
@@ -94,6 +95,9 @@ int Run(const Options& options) {
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
   DiagnosisOptions how;
   how.threads = options.threads;
+  for (const EffectDeclaration& declaration : config.effects) {
+    how.further.push_back(std::make_shared<DeclaredEffect>(declaration));
+  }
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
     how.progress = [](std::size_t done, std::size_t total) {
       std::fprintf(stderr, "\rcandidates tried: %zu of %zu%s", done, total,
@@ -113,15 +117,17 @@ int Run(const Options& options) {
 }  // namespace
 
 Command DiagnoseCommand() {
-  return {"diagnose",
-          "say where and why the model falls short of the rig, and by how much",
-          "Cuts the loop at its two measured signals (acoustics driven by measured q; delay and\n"
-          "flame driven by measured p), refits the model together with each effect of the\n"
-          "catalogue, and scores on operating points left out. Needs records with p and q.\n"
-          "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
-          "cannot tell from it, the place, the gap before and after, and every candidate.",
-          {},
-          Run};
+  return {
+      "diagnose",
+      "say where and why the model falls short of the rig, and by how much",
+      "Cuts the loop at its two measured signals (acoustics driven by measured q; delay and\n"
+      "flame driven by measured p), refits the model together with each effect of the\n"
+      "catalogue, and scores on operating points left out. Needs records with p and q.\n"
+      "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
+      "cannot tell from it, the place, the gap before and after, and every candidate. Effects of\n"
+      "your own stand in the config under `effects`.",
+      {},
+      Run};
 }
 
 }  // namespace howl

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "diagnosis/coherent_lines.h"
+#include "diagnosis/declared_fit.h"
 #include "diagnosis/effect_fit.h"
 #include "diagnosis/gain_fluctuation.h"
 #include "diagnosis/gap.h"
@@ -205,6 +206,33 @@ Attempt TryQuantisation(const Setting& at, const Effect& effect) {
   return out;
 }
 
+Attempt TryDeclaredMap(const Setting& at, const DeclaredEffect& effect) {
+  Attempt out = Named(at, effect);
+  DeclaredMapFit map = FitDeclaredMap(*at.experiments, *at.records, *at.base, effect);
+  out.candidate.gain = map.gain;
+  for (std::size_t j = 0; j < map.values.size(); ++j) {
+    const EffectParameter& p = effect.parameters()[j];
+    out.candidate.parameters.push_back(WithoutError(p.name, map.values[j], p.unit));
+  }
+  out.held_out = std::move(map.held_out);
+  return out;
+}
+
+Attempt TryDeclaredLine(const Setting& at, const DeclaredEffect& effect,
+                        const std::vector<CoherentLine>& lines) {
+  Attempt out = Named(at, effect);
+  const DeclaredLineFit line = FitDeclaredLine(*at.records, *at.base, lines, effect);
+  out.candidate.gain = line.gain;
+  out.without_lines = line.all_lines;
+  if (line.gain > 0.0) {
+    out.candidate.parameters.push_back(WithoutError("rel", line.relative_amplitude, ""));
+    out.candidate.parameters.push_back(WithoutError("hz", line.frequency_hz, "Hz"));
+  }
+  // As many as a catalogue's line has.
+  out.parameters = 2.0;
+  return out;
+}
+
 double Logistic(double x) { return 1.0 / (1.0 + std::exp(-std::clamp(x, -50.0, 50.0))); }
 
 double PValue(double gain, double parameters, std::size_t catalogue) {
@@ -393,6 +421,12 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
               break;
             case EffectKind::kQuantisation:
               attempts[i] = TryQuantisation(at, effect);
+              break;
+            case EffectKind::kDeclaredMap:
+              attempts[i] = TryDeclaredMap(at, dynamic_cast<const DeclaredEffect&>(effect));
+              break;
+            case EffectKind::kDeclaredLine:
+              attempts[i] = TryDeclaredLine(at, dynamic_cast<const DeclaredEffect&>(effect), lines);
               break;
           }
           const std::size_t now = ++done;
