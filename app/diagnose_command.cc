@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -40,6 +41,32 @@ std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) 
                     "no experiment has a record, expected at least one to diagnose");
   }
   return experiments;
+}
+
+// Operating points are found by name or parameter, and interpolated in between.
+void CheckReference(const Config& config, const Config& reference,
+                    const std::vector<DiagnosisExperiment>& rig,
+                    const std::vector<DiagnosisExperiment>& model) {
+  const std::string file = reference.source.string();
+  const int line = reference.experiments.front().line;
+  if (config.operating_parameter != reference.operating_parameter) {
+    throw UserError(file, line, "operating_parameter",
+                    "is " + reference.operating_parameter + " here, expected " +
+                        config.operating_parameter + " as in " + config.source.string());
+  }
+  const auto [low, high] = std::minmax_element(
+      model.begin(), model.end(),
+      [](const DiagnosisExperiment& a, const DiagnosisExperiment& b) { return a.phi < b.phi; });
+  for (const DiagnosisExperiment& each : rig) {
+    const bool named =
+        std::any_of(model.begin(), model.end(),
+                    [&](const DiagnosisExperiment& other) { return other.name == each.name; });
+    if (named || (each.phi >= low->phi && each.phi <= high->phi)) continue;
+    throw UserError(file, line, "experiments",
+                    "have none called " + each.name + ", and none on both sides of its " +
+                        config.operating_parameter + " " + Significant(each.phi, 6) +
+                        ", expected one or the other");
+  }
 }
 
 std::string ParameterText(const Candidate& candidate) {
@@ -104,6 +131,11 @@ int Run(const Options& options) {
                    done == total ? "\n" : "");
     };
   }
+  if (const auto path = options.Text("--reference")) {
+    const Config reference = LoadConfig(*path);
+    how.reference = LoadDiagnosisExperiments(reference);
+    CheckReference(config, reference, experiments, how.reference);
+  }
   const Diagnosis diagnosis = Diagnose(experiments, how);
   const std::filesystem::path path = options.out / "diagnosis.json";
   WriteWholeFile(path, DiagnosisJson(diagnosis).dump(2) + "\n");
@@ -126,7 +158,9 @@ Command DiagnoseCommand() {
       "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
       "cannot tell from it, the place, the gap before and after, and every candidate. Effects of\n"
       "your own stand in the config under `effects`.",
-      {},
+      {{"--reference", "SIM.yaml",
+        "records of another simulator, or of the rig at another time, in the model's place: which "
+        "effect turns them into the config's?"}},
       Run};
 }
 

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "diagnosis/reference.h"
+
 namespace howl {
 namespace {
 
@@ -88,6 +90,7 @@ std::optional<Repaired> Repair(const std::vector<DiagnosisExperiment>& experimen
     }
     out.records[e].masked = records[e].masked;
   }
+  KeepReference(records, &out.records);
   return out;
 }
 

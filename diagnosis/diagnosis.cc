@@ -16,6 +16,7 @@
 #include "diagnosis/effect_fit.h"
 #include "diagnosis/gain_fluctuation.h"
 #include "diagnosis/gap.h"
+#include "diagnosis/reference.h"
 #include "diagnosis/slack.h"
 #include "diagnosis/static_map.h"
 
@@ -63,6 +64,7 @@ struct Setting {
   const EffectFit* base = nullptr;
   const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
+  const ReferenceModel* reference = nullptr;
 };
 
 std::vector<ExperimentFit> HoldOutAll(const Setting& at, const EffectFit& fit) {
@@ -174,6 +176,13 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
   Attempt out = Named(at, effect);
   const bool pressure = effect.id() == "p_clipping";
   ClippingFit clipping = FitClipping(*at.records, pressure, *at.base);
+  if (at.reference) {
+    clipping.gain =
+        std::max(0.0, clipping.gain - 2.0 * (pressure ? at.reference->pressure_clipping_gain
+                                                      : at.reference->heat_release_clipping_gain));
+    clipping.sharp_edge &=
+        !(pressure ? at.reference->pressure_sharp_edge : at.reference->heat_release_sharp_edge);
+  }
   out.candidate.gain = clipping.gain + (clipping.sharp_edge ? kFlagGain : 0.0);
   out.candidate.parameters.push_back(WithoutError("fraction", clipping.fraction, ""));
   for (std::size_t e = 0; e < out.held_out.size(); ++e) {
@@ -188,7 +197,8 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
       repaired[e].record.pressure.assign(signal.data(), signal.data() + signal.size());
       repaired[e].record.heat_release.resize(static_cast<std::size_t>(signal.size()));
     }
-    const std::vector<CutRecord> records = MakeCutRecords(repaired);
+    std::vector<CutRecord> records = MakeCutRecords(repaired);
+    KeepReference(*at.records, &records);
     const EffectFit fit = FitBase(records);
     for (std::size_t e = 0; e < out.held_out.size(); ++e)
       out.held_out[e] = HeldOut(records, fit, e);
@@ -200,7 +210,10 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
 
 Attempt TryQuantisation(const Setting& at, const Effect& effect) {
   Attempt out = Named(at, effect);
-  const FewLevels found = FindQuantisation(*at.records);
+  FewLevels found = FindQuantisation(*at.records);
+  if (at.reference && at.reference->quantisation_levels > 0.0) {
+    found.found &= found.levels < 0.67 * at.reference->quantisation_levels;
+  }
   out.candidate.gain = found.found ? 2.0 * kFlagGain : 0.0;
   out.candidate.parameters.push_back(WithoutError("levels", found.levels, ""));
   return out;
@@ -372,15 +385,24 @@ std::string Advice(const Diagnosis& diagnosis) {
 Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
                    const DiagnosisOptions& options) {
   std::vector<CutRecord> records = MakeCutRecords(experiments);
-  const std::vector<CoherentLine> lines = FindCoherentLines(records);
+  std::vector<CoherentLine> lines = FindCoherentLines(records);
   MaskLines(lines, &records);
+  std::optional<ReferenceModel> reference;
+  if (!options.reference.empty()) {
+    reference = AbsorbReference(options.reference, experiments, &records);
+    lines = NewLines(lines, reference->lines);
+  }
   const EffectFit base = FitBase(records);
-  Setting at{&records, &base, &experiments, {}};
+  Setting at{&records, &base, &experiments, {}, nullptr};
   for (std::size_t e = 0; e < records.size(); ++e) {
     at.base_held_out.push_back(HeldOut(records, base, e));
   }
   const LineOrigin origin = ExplainLines(records, base, lines);
-  const GainFluctuation fluctuation = EstimateGainFluctuation(records, base);
+  GainFluctuation fluctuation = EstimateGainFluctuation(records, base);
+  if (reference) {
+    fluctuation.gain = std::max(0.0, fluctuation.gain - reference->fluctuation_gain);
+    at.reference = &*reference;
+  }
 
   // One unit of work for each identifier, whatever its forms.
   std::vector<std::vector<EffectPointer>> units;
@@ -454,6 +476,7 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   Diagnosis out;
   out.gap_before = Gap(before);
   out.gap_floor = GapFloor(records);
+  if (reference) out.gap_floor = std::max(out.gap_floor, reference->gap_floor);
   for (Attempt& attempt : attempts) {
     Candidate& candidate = attempt.candidate;
     const double raw = candidate.gain;

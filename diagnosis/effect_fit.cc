@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "diagnosis/noise_fit.h"
+#include "diagnosis/cut_noise.h"
 
 namespace howl {
 namespace {
@@ -33,14 +33,6 @@ double Span(const EffectParameter& p) { return p.high - p.low; }
 // Search coordinate u: log x or x.
 double ScaleOf(const EffectParameter& p, double x) {
   return p.scale == ParameterScale::kLogarithmic ? x : 1.0;
-}
-
-Eigen::VectorXd Weights(const Eigen::VectorXd& variance, const std::vector<char>& masked) {
-  Eigen::VectorXd weights = variance.cwiseInverse();
-  for (Eigen::Index k = 0; k < weights.size(); ++k) {
-    if (masked[static_cast<std::size_t>(k)]) weights[k] = 0.0;
-  }
-  return weights;
 }
 
 double Squares(const Eigen::VectorXcd& residual, const Eigen::VectorXd& weight) {
@@ -69,8 +61,8 @@ class Fitter {
     weights_a_.clear();
     weights_b_.clear();
     for (std::size_t e = 0; e < records_.size(); ++e) {
-      weights_a_.push_back(Weights(fit.experiments[e].acoustic_noise, records_[e].masked));
-      weights_b_.push_back(Weights(fit.experiments[e].flame_noise, records_[e].masked));
+      weights_a_.push_back(AcousticWeights(records_[e], fit.experiments[e].acoustic_noise));
+      weights_b_.push_back(FlameWeights(records_[e], fit.experiments[e].flame_noise));
     }
   }
 
@@ -140,15 +132,14 @@ class Fitter {
       if (acoustic_) {
         const Eigen::VectorXcd r =
             RecordedTransfer(records_[e], effect_, fit->values, at.acoustics);
-        at.acoustic_noise = AcousticNoise(
-            at.acoustic_residual, r.segment(kTapReach, records_[e].acoustic_count).cwiseAbs2(),
-            records_[e].masked);
+        at.acoustic_noise =
+            FitAcousticNoise(records_[e], at.acoustic_residual,
+                             r.segment(kTapReach, records_[e].acoustic_count).cwiseAbs2());
       }
-      if (flame_) at.flame_noise = FlameNoise(at.flame_residual, records_[e].masked);
-      fit->acoustic_cost +=
-          WhittleCost(at.acoustic_residual, at.acoustic_noise, records_[e].masked);
+      if (flame_) at.flame_noise = FitFlameNoise(records_[e], at.flame_residual);
+      fit->acoustic_cost += AcousticCost(records_[e], at.acoustic_residual, at.acoustic_noise);
       fit->acoustic_cost += LeakJacobian(fit->values, at.acoustics, e);
-      fit->flame_cost += WhittleCost(at.flame_residual, at.flame_noise, records_[e].masked);
+      fit->flame_cost += FlameCost(records_[e], at.flame_residual, at.flame_noise);
     }
     SetNoise(*fit);
   }
@@ -231,7 +222,9 @@ class Fitter {
     double sum = 0.0;
     for (Eigen::Index k = 0; k < record.flame_count; ++k) {
       const Response leak = effect_.PressureLeak(record.frequency(k), record.at, x);
-      sum -= std::log(std::norm(1.0 - leak * r[k + kTapReach]));
+      const Eigen::VectorXd& share = record.reference.flame_share;
+      sum -=
+          (share.size() > 0 ? share[k] : 1.0) * std::log(std::norm(1.0 - leak * r[k + kTapReach]));
     }
     return sum / kBinCorrelation;
   }
@@ -387,7 +380,7 @@ double StartDelay(const std::vector<CutRecord>& records, const std::vector<Flame
     double falling = 0.0;
     for (std::size_t e = 0; e < records.size(); e += std::max<std::size_t>(records.size() / 2, 1)) {
       const Eigen::VectorXd weight =
-          Weights(Eigen::VectorXd::Ones(records[e].flame_count), records[e].masked);
+          FlameWeights(records[e], Eigen::VectorXd::Ones(records[e].flame_count));
       const FlameSolution solution = SolveFlame(records[e], none, {}, tau, columns[e], weight);
       cost += std::log(solution.residual.cwiseAbs2().dot(weight));
       // Near v = 0, where all records have samples.
