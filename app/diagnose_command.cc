@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <sstream>
 
@@ -43,6 +44,32 @@ std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) 
                     "no experiment has a record, expected at least one to diagnose");
   }
   return experiments;
+}
+
+// Operating points are found by name or parameter, and interpolated in between.
+void CheckReference(const Config& config, const Config& reference,
+                    const std::vector<DiagnosisExperiment>& rig,
+                    const std::vector<DiagnosisExperiment>& model) {
+  const std::string file = reference.source.string();
+  const int line = reference.experiments.front().line;
+  if (config.operating_parameter != reference.operating_parameter) {
+    throw UserError(file, line, "operating_parameter",
+                    "is " + reference.operating_parameter + " here, expected " +
+                        config.operating_parameter + " as in " + config.source.string());
+  }
+  const auto [low, high] = std::minmax_element(
+      model.begin(), model.end(),
+      [](const DiagnosisExperiment& a, const DiagnosisExperiment& b) { return a.phi < b.phi; });
+  for (const DiagnosisExperiment& each : rig) {
+    const bool named =
+        std::any_of(model.begin(), model.end(),
+                    [&](const DiagnosisExperiment& other) { return other.name == each.name; });
+    if (named || (each.phi >= low->phi && each.phi <= high->phi)) continue;
+    throw UserError(file, line, "experiments",
+                    "have none called " + each.name + ", and none on both sides of its " +
+                        config.operating_parameter + " " + Significant(each.phi, 6) +
+                        ", expected one or the other");
+  }
 }
 
 std::string ParameterText(const Candidate& candidate) {
@@ -120,11 +147,19 @@ int Run(const Options& options) {
   DiagnosisOptions how;
   how.threads = options.threads;
   how.withheld = Withheld(options);
+  for (const EffectDeclaration& declaration : config.effects) {
+    how.further.push_back(std::make_shared<DeclaredEffect>(declaration));
+  }
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
     how.progress = [](std::size_t done, std::size_t total) {
       std::fprintf(stderr, "\rcandidates tried: %zu of %zu%s", done, total,
                    done == total ? "\n" : "");
     };
+  }
+  if (const auto path = options.Text("--reference")) {
+    const Config reference = LoadConfig(*path);
+    how.reference = LoadDiagnosisExperiments(reference);
+    CheckReference(config, reference, experiments, how.reference);
   }
   const Diagnosis diagnosis = Diagnose(experiments, how);
   const std::filesystem::path path = options.out / "diagnosis.json";
@@ -139,16 +174,21 @@ int Run(const Options& options) {
 }  // namespace
 
 Command DiagnoseCommand() {
-  return {"diagnose",
-          "say where and why the model falls short of the rig, and by how much",
-          "Cuts the loop at its two measured signals (acoustics driven by measured q; delay and\n"
-          "flame driven by measured p), refits the model together with each effect of the\n"
-          "catalogue, and scores on operating points left out. Needs records with p and q.\n"
-          "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
-          "cannot tell from it, the place, the gap before and after, and every candidate.",
-          {{"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"}},
-          Run,
-          true};
+  return {
+      "diagnose",
+      "say where and why the model falls short of the rig, and by how much",
+      "Cuts the loop at its two measured signals (acoustics driven by measured q; delay and\n"
+      "flame driven by measured p), refits the model together with each effect of the\n"
+      "catalogue, and scores on operating points left out. Needs records with p and q.\n"
+      "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
+      "cannot tell from it, the place, the gap before and after, and every candidate. Effects of\n"
+      "your own stand in the config under `effects`.",
+      {{"--reference", "SIM.yaml",
+        "records of another simulator, or of the rig at another time, in the model's place: which "
+        "effect turns them into the config's?"},
+       {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"}},
+      Run,
+      true};
 }
 
 }  // namespace howl

@@ -114,6 +114,17 @@ Acoustics<double> ToAcoustics(const AcousticLocals& locals) {
 Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
                                   const AcousticLocals& locals) {
   const Acoustics<double> acoustics = ToAcoustics(locals);
+  if (record.reference.acoustic.size() > 0) {
+    Eigen::VectorXcd k = OnBand(record, [&](double f) {
+      return effect.Acoustics(acoustics, f, x) * effect.PressureInstrument(f, x) /
+             effect.HeatReleaseInstrument(f, x);
+    });
+    k = k.cwiseProduct(record.reference.acoustic);
+    for (Eigen::Index i = 0; i < k.size(); ++i) {
+      k[i] /= 1.0 + effect.PressureLeak(record.frequency_hz[i], record.at, x) * k[i];
+    }
+    return k;
+  }
   return OnBand(record, [&](double f) {
     const Response k = effect.Acoustics(acoustics, f, x) * effect.PressureInstrument(f, x) /
                        effect.HeatReleaseInstrument(f, x);

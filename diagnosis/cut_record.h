@@ -35,6 +35,17 @@ struct DiagnosisExperiment {
   Record record;
 };
 
+// What another record of the same loop, the reference, already has beside the base (reference.h).
+// Empty vectors are ones.
+struct CutReference {
+  Eigen::VectorXcd acoustic;       // factor on K (extended band)
+  Eigen::VectorXcd flame;          // factor on delay and flame (cut B's extended band)
+  Eigen::VectorXd acoustic_shape;  // of V_A on the band
+  Eigen::VectorXd flame_shape;
+  Eigen::VectorXd acoustic_share;  // what a bin counts for, at most 1
+  Eigen::VectorXd flame_share;
+};
+
 struct CutRecord {
   std::string name;
   EffectContext at;
@@ -57,6 +68,7 @@ struct CutRecord {
   Eigen::VectorXd sensor_noise;  // model-free V_A (sensor_noise.h)
   Eigen::VectorXd amplitude;     // slow amplitude of p, relative to the mean of all records
   std::vector<char> masked;      // bins with a coherent line: not used (acoustic_count)
+  CutReference reference;
 
   Eigen::Index extended() const { return acoustic_count + 2 * kTapReach; }
   double frequency(Eigen::Index bin) const { return frequency_hz[bin + kTapReach]; }

@@ -12,6 +12,7 @@
 #include "diagnosis/gap_map.h"
 #include "diagnosis/pair.h"
 #include "diagnosis/place.h"
+#include "diagnosis/reference.h"
 #include "diagnosis/slack.h"
 #include "diagnosis/verdict.h"
 #include "estimation/parallel.h"
@@ -46,8 +47,12 @@ class Search {
       : options_(options), units_(Units(options)), records_(MakeCutRecords(experiments)) {
     lines_ = FindCoherentLines(records_);
     MaskLines(lines_, &records_);
+    if (!options.reference.empty()) {
+      reference_ = AbsorbReference(options.reference, experiments, &records_);
+      lines_ = NewLines(lines_, reference_->lines);
+    }
     base_ = FitBase(records_);
-    at_ = {&records_, &base_, &experiments, {}};
+    at_ = {&records_, &base_, &experiments, {}, reference_ ? &*reference_ : nullptr};
     for (std::size_t e = 0; e < records_.size(); ++e) {
       at_.base_held_out.push_back(HeldOut(records_, base_, e));
     }
@@ -109,7 +114,10 @@ class Search {
 
   void TryAll() {
     const LineOrigin origin = ExplainLines(records_, base_, lines_);
-    const GainFluctuation fluctuation = EstimateGainFluctuation(records_, base_);
+    GainFluctuation fluctuation = EstimateGainFluctuation(records_, base_);
+    if (reference_) {
+      fluctuation.gain = std::max(0.0, fluctuation.gain - reference_->fluctuation_gain);
+    }
     attempts_.resize(units_.size());
     std::atomic<std::size_t> done = 0;
     std::mutex progress_lock;
@@ -139,6 +147,10 @@ class Search {
         return TryLines(at_, effect, lines_, origin);
       case EffectKind::kClipping:
         return TryClipping(at_, effect);
+      case EffectKind::kDeclaredMap:
+        return TryDeclaredMap(at_, dynamic_cast<const DeclaredEffect&>(effect));
+      case EffectKind::kDeclaredLine:
+        return TryDeclaredLine(at_, dynamic_cast<const DeclaredEffect&>(effect), lines_);
       case EffectKind::kQuantisation:
         break;
     }
@@ -188,6 +200,7 @@ class Search {
     out.flame_slack = after->flame_excess;
     out.gap_before = Gap(gap_before_);
     out.gap_floor = GapFloor(records_);
+    if (reference_) out.gap_floor = std::max(out.gap_floor, reference_->gap_floor);
     // Lines that no candidate accounts for are a fact, whatever else fits.
     out.unexplained_lines =
         !lines_.empty() &&
@@ -250,6 +263,7 @@ class Search {
   std::vector<EffectForms> units_;
   std::vector<CutRecord> records_;
   std::vector<CoherentLine> lines_;
+  std::optional<ReferenceModel> reference_;
   EffectFit base_;
   Setting at_;
   Slack slack_before_;

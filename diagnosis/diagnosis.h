@@ -80,6 +80,8 @@ struct DiagnosisOptions {
   int threads = 0;                     // 0: as many as the machine has
   std::vector<std::string> withheld;   // identifiers of the catalogue that are not tried
   std::vector<EffectPointer> further;  // effects of the user's own
+  // Records that take the model's place (reference.h); none: the base alone is the model.
+  std::vector<DiagnosisExperiment> reference;
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "diagnosis/cut_noise.h"
 #include "diagnosis/fitter.h"
 
 namespace howl {
@@ -47,7 +48,7 @@ double StartDelay(const std::vector<CutRecord>& records, const std::vector<Flame
     double falling = 0.0;
     for (std::size_t e = 0; e < records.size(); e += std::max<std::size_t>(records.size() / 2, 1)) {
       const Eigen::VectorXd weight =
-          BinWeights(Eigen::VectorXd::Ones(records[e].flame_count), records[e].masked);
+          FlameWeights(records[e], Eigen::VectorXd::Ones(records[e].flame_count));
       const FlameSolution solution = SolveFlame(records[e], none, {}, tau, columns[e], weight);
       cost += std::log(solution.residual.cwiseAbs2().dot(weight));
       // Near v = 0, where all records have samples.

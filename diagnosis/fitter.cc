@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "diagnosis/noise_fit.h"
+#include "diagnosis/cut_noise.h"
 
 namespace howl {
 namespace {
@@ -20,20 +20,12 @@ double ScaleOf(const EffectParameter& p, double x) {
   return p.scale == ParameterScale::kLogarithmic ? x : 1.0;
 }
 
-Eigen::VectorXd BinWeights(const Eigen::VectorXd& variance, const std::vector<char>& masked) {
-  Eigen::VectorXd weights = variance.cwiseInverse();
-  for (Eigen::Index k = 0; k < weights.size(); ++k) {
-    if (masked[static_cast<std::size_t>(k)]) weights[k] = 0.0;
-  }
-  return weights;
-}
-
 void Fitter::SetNoise(const EffectFit& fit) {
   weights_a_.clear();
   weights_b_.clear();
   for (std::size_t e = 0; e < records_.size(); ++e) {
-    weights_a_.push_back(BinWeights(fit.experiments[e].acoustic_noise, records_[e].masked));
-    weights_b_.push_back(BinWeights(fit.experiments[e].flame_noise, records_[e].masked));
+    weights_a_.push_back(AcousticWeights(records_[e], fit.experiments[e].acoustic_noise));
+    weights_b_.push_back(FlameWeights(records_[e], fit.experiments[e].flame_noise));
   }
 }
 
@@ -100,14 +92,14 @@ void Fitter::RefitNoise(EffectFit* fit) {
     ExperimentFit& at = fit->experiments[e];
     if (acoustic_) {
       const Eigen::VectorXcd r = RecordedTransfer(records_[e], effect_, fit->values, at.acoustics);
-      at.acoustic_noise = AcousticNoise(
-          at.acoustic_residual, r.segment(kTapReach, records_[e].acoustic_count).cwiseAbs2(),
-          records_[e].masked);
+      at.acoustic_noise =
+          FitAcousticNoise(records_[e], at.acoustic_residual,
+                           r.segment(kTapReach, records_[e].acoustic_count).cwiseAbs2());
     }
-    if (flame_) at.flame_noise = FlameNoise(at.flame_residual, records_[e].masked);
-    fit->acoustic_cost += WhittleCost(at.acoustic_residual, at.acoustic_noise, records_[e].masked);
+    if (flame_) at.flame_noise = FitFlameNoise(records_[e], at.flame_residual);
+    fit->acoustic_cost += AcousticCost(records_[e], at.acoustic_residual, at.acoustic_noise);
     fit->acoustic_cost += LeakJacobian(fit->values, at.acoustics, e);
-    fit->flame_cost += WhittleCost(at.flame_residual, at.flame_noise, records_[e].masked);
+    fit->flame_cost += FlameCost(records_[e], at.flame_residual, at.flame_noise);
   }
   SetNoise(*fit);
 }

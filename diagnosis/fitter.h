@@ -16,9 +16,6 @@ inline constexpr double kDescentConverged = 1e-3;  // of the cost, in units of a
 // Search coordinate u of a parameter: log x or x. d x / d u.
 double ScaleOf(const EffectParameter& parameter, double x);
 
-// 1 / variance; 0 where masked.
-Eigen::VectorXd BinWeights(const Eigen::VectorXd& variance, const std::vector<char>& masked);
-
 class Fitter {
  public:
   Fitter(const std::vector<CutRecord>& records, const Effect& effect,

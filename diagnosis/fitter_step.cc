@@ -30,7 +30,8 @@ double Fitter::LeakJacobian(EffectValues x, const AcousticLocals& locals, std::s
   double sum = 0.0;
   for (Eigen::Index k = 0; k < record.flame_count; ++k) {
     const Response leak = effect_.PressureLeak(record.frequency(k), record.at, x);
-    sum -= std::log(std::norm(1.0 - leak * r[k + kTapReach]));
+    const Eigen::VectorXd& share = record.reference.flame_share;
+    sum -= (share.size() > 0 ? share[k] : 1.0) * std::log(std::norm(1.0 - leak * r[k + kTapReach]));
   }
   return sum / kBinCorrelation;
 }

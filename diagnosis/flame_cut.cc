@@ -85,6 +85,7 @@ Eigen::VectorXcd FlameMultiplier(const CutRecord& record, const Effect& effect, 
     out[k] = effect.HeatReleaseInstrument(f, x) * effect.FlameOut(f, x) *
              std::polar(1.0, -kRadPerSPerHz * f * tau);
   }
+  if (record.reference.flame.size() > 0) out = out.cwiseProduct(record.reference.flame).eval();
   return out;
 }
 

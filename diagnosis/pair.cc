@@ -58,12 +58,14 @@ Attempt Join(const Attempt& first, Attempt second) {
 }
 
 // The best transfer function once the first effect was taken out of the samples.
-std::optional<Attempt> AfterRepair(const Attempt& first, const std::vector<EffectForms>& units,
+std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
+                                   const std::vector<EffectForms>& units,
                                    const std::vector<CoherentLine>& lines, int threads) {
   std::vector<CutRecord> records = MakeCutRecords(first.repaired);
+  KeepReference(*whole.records, &records);
   MaskLines(lines, &records);
   const EffectFit base = FitBase(records);
-  Setting at{&records, &base, &first.repaired, {}};
+  Setting at{&records, &base, &first.repaired, {}, whole.reference};
   for (std::size_t e = 0; e < records.size(); ++e) {
     at.base_held_out.push_back(HeldOut(records, base, e));
   }
@@ -96,7 +98,7 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
     return std::nullopt;
   }
   if (top.seen) {
-    if (!top.repaired.empty()) return AfterRepair(top, units, lines, threads);
+    if (!top.repaired.empty()) return AfterRepair(at, top, units, lines, threads);
     // Steps in p disturb whatever p drives: only cut A, where p is the answer, is to be trusted.
     const Attempt* other = BestOf(
         attempts, [](const Attempt& a) { return a.fit && a.fit->effect->ChangesAcousticCut(); });

@@ -29,14 +29,16 @@ std::vector<SlackBand> Bands(const std::vector<CutRecord>& records,
     std::complex<double> sum = 0.0;
     double norm = 0.0;
     for (std::size_t i = 0; i < records.size(); ++i) {
+      const Eigen::VectorXd& share = records[i].reference.acoustic_share;
       std::complex<double> own = 0.0;
       double own_norm = 0.0;
       for (Eigen::Index k = 0; k < e[i]->size(); ++k) {
         const double f = records[i].frequency(k);
         if (f < from || f >= band.high_hz || records[i].masked[static_cast<std::size_t>(k)])
           continue;
-        own += std::conj(x[i][k]) * (*e[i])[k] / (*v[i])[k];
-        own_norm += std::norm(x[i][k]) / (*v[i])[k];
+        const double counts = share.size() > 0 ? share[k] : 1.0;
+        own += counts * (std::conj(x[i][k]) * (*e[i])[k] / (*v[i])[k]);
+        own_norm += counts * (std::norm(x[i][k]) / (*v[i])[k]);
       }
       band.by_experiment.push_back(own_norm > 0.0 ? std::norm(own) / own_norm / kBinCorrelation
                                                   : 0.0);
@@ -121,6 +123,8 @@ Slack ComputeSlack(const std::vector<CutRecord>& records, const EffectFit& fit) 
          records[i].windowed_pressure.head(n);
     Eigen::VectorXd weight =
         at.flame_noise.cwiseMax(MedianPower(at.flame_residual)).cwiseInverse() / kBinCorrelation;
+    const Eigen::VectorXd& share = records[i].reference.flame_share;
+    if (share.size() > 0) weight = weight.cwiseProduct(share).eval();
     Eigen::MatrixXcd columns(n, taps);
     for (Eigen::Index k = 0; k < n; ++k) {
       if (records[i].masked[static_cast<std::size_t>(k)]) weight[k] = 0.0;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/noise_fit.h"
+#include "diagnosis/cut_noise.h"
 #include "diagnosis/real_fft.h"
 #include "diagnosis/real_gram.h"
 
@@ -19,6 +19,9 @@ constexpr int kRounds = 3;
 constexpr double kEdgeWidth = 0.02;
 constexpr double kEdgeRatio = 5.0;
 constexpr double kEdgeShare = 0.03;
+constexpr double kSameValue = 1e-6;  // of the range
+constexpr double kRepeatedShare = 0.01;
+constexpr double kRepeatedRatio = 3.0;  // over the samples a fiftieth of the range below
 constexpr std::size_t kMostLevels = 300;
 
 double Quantile(const Eigen::VectorXd& x, double share) {
@@ -39,8 +42,19 @@ bool EdgeAt(const Eigen::VectorXd& x, double range) {
          near > kEdgeShare * static_cast<double>(x.size());
 }
 
+// A saturated sample repeats the extreme value exactly. Distributions that are smooth there have
+// one sample at it, or a few where the levels are coarse.
+bool RepeatedExtreme(const Eigen::VectorXd& x, double range) {
+  const double top = x.maxCoeff();
+  const double at_top = static_cast<double>((x.array() > top - kSameValue * range).count());
+  const double near = static_cast<double>((x.array() > top - kEdgeWidth * range).count());
+  return at_top > kRepeatedShare * static_cast<double>(x.size()) &&
+         at_top > kRepeatedRatio * (near - at_top);
+}
+
 bool SharpEdge(const Eigen::VectorXd& x) {
   const double range = Quantile(x, 0.9995) - Quantile(x, 0.0005);
+  if (RepeatedExtreme(x, range) || RepeatedExtreme(-x, range)) return true;
   return EdgeAt(x, range) && EdgeAt(-x, range);
 }
 
@@ -131,10 +145,7 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
       return windowed;
     };
     for (int round = 0; round < kRounds; ++round) {
-      Eigen::VectorXd weight = at.acoustic_noise.cwiseInverse();
-      for (Eigen::Index k = 0; k < weight.size(); ++k) {
-        if (record.masked[static_cast<std::size_t>(k)]) weight[k] = 0.0;
-      }
+      const Eigen::VectorXd weight = AcousticWeights(record, at.acoustic_noise);
       for (int i = 0; i < kIterations; ++i) {
         const Eigen::VectorXcd bare = AcousticResidual(record, none, {}, at.acoustics);
         const Eigen::MatrixXcd extra = columns();
@@ -156,9 +167,8 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
       }
       at.acoustic_residual = AcousticResidual(record, none, {}, at.acoustics) + columns() * c;
       const Eigen::VectorXcd r = RecordedTransfer(record, none, {}, at.acoustics);
-      at.acoustic_noise =
-          AcousticNoise(at.acoustic_residual,
-                        r.segment(kTapReach, record.acoustic_count).cwiseAbs2(), record.masked);
+      at.acoustic_noise = FitAcousticNoise(record, at.acoustic_residual,
+                                           r.segment(kTapReach, record.acoustic_count).cwiseAbs2());
     }
     out.repaired.push_back((pressure ? record.pressure : record.heat_release) + bumps.signal * c);
     if (!pressure) {
@@ -168,7 +178,7 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
           (noise.square() * (1.0 - bumps.on)).sum() / std::max((1.0 - bumps.on).sum(), 1.0);
       plateau_noise += on / off / static_cast<double>(records.size());
     }
-    cost += WhittleCost(at.acoustic_residual, at.acoustic_noise, record.masked);
+    cost += AcousticCost(record, at.acoustic_residual, at.acoustic_noise);
     // The mean height of the bumps over the plateau.
     expansion += 0.5 * c.dot(bumps.mean) / bumps.plateau / static_cast<double>(records.size());
   }

@@ -11,6 +11,8 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/effect_fit.h"
 #include "diagnosis/gain_fluctuation.h"
+#include "diagnosis/reference.h"
+#include "model/effects/declared_effect.h"
 
 namespace howl {
 
@@ -37,6 +39,7 @@ struct Setting {
   const EffectFit* base = nullptr;
   const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
+  const ReferenceModel* reference = nullptr;  // what stands in the model's place, if anything does
 };
 
 // An effect with several forms (orders of a filter, say): the best of them.
@@ -48,6 +51,9 @@ Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<Cohe
                  const LineOrigin& origin);
 Attempt TryClipping(const Setting& at, const Effect& effect);
 Attempt TryQuantisation(const Setting& at, const Effect& effect);
+Attempt TryDeclaredMap(const Setting& at, const DeclaredEffect& effect);
+Attempt TryDeclaredLine(const Setting& at, const DeclaredEffect& effect,
+                        const std::vector<CoherentLine>& lines);
 
 // The start of an attempt whose residuals are the base's.
 Attempt Named(const Setting& at, const Effect& effect);

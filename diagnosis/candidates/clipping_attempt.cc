@@ -12,6 +12,13 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
   Attempt out = Named(at, effect);
   const bool pressure = effect.id() == "p_clipping";
   ClippingFit clipping = FitClipping(*at.records, pressure, *at.base);
+  if (at.reference) {
+    clipping.gain =
+        std::max(0.0, clipping.gain - 2.0 * (pressure ? at.reference->pressure_clipping_gain
+                                                      : at.reference->heat_release_clipping_gain));
+    clipping.sharp_edge &=
+        !(pressure ? at.reference->pressure_sharp_edge : at.reference->heat_release_sharp_edge);
+  }
   out.candidate.gain = clipping.gain;
   out.candidate.parameters.push_back(WithoutError("fraction", clipping.fraction, ""));
   for (std::size_t e = 0; e < out.held_out.size(); ++e) {
@@ -32,7 +39,8 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
   }
   if (pressure && clipping.sharp_edge) {
     // The flame too is driven by the repaired signal.
-    const std::vector<CutRecord> records = MakeCutRecords(out.repaired);
+    std::vector<CutRecord> records = MakeCutRecords(out.repaired);
+    KeepReference(*at.records, &records);
     const EffectFit fit = FitBase(records);
     for (std::size_t e = 0; e < out.held_out.size(); ++e) {
       out.held_out[e] = HeldOut(records, fit, e);

@@ -5,7 +5,10 @@ namespace howl {
 
 Attempt TryQuantisation(const Setting& at, const Effect& effect) {
   Attempt out = Named(at, effect);
-  const FewLevels found = FindQuantisation(*at.records);
+  FewLevels found = FindQuantisation(*at.records);
+  if (at.reference && at.reference->quantisation_levels > 0.0) {
+    found.found &= found.levels < 0.67 * at.reference->quantisation_levels;
+  }
   out.seen = found.found;
   out.candidate.parameters.push_back(WithoutError("levels", found.levels, ""));
   return out;

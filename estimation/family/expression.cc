@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 namespace howl {
 
 namespace {
-
-constexpr int kDeepest = 200;  // of nested parentheses, signs and powers
 
 double Sine(double x) { return std::sin(x); }
 double Cosine(double x) { return std::cos(x); }
@@ -61,260 +57,97 @@ Interval Power(const Interval& a, const Interval& b) {
   return Exponential(b * Logarithm(a));
 }
 
-}  // namespace
-
-class ExpressionParser {
- public:
-  using Operation = Expression::Operation;
-  using Name = Expression::Name;
-
-  ExpressionParser(std::string_view text, std::span<const Experiment> experiments,
-                   Expression& expression, ExpressionError& error)
-      : text_(text), experiments_(experiments), expression_(expression), error_(error) {}
-
-  bool Parse() {
-    if (!Sum()) return false;
-    Skip();
-    return position_ == text_.size() || Fail("unexpected '" + std::string(1, text_[position_]) +
-                                             "', expected an operator or the end");
+// Both kinds of number by one name.
+struct Arithmetic {
+  template <typename T>
+  static T Multiply(const T& a, const T& b) {
+    return a * b;
   }
-
- private:
-  bool Fail(std::string message) {
-    error_ = {position_, std::move(message)};
-    return false;
+  template <typename T>
+  static T Divide(const T& a, const T& b) {
+    return howl::Divide(a, b);
   }
-  void Skip() {
-    while (position_ < text_.size() && std::isspace(Byte(position_))) ++position_;
+  template <typename T>
+  static T Power(const T& a, const T& b) {
+    return howl::Power(a, b);
   }
-  int Byte(std::size_t at) const { return static_cast<unsigned char>(text_[at]); }
-  bool Take(char c) {
-    Skip();
-    if (position_ >= text_.size() || text_[position_] != c) return false;
-    ++position_;
-    return true;
+  template <typename T>
+  static T Root(const T& a) {
+    return howl::Root(a);
   }
-  bool Emit(Operation operation) {
-    expression_.tokens_.push_back({.operation = operation, .experiment = std::nullopt});
-    return true;
+  template <typename T>
+  static T Exponential(const T& a) {
+    return howl::Exponential(a);
   }
-
-  bool Sum() {
-    if (!Product()) return false;
-    for (;;) {
-      if (Take('+')) {
-        if (!Product() || !Emit(Operation::kAdd)) return false;
-      } else if (Take('-')) {
-        if (!Product() || !Emit(Operation::kSubtract)) return false;
-      } else {
-        return true;
-      }
-    }
+  template <typename T>
+  static T Logarithm(const T& a) {
+    return howl::Logarithm(a);
   }
-
-  bool Product() {
-    if (!Signed()) return false;
-    for (;;) {
-      if (Take('*')) {
-        if (!Signed() || !Emit(Operation::kMultiply)) return false;
-      } else if (Take('/')) {
-        if (!Signed() || !Emit(Operation::kDivide)) return false;
-      } else {
-        return true;
-      }
-    }
+  template <typename T>
+  static T Sine(const T& a) {
+    return howl::Sine(a);
   }
-
-  bool Signed() {
-    if (++depth_ > kDeepest) return Fail("nested too deeply");
-    bool good = false;
-    if (Take('-')) {
-      good = Signed() && Emit(Operation::kNegate);
-    } else {
-      Take('+');
-      good = Factor();
-    }
-    --depth_;
-    return good;
+  template <typename T>
+  static T Cosine(const T& a) {
+    return howl::Cosine(a);
   }
-
-  bool Factor() {
-    if (!Primary()) return false;
-    return !Take('^') || (Signed() && Emit(Operation::kPower));
+  template <typename T>
+  static T Absolute(const T& a) {
+    return howl::Absolute(a);
   }
-
-  bool Primary() {
-    Skip();
-    if (position_ >= text_.size()) return Fail("ends too early, expected a number, a name or '('");
-    if (Take('(')) {
-      return Sum() && (Take(')') || Fail("expected ')'"));
-    }
-    if (std::isdigit(Byte(position_)) || text_[position_] == '.') return Number();
-    if (std::isalpha(Byte(position_)) || text_[position_] == '_') return Word();
-    return Fail("unexpected '" + std::string(1, text_[position_]) +
-                "', expected a number, a name or '('");
-  }
-
-  bool Number() {
-    const std::string rest(text_.substr(position_, 64));
-    char* end = nullptr;
-    const double value = std::strtod(rest.c_str(), &end);
-    if (end == rest.c_str() || !std::isfinite(value)) return Fail("expected a number");
-    position_ += static_cast<std::size_t>(end - rest.c_str());
-    expression_.tokens_.push_back(
-        {.operation = Operation::kNumber, .number = value, .experiment = std::nullopt});
-    return true;
-  }
-
-  std::string Identifier() {
-    const std::size_t start = position_;
-    while (position_ < text_.size() && (std::isalnum(Byte(position_)) || text_[position_] == '_')) {
-      ++position_;
-    }
-    return std::string(text_.substr(start, position_ - start));
-  }
-
-  bool Word() {
-    const std::size_t start = position_;
-    const std::string word = Identifier();
-    constexpr std::array<std::pair<std::string_view, Operation>, 6> kFunctions = {
-        {{"sqrt", Operation::kSqrt},
-         {"exp", Operation::kExp},
-         {"log", Operation::kLog},
-         {"sin", Operation::kSin},
-         {"cos", Operation::kCos},
-         {"abs", Operation::kAbs}}};
-    for (const auto& [name, operation] : kFunctions) {
-      if (word != name) continue;
-      if (!Take('(')) return Fail("expected '(' after " + word);
-      return Sum() && (Take(')') || Fail("expected ')'")) && Emit(operation);
-    }
-    if (word == "pi") {
-      expression_.tokens_.push_back({.operation = Operation::kNumber,
-                                     .number = std::numbers::pi,
-                                     .experiment = std::nullopt});
-      return true;
-    }
-    if (position_ < text_.size() && text_[position_] == '.') {
-      const auto found = std::find_if(experiments_.begin(), experiments_.end(),
-                                      [&](const Experiment& e) { return e.name == word; });
-      if (found == experiments_.end()) {
-        position_ = start;
-        return Fail("no experiment is called " + word);
-      }
-      ++position_;
-      return Named(Identifier(), static_cast<std::size_t>(found - experiments_.begin()), start);
-    }
-    return Named(word, std::nullopt, start);
-  }
-
-  bool Named(const std::string& word, std::optional<std::size_t> experiment, std::size_t start) {
-    constexpr std::array<std::pair<std::string_view, Name>, 11> kNames = {
-        {{"omega_hz", Name::kOmega},
-         {"xi", Name::kXi},
-         {"N", Name::kN},
-         {"M", Name::kM},
-         {"tau_s", Name::kTau},
-         {"harmonic_ratio", Name::kHarmonicRatio},
-         {"phi", Name::kPhi},
-         {"frequency_hz", Name::kFrequency},
-         {"phase_deg", Name::kPhase},
-         {"gain", Name::kGain},
-         {"flame_slope", Name::kFlameSlope}}};
-    for (const auto& [name, value] : kNames) {
-      if (word != name) continue;
-      expression_.tokens_.push_back(
-          {.operation = Operation::kName, .name = value, .experiment = experiment});
-      if (!experiment) expression_.per_experiment_ = true;
-      return true;
-    }
-    position_ = start;
-    return Fail("unknown name " + word +
-                ", expected omega_hz, xi, N, M, tau_s, harmonic_ratio, phi, frequency_hz, "
-                "phase_deg, gain, flame_slope, pi or a function");
-  }
-
-  std::string_view text_;
-  std::span<const Experiment> experiments_;
-  Expression& expression_;
-  ExpressionError& error_;
-  std::size_t position_ = 0;
-  int depth_ = 0;
 };
+
+constexpr std::array<std::string_view, 11> kNames = {
+    "omega_hz", "xi",           "N",         "M",    "tau_s",      "harmonic_ratio",
+    "phi",      "frequency_hz", "phase_deg", "gain", "flame_slope"};
+
+}  // namespace
 
 std::optional<Expression> Expression::Parse(std::string_view text,
                                             std::span<const Experiment> experiments,
                                             ExpressionError& error) {
   Expression expression;
   expression.text_ = std::string(text);
-  ExpressionParser parser(text, experiments, expression, error);
-  if (!parser.Parse()) return std::nullopt;
+  const FormulaNames names = [&](const std::string& owner, const std::string& word) -> FormulaName {
+    Quantity quantity;
+    if (!owner.empty()) {
+      const auto found = std::find_if(experiments.begin(), experiments.end(),
+                                      [&](const Experiment& e) { return e.name == owner; });
+      if (found == experiments.end()) return {std::nullopt, "no experiment is called " + owner};
+      quantity.experiment = static_cast<std::size_t>(found - experiments.begin());
+    }
+    const auto name = std::find(kNames.begin(), kNames.end(), word);
+    if (name == kNames.end()) {
+      return {std::nullopt,
+              "unknown name " + word +
+                  ", expected omega_hz, xi, N, M, tau_s, harmonic_ratio, phi, frequency_hz, "
+                  "phase_deg, gain, flame_slope, pi or a function"};
+    }
+    quantity.name = static_cast<Name>(name - kNames.begin());
+    if (!quantity.experiment) expression.per_experiment_ = true;
+    expression.quantities_.push_back(quantity);
+    return {expression.quantities_.size() - 1, ""};
+  };
+  auto tokens = ParseFormula(text, names, error);
+  if (!tokens) return std::nullopt;
+  expression.tokens_ = std::move(*tokens);
   return expression;
 }
 
 template <typename T, typename Lookup>
 T Expression::Run(const Lookup& lookup) const {
-  std::vector<T> stack(tokens_.size(), T(0.0));
-  std::size_t size = 0;
-  for (const Token& token : tokens_) {
-    if (token.operation == Operation::kNumber) {
-      stack[size++] = T(token.number);
-      continue;
-    }
-    if (token.operation == Operation::kName) {
-      stack[size++] = lookup(token.name, token.experiment);
-      continue;
-    }
-    const T right = stack[--size];
-    T& left = stack[size > 0 ? size - 1 : 0];
-    switch (token.operation) {
-      case Operation::kAdd:
-        left = left + right;
-        break;
-      case Operation::kSubtract:
-        left = left - right;
-        break;
-      case Operation::kMultiply:
-        left = left * right;
-        break;
-      case Operation::kDivide:
-        left = Divide(left, right);
-        break;
-      case Operation::kPower:
-        left = Power(left, right);
-        break;
-      case Operation::kNegate:
-        stack[size++] = -right;
-        break;
-      case Operation::kSqrt:
-        stack[size++] = Root(right);
-        break;
-      case Operation::kExp:
-        stack[size++] = Exponential(right);
-        break;
-      case Operation::kLog:
-        stack[size++] = Logarithm(right);
-        break;
-      case Operation::kSin:
-        stack[size++] = Sine(right);
-        break;
-      case Operation::kCos:
-        stack[size++] = Cosine(right);
-        break;
-      case Operation::kAbs:
-        stack[size++] = Absolute(right);
-        break;
-      case Operation::kNumber:
-      case Operation::kName:
-        break;
-    }
-  }
-  return stack[0];
+  std::vector<T> stack(FormulaDepth(tokens_), T(0.0));
+  return EvaluateFormula<Arithmetic>(
+      std::span<const FormulaToken>(tokens_),
+      [&](std::size_t slot) {
+        return lookup(quantities_[slot].name, quantities_[slot].experiment);
+      },
+      stack.data());
 }
 
 bool Expression::DependsOn(std::size_t experiment, std::size_t index) const {
-  return std::any_of(tokens_.begin(), tokens_.end(), [&](const Token& token) {
-    return token.operation == Operation::kName && token.experiment.value_or(index) == experiment;
+  return std::any_of(quantities_.begin(), quantities_.end(), [&](const Quantity& quantity) {
+    return quantity.experiment.value_or(index) == experiment;
   });
 }
 

@@ -1,11 +1,9 @@
-// Arithmetic expressions of a member's parameters, as a config may ask for:
+// Formulas (model/formula.h) of a member's parameters, as a config may ask for, in the names
 //
-//   + - * / ^ ( ), unary -, sqrt exp log sin cos abs, numbers, pi, and the names
 //   omega_hz xi N M tau_s harmonic_ratio (of the model), phi frequency_hz phase_deg gain
 //   flame_slope (of the experiment).
 //
 // A name alone is that of the experiment the expression is evaluated for; exp1.xi is that of exp1.
-// ^ binds to the right, and tighter than the unary minus on its left: -x^2 = -(x^2).
 #ifndef HOWL_ESTIMATION_FAMILY_EXPRESSION_H_
 #define HOWL_ESTIMATION_FAMILY_EXPRESSION_H_
 
@@ -18,13 +16,11 @@
 #include "estimation/experiment.h"
 #include "estimation/family/cell.h"
 #include "estimation/family/problem.h"
+#include "model/formula.h"
 
 namespace howl {
 
-struct ExpressionError {
-  std::size_t position = 0;  // in the text, from 0
-  std::string message;       // what is wrong, what was expected
-};
+using ExpressionError = FormulaError;
 
 class Expression {
  public:
@@ -48,23 +44,6 @@ class Expression {
   bool IsPerExperiment() const { return per_experiment_; }
 
  private:
-  friend class ExpressionParser;
-  enum class Operation {
-    kNumber,
-    kName,
-    kAdd,
-    kSubtract,
-    kMultiply,
-    kDivide,
-    kPower,
-    kNegate,
-    kSqrt,
-    kExp,
-    kLog,
-    kSin,
-    kCos,
-    kAbs
-  };
   enum class Name {
     kOmega,
     kXi,
@@ -78,9 +57,7 @@ class Expression {
     kGain,
     kFlameSlope
   };
-  struct Token {  // in reverse Polish order
-    Operation operation;
-    double number = 0.0;
+  struct Quantity {
     Name name = Name::kOmega;
     std::optional<std::size_t> experiment;
   };
@@ -89,7 +66,8 @@ class Expression {
   T Run(const Lookup& lookup) const;
 
   std::string text_;
-  std::vector<Token> tokens_;
+  std::vector<FormulaToken> tokens_;
+  std::vector<Quantity> quantities_;  // by the tokens' slots
   bool per_experiment_ = false;
 };
 

@@ -57,6 +57,7 @@ Config LoadConfig(const std::filesystem::path& path) {
   ReadFamily(root, config);
   ReadAnalysis(root, config);
   ReadSimulation(root, config);
+  ReadEffects(root, config);
   return config;
 }
 

@@ -17,6 +17,7 @@
 #include "estimation/solver_spec.h"
 #include "io/config/simulation_spec.h"
 #include "io/record_spec.h"
+#include "model/effects/declared_effect.h"
 
 namespace howl {
 
@@ -38,6 +39,7 @@ struct Config {
   FamilySpec family;
   AnalysisSpec analysis;
   SimulationSpec simulation;
+  std::vector<EffectDeclaration> effects;  // of the user's own
 };
 
 // Throws UserError at the first mistake, in the order of the file's lines for what the schema

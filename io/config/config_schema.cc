@@ -36,4 +36,13 @@ const nlohmann::json& ResolveRef(const nlohmann::json& root, const nlohmann::jso
   return root.at(nlohmann::json::json_pointer(target.substr(1)));
 }
 
+const nlohmann::json* FindMemberSchema(const nlohmann::json& root, const nlohmann::json& schema,
+                                       const std::string& key) {
+  const auto properties = schema.find("properties");
+  if (properties == schema.end()) return nullptr;
+  if (properties->contains(key)) return &ResolveRef(root, properties->at(key));
+  const auto any = schema.find("additionalProperties");
+  return any != schema.end() && any->is_object() ? &ResolveRef(root, *any) : nullptr;
+}
+
 }  // namespace howl

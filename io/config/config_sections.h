@@ -16,6 +16,7 @@ void ReadFamily(const ConfigCursor& root, Config& config);
 void ReadSolver(const ConfigCursor& root, Config& config);
 void ReadAnalysis(const ConfigCursor& root, Config& config);
 void ReadSimulation(const ConfigCursor& root, Config& config);
+void ReadEffects(const ConfigCursor& root, Config& config);
 
 RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file);
 

@@ -36,9 +36,10 @@ Place Locate(const std::vector<std::string>& context, const LocatedNode& root,
       continue;
     }
     const LocatedMember* const member = place.node->Find(step);
-    if (member == nullptr || !place.schema->at("properties").contains(step)) break;
+    const nlohmann::json* const known = FindMemberSchema(schema, *place.schema, step);
+    if (member == nullptr || known == nullptr) break;
     place.node = &member->value;
-    place.schema = &ResolveRef(schema, place.schema->at("properties").at(step));
+    place.schema = known;
     place.key = JoinKey(place.key, step);
   }
   return place;

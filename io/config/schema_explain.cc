@@ -165,7 +165,7 @@ std::optional<SchemaMistake> ExplainMistake(const LocatedNode& node, const std::
   if (const auto what = ExplainValue(node, schema)) return SchemaMistake{node.line, key, *what};
   if (node.kind != Kind::kMapping) return std::nullopt;
   for (const LocatedMember& member : node.members) {
-    if (schema["properties"].contains(member.key)) continue;
+    if (FindMemberSchema(root_schema, schema, member.key) != nullptr) continue;
     return SchemaMistake{member.key_line, JoinKey(key, member.key),
                          ExplainUnknownKey(member.key, schema, root_schema)};
   }

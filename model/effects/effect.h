@@ -42,11 +42,13 @@ std::string_view LoopBlockName(LoopBlock block);
 
 // How the effect is recognised in records.
 enum class EffectKind : std::uint8_t {
-  kTransfer,     // a transfer function or a slow modulation: fitted
-  kGain,         // the flame's gain fluctuates
-  kLine,         // a coherent line that is no harmonic
-  kClipping,     // a recorded signal saturates
-  kQuantisation  // a recorded signal has few levels
+  kTransfer,      // a transfer function or a slow modulation: fitted
+  kGain,          // the flame's gain fluctuates
+  kLine,          // a coherent line that is no harmonic
+  kClipping,      // a recorded signal saturates
+  kQuantisation,  // a recorded signal has few levels
+  kDeclaredMap,   // declared_effect.h: a static map of a recorded signal
+  kDeclaredLine   // and a coherent line between two frequencies
 };
 
 enum class ParameterScale : std::uint8_t { kLinear, kLogarithmic };
