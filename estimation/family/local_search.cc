@@ -488,7 +488,7 @@ struct LocalSearch::Impl {
     ConditionSet soft;
     bool domain_soft = false;
     bool has_s = false;  // minimise s; else maximise the quantity
-    double enough = -1.0;
+    double enough = -kInfinite;  // s at which to stop
     const MemberQuantity* quantity = nullptr;
     double sign = 1.0;
     double scale = 1.0;
@@ -532,7 +532,7 @@ struct LocalSearch::Impl {
   }
 
   bool Solve(State& state, const Task& task) const {
-    constexpr int kSteps = 25;
+    constexpr int kSteps = 80;
     constexpr double kGap = 2e-5;
     const int n = layout.size + (task.has_s ? 1 : 0);
     std::vector<Row> rows, trial;
