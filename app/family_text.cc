@@ -19,6 +19,7 @@ void PrintConflict(const Conflict& conflict) {
     for (const Condition condition : set) {
       names += (names.empty() ? "" : ", ") + std::string(ConditionName(condition));
     }
+    if (set.empty()) names = "the bounds of the parameters themselves";
     std::printf("  exclude each other: %s\n", names.c_str());
   }
   for (const Relaxation& relaxation : conflict.relaxations) {
@@ -118,6 +119,7 @@ void PrintTransfer(const FamilyRun& run) {
         Significant(*volume.least_distance, 3).c_str(), Significant(limit, 3).c_str());
     return;
   }
+  if (run.members.empty()) return;
   std::printf("the broadband q-to-p transfer of %zu experiments is part of the test", volume.experiments);
   if (volume.ln_ratio) {
     std::printf(": it leaves exp(%s +- %s) of the volume", Fixed(*volume.ln_ratio, 1).c_str(),

@@ -643,15 +643,44 @@ struct LocalSearch::Impl {
     }
   }
 
-  // The largest violation of the soft conditions of a state.
+  // The largest violation of the soft conditions of a state, at least zero.
   double LargestViolation(State& state, const Task& task) const {
     std::vector<Row> rows;
     if (!Rows(state, task.soft, task.domain_soft, &rows)) return kInfinite;
-    double largest = -kInfinite;
+    double largest = 0.0;
     for (const Row& row : rows) {
       if (row.weight > 0.0) largest = std::max(largest, -row.value);
     }
     return largest;
+  }
+
+  struct Centre {
+    double omega_hz, xi;
+  };
+
+  // Models at the measured phase and gain.
+  std::optional<Member> FromCentres(const std::vector<Centre>& centres, double ln_second) const {
+    if (shared_second) {
+      ln_second = std::clamp(ln_second, scales[0].box[kSecond].lo, scales[0].box[kSecond].hi);
+    }
+    Member member;
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      const double xi = centres[i].xi;
+      State state;
+      state.local.assign(i + 1, {});
+      state.omega_hz.assign(i + 1, centres[i].omega_hz);
+      state.local[i] = {std::log(xi), 0.0, 0.0, 0.0, ln_second};
+      const double top = OmegaFromDetuning(problem.experiments[i].frequency_hz,
+                                           xi * std::tan(-scales[i].phase_0));
+      if (two_modes && !shared_second) {
+        state.local[i][kSecond] =
+            std::log(std::clamp(centres[i].omega_hz, top / ratio * 1.001, top * 0.999));
+      }
+      LoopModel model;
+      if (!ToModel(i, state, model)) return std::nullopt;
+      member.push_back(model);
+    }
+    return member;
   }
 
   static constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -696,11 +725,11 @@ std::optional<Approach> LocalSearch::Minimise(const Member& start, const Conditi
   }
   const double violation = impl_->LargestViolation(state, task);
   if (!std::isfinite(violation)) return std::nullopt;
-  state.s = std::max(violation, 0.0) + 0.1;
+  state.s = violation + 0.1;
   Approach approach;
   approach.converged = impl_->Solve(state, task);
   if (!impl_->ToMember(state, approach.member)) return std::nullopt;
-  approach.violation = std::max(impl_->LargestViolation(state, task), 0.0);
+  approach.violation = impl_->LargestViolation(state, task);
   if (quantity != nullptr && !(std::abs(quantity->value(approach.member) - at) <=
                                1e-7 * std::max(std::abs(at), 1e-300))) {
     return std::nullopt;
@@ -724,44 +753,43 @@ std::optional<Member> LocalSearch::Farthest(const Member& start, const MemberQua
   return member;
 }
 
+std::optional<Member> LocalSearch::Nominal(double xi, double relative) const {
+  const FamilyProblem& problem = impl_->problem;
+  if (!impl_->supported) return std::nullopt;
+  const Range range = problem.RangeOf(ParameterKind::kXi);
+  xi = std::clamp(xi, std::max(range.lo, kLeastXi) * (1 + 1e-6),
+                  std::min({range.hi, problem.test.xi_max, kLargestXi}) * (1 - 1e-6));
+  double ln_second = std::log(relative);
+  if (impl_->shared_second && !impl_->relative) {
+    for (const Experiment& experiment : problem.experiments) {  // about N = 2 xi w |G|
+      ln_second +=
+          std::log(2.0 * xi * kRadPerSPerHz * experiment.frequency_hz * experiment.gain) /
+          static_cast<double>(problem.experiments.size());
+    }
+  }
+  std::vector<Impl::Centre> centres;
+  for (const Experiment& experiment : problem.experiments) {
+    centres.push_back({0.99 * experiment.frequency_hz, xi});
+  }
+  return impl_->FromCentres(centres, ln_second);
+}
+
 std::optional<Member> LocalSearch::FromTransfer() const {
   const FamilyProblem& problem = impl_->problem;
   if (!impl_->supported) return std::nullopt;
   double ln_second = 0.0;
+  std::vector<Impl::Centre> centres;
+  const Range xi = problem.RangeOf(ParameterKind::kXi);
   for (const Experiment& experiment : problem.experiments) {
     if (!experiment.transfer_ellipsoid) return std::nullopt;
     const TransferVector& centre = experiment.transfer_ellipsoid->Centre();
     ln_second += (impl_->relative ? centre(3) - centre(2) : centre(3)) /
                  static_cast<double>(problem.experiments.size());
+    centres.push_back({std::exp(centre(0)),
+                       std::clamp(std::exp(centre(1)), std::max(xi.lo, kLeastXi) * (1 + 1e-6),
+                                  std::min(xi.hi, kLargestXi) * (1 - 1e-6))});
   }
-  if (impl_->shared_second) {
-    const Range& box = impl_->scales[0].box[kSecond];
-    ln_second = std::clamp(ln_second, box.lo, box.hi);
-  }
-  Member member;
-  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
-    const TransferVector& centre = problem.experiments[i].transfer_ellipsoid->Centre();
-    const Range xi = problem.RangeOf(ParameterKind::kXi);
-    const double x = std::clamp(std::exp(centre(1)), std::max(xi.lo, kLeastXi) * (1 + 1e-6),
-                                std::min(xi.hi, kLargestXi) * (1 - 1e-6));
-    State state;
-    state.local.assign(i + 1, {});
-    state.omega_hz.assign(i + 1, std::exp(centre(0)));
-    std::array<double, kLocals>& u = state.local[i];
-    u = {std::log(x), 0.0, 0.0, 0.0, 0.0};
-    const double phase = impl_->scales[i].phase_0;
-    const double top = OmegaFromDetuning(problem.experiments[i].frequency_hz, x * std::tan(-phase));
-    if (impl_->two_modes) {
-      u[kSecond] = impl_->shared_second
-                       ? ln_second
-                       : std::log(std::clamp(std::exp(centre(0)), top / impl_->ratio * 1.001,
-                                             top * 0.999));
-    }
-    LoopModel model;
-    if (!impl_->ToModel(i, state, model)) return std::nullopt;
-    member.push_back(model);
-  }
-  return member;
+  return impl_->FromCentres(centres, ln_second);
 }
 
 }  // namespace howl

@@ -56,6 +56,10 @@ class LocalSearch {
   std::optional<Member> Farthest(const Member& start, const MemberQuantity& quantity, double sign,
                                  double scale) const;
 
+  // A model for each experiment with that damping and about that M / N, at the measured phase and
+  // gain, to start from; nothing where there is no such model.
+  std::optional<Member> Nominal(double xi, double relative) const;
+
   // A model for each experiment from the centre of its transfer and the characteristics, to start
   // from; nothing where an experiment has no transfer, or no such model.
   std::optional<Member> FromTransfer() const;

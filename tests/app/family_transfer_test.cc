@@ -163,7 +163,8 @@ TEST(FamilyPredictions, AmplitudeWhereAFlameIsStatedWhateverTheThreads) {
             0);
   EXPECT_EQ(ReadFile(one.path() / "family.json"), ReadFile(two.path() / "family.json"));
   int seen = 0;
-  for (const Json& each : FamilyJson(one)["predictions"]) {
+  const Json json = FamilyJson(one);
+  for (const Json& each : json["predictions"]) {
     if (each["name"] != "p_amplitude" || each["interval"].is_null()) continue;
     ++seen;
     // Saturated at 0.5, q has at most the amplitude 4 / pi * 0.5, and p that times the gain at f.
