@@ -120,7 +120,8 @@ void PrintTransfer(const FamilyRun& run) {
     return;
   }
   if (run.members.empty()) return;
-  std::printf("the broadband q-to-p transfer of %zu experiments is part of the test", volume.experiments);
+  std::printf("the broadband q-to-p transfer of %zu experiments is part of the test",
+              volume.experiments);
   if (volume.ln_ratio) {
     std::printf(": it leaves exp(%s +- %s) of the volume", Fixed(*volume.ln_ratio, 1).c_str(),
                 Fixed(volume.ln_std, 1).c_str());
@@ -171,9 +172,10 @@ void PrintProfile(const ProfileReport& report) {
   std::printf("  %zu points, cost (largest share of a tolerance) %s .. %s; %s\n",
               profile.points.size(), Fixed(best->cost, 3).c_str(),
               Fixed(std::max(profile.points.front().cost, profile.points.back().cost), 3).c_str(),
-              profile.IsSound()
-                  ? "each found again from its other neighbour"
-                  : (std::to_string(profile.flagged) + " flagged: found differently from the other side").c_str());
+              profile.IsSound() ? "each found again from its other neighbour"
+                                : (std::to_string(profile.flagged) +
+                                   " flagged: found differently from the other side")
+                                      .c_str());
 }
 
 void PrintFurther(const FurtherTest& further) {

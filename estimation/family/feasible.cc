@@ -12,9 +12,10 @@ bool HasExactWindows(const FamilyProblem& problem) {
     const Range range = problem.RangeOf(kind);
     return range.lo <= 0.0 && !std::isfinite(range.hi);
   };
-  return problem.model.modes == 1 && !problem.HasTransfer() && !problem.IsShared(ParameterKind::kN) &&
-         !problem.IsShared(ParameterKind::kTau) && is_free(ParameterKind::kN) &&
-         is_free(ParameterKind::kTau) && is_free(ParameterKind::kOmega);
+  return problem.model.modes == 1 && !problem.HasTransfer() &&
+         !problem.IsShared(ParameterKind::kN) && !problem.IsShared(ParameterKind::kTau) &&
+         is_free(ParameterKind::kN) && is_free(ParameterKind::kTau) &&
+         is_free(ParameterKind::kOmega);
 }
 
 std::optional<Member> FindMember(const FamilyProblem& problem) {

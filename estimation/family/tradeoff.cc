@@ -72,7 +72,6 @@ LocalLeast LeastXiLocally(FamilyProblem problem, const std::vector<Member>& star
   return result;
 }
 
-
 // Members to start local searches from: with all the spread that is asked for anywhere.
 std::vector<Member> LocalStarts(const FamilyProblem& problem, double omega_spread,
                                 std::uint64_t seed) {

@@ -116,8 +116,8 @@ TEST(FamilyTransfer, MeasuredCombustorSaysHowFarTheModelIsFromTheTransfer) {
 // |w (tau - tau_0)| / 1.5 degrees, whatever the other experiments are.
 TEST(FamilyProfile, DelayOfAPublishedExperiment) {
   const TemporaryFolder folder;
-  const ProgramResult run = RunHowl("family " + Config("r228") + " --profile exp3.tau_s --out " +
-                                    folder.path().string());
+  const ProgramResult run =
+      RunHowl("family " + Config("r228") + " --profile exp3.tau_s --out " + folder.path().string());
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("profile of exp3.tau_s"), std::string::npos);
   std::stringstream lines(ReadFile(folder.path() / "profile.csv"));
@@ -157,10 +157,10 @@ TEST(FamilyPredictions, AmplitudeWhereAFlameIsStatedWhateverTheThreads) {
   const std::string text = ReadFile(Config("r228"));
   const auto config =
       one.Write("flame.yaml", text + "\nsimulate: {flame_shape: tanh, saturation: 0.5}\n").string();
-  ASSERT_EQ(RunHowl("family " + config + " --quiet --threads 1 --out " + one.path().string()).status,
-            0);
-  ASSERT_EQ(RunHowl("family " + config + " --quiet --threads 2 --out " + two.path().string()).status,
-            0);
+  ASSERT_EQ(
+      RunHowl("family " + config + " --quiet --threads 1 --out " + one.path().string()).status, 0);
+  ASSERT_EQ(
+      RunHowl("family " + config + " --quiet --threads 2 --out " + two.path().string()).status, 0);
   EXPECT_EQ(ReadFile(one.path() / "family.json"), ReadFile(two.path() / "family.json"));
   int seen = 0;
   const Json json = FamilyJson(one);
