@@ -18,8 +18,8 @@ std::vector<Member> Thinned(std::span<const Member> members, std::size_t most);
 // Of each experiment with a flame slope: growth rate of the rest state (1/s),
 // gain margin (dB), phase margin (deg); with two modes the line near 750 Hz (Hz) and the loop's
 // gain there. All sampled, over the members given.
-// With a flame stated by the config, its slope at rest being the experiment's, also the amplitude of
-// p in the limit cycle.
+// With a flame stated by the config, its slope at rest being the experiment's, also the amplitude
+// of p in the limit cycle.
 std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
                                                const SimulationSpec& simulation,
                                                std::span<const Member> members, int threads);

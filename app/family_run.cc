@@ -85,8 +85,8 @@ void DrawMembers(const Config& config, const Options& options, FamilyRun& run) {
   }
 }
 
-// A prediction of the config by its name (exp1.NAME where it differs from experiment to experiment),
-// or what ParseQuantity knows.
+// A prediction of the config by its name (exp1.NAME where it differs from experiment to
+// experiment), or what ParseQuantity knows.
 MemberQuantity AskedQuantity(const Config& config, const std::string& text,
                              const FamilyProblem& problem) {
   ExpressionError error;
@@ -115,8 +115,9 @@ void AskProfile(const Config& config, const Options& options, FamilyRun& run) {
   const std::optional<Profile> profile =
       ProfileFamily(run.problem, AskedQuantity(config, *text, run.problem), members);
   if (!profile) {
-    throw UsageError("--profile: expected omega_hz, xi, N and tau_s of each experiment's own, and "
-                     "tolerances that are not zero");
+    throw UsageError(
+        "--profile: expected omega_hz, xi, N and tau_s of each experiment's own, and "
+        "tolerances that are not zero");
   }
   run.profile = ProfileReport{*text, *profile};
 }

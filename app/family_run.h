@@ -30,8 +30,8 @@ struct FamilyRun {
   std::vector<ExperimentPrediction> predictions;
   std::optional<FurtherTest> falsified;
   std::optional<std::vector<Advice>> advice;
-  std::optional<TransferReport> transfer;   // where the test looks at records' transfers
-  std::optional<ProfileReport> profile;     // where it was asked for
+  std::optional<TransferReport> transfer;  // where the test looks at records' transfers
+  std::optional<ProfileReport> profile;    // where it was asked for
 };
 
 // Bounds, members, trade-off, predictions. Throws UserError for an expression that does not parse

@@ -19,6 +19,7 @@ void PrintConflict(const Conflict& conflict) {
     for (const Condition condition : set) {
       names += (names.empty() ? "" : ", ") + std::string(ConditionName(condition));
     }
+    if (set.empty()) names = "the bounds of the parameters themselves";
     std::printf("  exclude each other: %s\n", names.c_str());
   }
   for (const Relaxation& relaxation : conflict.relaxations) {
@@ -118,7 +119,9 @@ void PrintTransfer(const FamilyRun& run) {
         Significant(*volume.least_distance, 3).c_str(), Significant(limit, 3).c_str());
     return;
   }
-  std::printf("the broadband q-to-p transfer of %zu experiments is part of the test", volume.experiments);
+  if (run.members.empty()) return;
+  std::printf("the broadband q-to-p transfer of %zu experiments is part of the test",
+              volume.experiments);
   if (volume.ln_ratio) {
     std::printf(": it leaves exp(%s +- %s) of the volume", Fixed(*volume.ln_ratio, 1).c_str(),
                 Fixed(volume.ln_std, 1).c_str());
@@ -169,9 +172,10 @@ void PrintProfile(const ProfileReport& report) {
   std::printf("  %zu points, cost (largest share of a tolerance) %s .. %s; %s\n",
               profile.points.size(), Fixed(best->cost, 3).c_str(),
               Fixed(std::max(profile.points.front().cost, profile.points.back().cost), 3).c_str(),
-              profile.IsSound()
-                  ? "each found again from its other neighbour"
-                  : (std::to_string(profile.flagged) + " flagged: found differently from the other side").c_str());
+              profile.IsSound() ? "each found again from its other neighbour"
+                                : (std::to_string(profile.flagged) +
+                                   " flagged: found differently from the other side")
+                                      .c_str());
 }
 
 void PrintFurther(const FurtherTest& further) {

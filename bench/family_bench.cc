@@ -52,6 +52,29 @@ void BM_Enclose(benchmark::State& state) {
 }
 BENCHMARK(BM_Enclose)->Unit(benchmark::kMillisecond)->UseRealTime();
 
+// The same with two modes, shared M, and the line near 750 Hz: configs/r228_two_modes.yaml.
+void BM_EncloseTwoModes(benchmark::State& state) {
+  FamilyProblem problem = Problem(2);
+  for (std::size_t i = 0; i < 4; ++i) problem.experiments[i].lines = {{750.0, 10.0}};
+  problem.domain[ParameterKind::kOmega].lo = 150.0;
+  problem.domain[ParameterKind::kXi].lo = 0.02;
+  problem.domain[ParameterKind::kM].hi = 5000.0;
+  problem.test.second_crossing_tolerance_deg = 30.0;
+  problem.test.xi_max = 0.4;
+  double excess = 0.0;
+  for (auto _ : state) {
+    Enclosure enclosure(problem, {.width = 0.01, .threads = 2});
+    enclosure.Run();
+    for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+      for (const FamilyParameter parameter : kFamilyParameters) {
+        excess = std::max(excess, enclosure.Bound(i, parameter).Excess());
+      }
+    }
+  }
+  state.counters["excess"] = excess;
+}
+BENCHMARK(BM_EncloseTwoModes)->Unit(benchmark::kMillisecond)->UseRealTime();
+
 // Ten thousand uniform members; effective members a second.
 void BM_Sample(benchmark::State& state) {
   const FamilyProblem problem = Problem(1);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "estimation/family/feasible.h"
+#include "estimation/family/local_search.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -79,6 +80,10 @@ Feasibility DecideWith(const FamilyProblem& problem, unsigned kept,
   for (const Member& candidate : known) {
     if (Holds(at, candidate)) return Feasibility::kMember;
   }
+  if (LocalSearch(at).IsSupported()) {
+    member = FindMemberLocally(at);
+    return member ? Feasibility::kMember : DecideFeasible(at, false);
+  }
   for (const MembershipTest& level : kModerate) {
     FamilyProblem moderate = problem;
     each_other([&](Condition condition) { Widen(moderate.test, condition, level); });
@@ -86,6 +91,33 @@ Feasibility DecideWith(const FamilyProblem& problem, unsigned kept,
     if (member) return Feasibility::kMember;
   }
   return DecideFeasible(at);
+}
+
+// The least violation of the one condition that a local search reaches from a member of the family
+// without it, as the value that the test would have to ask for.
+std::optional<double> NeededLocally(const FamilyProblem& problem, Condition condition,
+                                    const Member& start) {
+  if (condition == Condition::kLoopGain) return std::nullopt;  // a bound of the search's own
+  FamilyProblem without = problem;
+  SwitchOff(without.test, condition);
+  const auto inside = LocalSearch(without).FindMember(start);
+  ConditionSet soft;
+  soft.Insert(condition);
+  const auto nearest =
+      inside ? LocalSearch(problem).Minimise(inside->member, soft) : std::optional<Approach>();
+  if (!nearest) return std::nullopt;
+  FamilyProblem relaxed = problem;
+  double* const value = Tolerance(relaxed.test, condition);
+  const double share = nearest->violation * (1.0 + 1e-6);
+  if (condition == Condition::kOmegaSpread) {
+    *value = std::expm1(share * std::log1p(*value));
+  } else if (condition == Condition::kXiMax) {
+    *value *= std::exp(share - 1.0);
+  } else {
+    *value *= share;
+  }
+  if (!Holds(relaxed, nearest->member)) return std::nullopt;
+  return *value;
 }
 
 Relaxation Relax(const FamilyProblem& problem, Condition condition, bool searching,
@@ -99,6 +131,10 @@ Relaxation Relax(const FamilyProblem& problem, Condition condition, bool searchi
   relaxation.suffices = DecideWith(problem, others, known, member) == Feasibility::kMember;
   if (value == nullptr) return relaxation;
   if (!relaxation.suffices) return relaxation;
+  if (searching && member) {
+    relaxation.needed = NeededLocally(problem, condition, *member);
+    if (relaxation.needed) return relaxation;
+  }
   // The family only grows with a tolerance: bisection between too tight and wide enough.
   double tight = relaxation.value;
   double wide = condition == Condition::kLoopGain ? 0.0 : std::max(tight, 1e-3) * 2.0;

@@ -16,13 +16,13 @@ struct TransferBound {
   bool used = false;
   double distance = 0.0;  // widened by more than the rounding of the test
   TransferVector centre = TransferVector::Zero();
-  TransferVector reach = TransferVector::Zero();       // half sides of the box around it
+  TransferVector reach = TransferVector::Zero();  // half sides of the box around it
   // Of `factor`, where it counts all of the model's parameters: `whole` of them, else 0.
   TransferMatrix inverse = TransferMatrix::Zero();
   int whole = 0;
-  double reach_relative = kUnbounded;                  // the same of ln M - ln N
-  TransferMatrix factor = TransferMatrix::Zero();      // upper triangular
-  TransferMatrix backward = TransferMatrix::Zero();    // lower triangular, of the same form
+  double reach_relative = kUnbounded;                // the same of ln M - ln N
+  TransferMatrix factor = TransferMatrix::Zero();    // upper triangular
+  TransferMatrix backward = TransferMatrix::Zero();  // lower triangular, of the same form
 };
 
 TransferBound MakeTransferBound(const TransferEllipsoid& ellipsoid, bool second_mode,

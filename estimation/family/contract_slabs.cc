@@ -32,7 +32,8 @@ struct Slabs {
   int count = 0;
 
   void Add(const TransferVector& normal, const Interval& range, const TransferMatrix& inverse) {
-    if (!std::isfinite(range.lower()) || !std::isfinite(range.upper()) || !normal.allFinite()) return;
+    if (!std::isfinite(range.lower()) || !std::isfinite(range.upper()) || !normal.allFinite())
+      return;
     items[static_cast<std::size_t>(count++)] = {normal, range.lower(), range.upper(),
                                                 inverse.transpose() * normal};
   }
@@ -92,7 +93,8 @@ double BoundBy(const TransferVector& c, const Slabs& slabs, const Multipliers& m
 //   l = (G^T G)^-1 (G^T h - g m),   g = |h - G (G^T G)^-1 G^T h| / sqrt(D^2 - m^T (G^T G)^-1 m).
 //
 // False when a sign comes out wrong: that slab has been dropped.
-bool Polish(const TransferVector& h, const Slabs& slabs, double distance, Multipliers& multipliers) {
+bool Polish(const TransferVector& h, const Slabs& slabs, double distance,
+            Multipliers& multipliers) {
   std::array<int, kMostSlabs> active{};
   int n = 0;
   for (int k = 0; k < slabs.count; ++k) {
@@ -117,8 +119,7 @@ bool Polish(const TransferVector& h, const Slabs& slabs, double distance, Multip
   const double weight = room > 0.0 ? across / std::sqrt(room) : 1e3 * (across + h.norm());
   bool kept = true;
   for (int a = 0; a < n; ++a) {
-    double& multiplier =
-        multipliers[static_cast<std::size_t>(active[static_cast<std::size_t>(a)])];
+    double& multiplier = multipliers[static_cast<std::size_t>(active[static_cast<std::size_t>(a)])];
     const double better = fit(a) - weight * turned(a);
     const bool same = std::isfinite(better) && better * multiplier > 0.0;
     multiplier = same ? better : 0.0;
@@ -153,7 +154,7 @@ double Largest(const TransferVector& c, const Slabs& slabs, const TransferMatrix
 
 // ln z of z = N U_1 + M U_r at a point of the cell, its derivatives over the cell.
 struct Response {
-  Interval phase, ln_gain;                 // at the point
+  Interval phase, ln_gain;                  // at the point
   std::array<Interval, 4> d_phase, d_gain;  // by ln omega, ln xi, ln N, ln M
 };
 

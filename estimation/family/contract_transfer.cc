@@ -91,8 +91,8 @@ TransferBound MakeTransferBound(const TransferEllipsoid& ellipsoid, bool second_
   }
   if (kept.size() >= 2 && kept[kept.size() - 2] == 2 && kept.back() == 3) {
     const auto last = static_cast<Eigen::Index>(kept.size()) - 1;
-    const double variance = covariance(last, last) + covariance(last - 1, last - 1) -
-                            2.0 * covariance(last, last - 1);
+    const double variance =
+        covariance(last, last) + covariance(last - 1, last - 1) - 2.0 * covariance(last, last - 1);
     bound.reach_relative = bound.distance * std::sqrt(variance) * (1.0 + kSlack);
   }
   return bound;

@@ -19,9 +19,9 @@ namespace howl {
 
 namespace {
 
-constexpr double kRounding = 1e-12;  // of a bound: the test itself is evaluated in doubles
-constexpr double kFinest = 1e-9;     // of a root cell: no split below
-constexpr std::size_t kTrials = 30;  // candidates for a split
+constexpr double kRounding = 1e-12;         // of a bound: the test itself is evaluated in doubles
+constexpr double kFinest = 1e-9;            // of a root cell: no split below
+constexpr std::size_t kTrials = 30;         // candidates for a split
 constexpr std::size_t kTransferTrials = 6;  // where contraction is dear
 constexpr std::size_t kBaseMembers = 1000;
 constexpr std::size_t kLocalStarts = 2;
@@ -357,7 +357,8 @@ struct Enclosure::Impl {
                                          : i == search.experiment;
       ExperimentBox& box = cell.boxes[i];
       const ExperimentBox& from = start.boxes[i];
-      const double rest = search.expression ? 1e-3 : (two_modes && !problem.HasTransfer() ? 0.4 : 0.1);
+      const double rest =
+          search.expression ? 1e-3 : (two_modes && !problem.HasTransfer() ? 0.4 : 0.1);
       offer(box[kCellXi], from[kCellXi], own ? 1.0 : rest);
       offer(box[kCellOmega], from[kCellOmega], own ? 1.0 : rest);
       offer(box[kCellTangent], from[kCellTangent], own ? 0.7 : 0.5 * rest);

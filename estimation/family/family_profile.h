@@ -1,7 +1,7 @@
 // The profile of a quantity over the family (estimation/family/profile.h). The cost of a model is
 // the largest share of its tolerance that any of its errors uses (gain, phase, loop phase, second
-// crossing, transfer), the test's other conditions being kept: zero is a perfect fit, and one is the
-// edge of the family.
+// crossing, transfer), the test's other conditions being kept: zero is a perfect fit, and one is
+// the edge of the family.
 #ifndef HOWL_ESTIMATION_FAMILY_FAMILY_PROFILE_H_
 #define HOWL_ESTIMATION_FAMILY_FAMILY_PROFILE_H_
 

@@ -1,6 +1,7 @@
 #include "estimation/family/feasible.h"
 
 #include "estimation/family/enumerate.h"
+#include "estimation/family/local_search.h"
 #include "estimation/family/transfer_starts.h"
 #include "estimation/family/window.h"
 
@@ -11,9 +12,10 @@ bool HasExactWindows(const FamilyProblem& problem) {
     const Range range = problem.RangeOf(kind);
     return range.lo <= 0.0 && !std::isfinite(range.hi);
   };
-  return problem.model.modes == 1 && !problem.HasTransfer() && !problem.IsShared(ParameterKind::kN) &&
-         !problem.IsShared(ParameterKind::kTau) && is_free(ParameterKind::kN) &&
-         is_free(ParameterKind::kTau) && is_free(ParameterKind::kOmega);
+  return problem.model.modes == 1 && !problem.HasTransfer() &&
+         !problem.IsShared(ParameterKind::kN) && !problem.IsShared(ParameterKind::kTau) &&
+         is_free(ParameterKind::kN) && is_free(ParameterKind::kTau) &&
+         is_free(ParameterKind::kOmega);
 }
 
 std::optional<Member> FindMember(const FamilyProblem& problem) {
@@ -27,7 +29,28 @@ std::optional<Member> FindMember(const FamilyProblem& problem) {
   return enumeration.members[0];
 }
 
-Feasibility DecideFeasible(const FamilyProblem& problem) {
+std::optional<Member> FindMemberLocally(const FamilyProblem& problem) {
+  const LocalSearch search(problem);
+  if (!search.IsSupported()) return std::nullopt;
+  const auto inside = [&](const std::optional<Member>& start) -> std::optional<Member> {
+    if (!start) return std::nullopt;
+    std::optional<Approach> found = search.FindMember(*start);
+    if (!found || !Holds(problem, found->member)) return std::nullopt;
+    return std::move(found->member);
+  };
+  if (problem.HasTransfer()) {
+    if (std::optional<Member> member = inside(search.FromTransfer())) return member;
+  }
+  for (const double relative : {0.2, 0.02, 1.0}) {
+    for (const double xi : {0.1, 0.03, 0.25}) {
+      if (std::optional<Member> member = inside(search.Nominal(xi, relative))) return member;
+    }
+    if (problem.model.modes == 1) break;
+  }
+  return std::nullopt;
+}
+
+Feasibility DecideFeasible(const FamilyProblem& problem, bool thorough) {
   if (HasExactWindows(problem)) {
     return FeasibleWindows(MakeWindowProblem(problem, 0.0)) ? Feasibility::kMember
                                                             : Feasibility::kEmpty;
@@ -35,6 +58,8 @@ Feasibility DecideFeasible(const FamilyProblem& problem) {
   for (const ExperimentTarget& target : MakeTargets(problem, 0.0)) {
     if (target.IsEmpty()) return Feasibility::kEmpty;
   }
+  if (FindMemberLocally(problem)) return Feasibility::kMember;
+  if (!thorough && LocalSearch(problem).IsSupported()) return Feasibility::kNotFound;
   if (NeedsTransferStarts(problem)) {
     return FindMember(problem) ? Feasibility::kMember : Feasibility::kNotFound;
   }

@@ -21,8 +21,13 @@ bool HasExactWindows(const FamilyProblem& problem);
 // A member, by search.
 std::optional<Member> FindMember(const FamilyProblem& problem);
 
-// kEmpty and kMember up to rounding (1e-9 of a tolerance).
-Feasibility DecideFeasible(const FamilyProblem& problem);
+// kEmpty and kMember up to rounding (1e-9 of a tolerance). Without exact windows: local searches
+// from a grid of dampings and second modes, and if these find nothing and `thorough`, draws at
+// random.
+Feasibility DecideFeasible(const FamilyProblem& problem, bool thorough = true);
+
+// By those local searches alone.
+std::optional<Member> FindMemberLocally(const FamilyProblem& problem);
 
 }  // namespace howl
 

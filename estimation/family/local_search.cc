@@ -27,7 +27,7 @@ constexpr double kPull = 1e-3;       // of a coordinate's box: how far a start i
 template <typename T>
 struct Point {
   T ln_omega, ln_xi, ln_N, ln_M, ln_gain, tau_s;
-  T above, below;          // y - xi t and xi t - y_r: positive where M and N are
+  T above, below;           // y - xi t and xi t - y_r: positive where M and N are
   std::vector<T> line_rad;  // loop phase errors
 };
 
@@ -83,8 +83,8 @@ struct LocalSearch::Impl {
     shared_second = two_modes && p.IsShared(SecondKind());
     ratio = p.model.harmonic_ratio;
     ln_spread = std::log1p(p.test.omega_spread_max * (1.0 - kMargin));
-    for (const ParameterKind kind : {ParameterKind::kOmega, ParameterKind::kXi, ParameterKind::kN,
-                                     ParameterKind::kTau}) {
+    for (const ParameterKind kind :
+         {ParameterKind::kOmega, ParameterKind::kXi, ParameterKind::kN, ParameterKind::kTau}) {
       if (p.IsShared(kind) && p.experiments.size() > 1) supported = false;
       const Range range = p.RangeOf(kind);
       if (!(range.lo < range.hi)) supported = false;
@@ -100,9 +100,7 @@ struct LocalSearch::Impl {
     if (supported) Scales();
   }
 
-  ParameterKind SecondKind() const {
-    return relative ? ParameterKind::kMOverN : ParameterKind::kM;
-  }
+  ParameterKind SecondKind() const { return relative ? ParameterKind::kMOverN : ParameterKind::kM; }
 
   void Scales() {
     const MembershipTest& test = problem.test;
@@ -129,8 +127,7 @@ struct LocalSearch::Impl {
           scale.soft_loop_phase ? test.loop_phase_tolerance_deg * kRadPerDeg * (1 - kMargin) : 1.0;
       constexpr double kQuarter = std::numbers::pi / 2 * (1 - 1e-9);
       // The conditions that may be soft bound the coordinates by rows, not by the box.
-      scale.box[kXi] = {std::log(std::max(xi.lo, kLeastXi)),
-                        std::log(std::min(xi.hi, kLargestXi))};
+      scale.box[kXi] = {std::log(std::max(xi.lo, kLeastXi)), std::log(std::min(xi.hi, kLargestXi))};
       scale.box[kPhase] = {(-kQuarter - scale.phase_0) / scale.phase,
                            (kQuarter - scale.phase_0) / scale.phase};
       scale.box[kGain] = {(1e-4 * e.gain - e.gain) / scale.gain, 1e4 * e.gain / scale.gain};
@@ -139,9 +136,9 @@ struct LocalSearch::Impl {
       }
       scale.box[kLoopPhase] = {-std::numbers::pi / scale.loop_phase,
                                std::numbers::pi / scale.loop_phase};
-      scale.box[kSecond] = shared_second
-                               ? second
-                               : Range{std::log(0.02 * e.frequency_hz), std::log(50 * e.frequency_hz)};
+      scale.box[kSecond] =
+          shared_second ? second
+                        : Range{std::log(0.02 * e.frequency_hz), std::log(50 * e.frequency_hz)};
       std::array<int, kLocals> index{};
       const bool fixed[] = {!(scale.box[kXi].lo < scale.box[kXi].hi), !(scale.phase > 0.0),
                             !(scale.gain > 0.0), !(scale.loop_phase > 0.0)};
@@ -206,8 +203,7 @@ struct LocalSearch::Impl {
       if (relative) {
         return ratio * (y - c) * (x * x + y_r * y_r) - second * (c - y_r) * (x * x + y * y);
       }
-      return 2.0 * ratio * (omega / f) * (y - c) * (x * x + y_r * y_r) -
-             second / k * x * (y - y_r);
+      return 2.0 * ratio * (omega / f) * (y - c) * (x * x + y_r * y_r) - second / k * x * (y - y_r);
     };
     T omega;
     if (!shared_second) {
@@ -271,15 +267,16 @@ struct LocalSearch::Impl {
     point.line_rad.clear();
     if (!two_modes || !(problem.test.second_crossing_tolerance_deg < 180.0)) return;
     for (const ObservedLine& line : problem.experiments[i].lines) {
-      const LoopParameters<T> loop{{exp(point.ln_omega), exp(point.ln_xi), exp(point.ln_N),
-                                    exp(point.ln_M), T(ratio)},
-                                   point.tau_s};
+      const LoopParameters<T> loop{
+          {exp(point.ln_omega), exp(point.ln_xi), exp(point.ln_N), exp(point.ln_M), T(ratio)},
+          point.tau_s};
       point.line_rad.push_back(LoopPhaseError(loop, T(line.frequency_hz)));
     }
   }
 
   // `values`: of slack at s = 0 for weight 1 (minus the violation), at any s for weight 0.
-  bool Rows(State& state, const ConditionSet& soft, bool domain_soft, std::vector<Row>* rows) const {
+  bool Rows(State& state, const ConditionSet& soft, bool domain_soft,
+            std::vector<Row>* rows) const {
     static thread_local std::vector<Point<Jet>> points;
     points.resize(targets.size());
     for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -299,8 +296,9 @@ struct LocalSearch::Impl {
       }
       rows->push_back(row);
     };
-    const auto add_pair = [&](const Jet& a, std::size_t i, const Jet& b, std::size_t j, double scale,
-                              double offset, bool is_soft) {  // offset + (a - b) / scale
+    const auto add_pair = [&](const Jet& a, std::size_t i, const Jet& b, std::size_t j,
+                              double scale, double offset,
+                              bool is_soft) {  // offset + (a - b) / scale
       add(offset + a / scale, i, is_soft);
       Row& row = rows->back();
       row.value += b.a / scale;
@@ -325,11 +323,11 @@ struct LocalSearch::Impl {
       if (scales[i].soft_gain) both(kGain, Condition::kGain);
       if (scales[i].soft_loop_phase) both(kLoopPhase, Condition::kLoopPhase);
       if (std::isfinite(xi_max)) {
-        add(1.0 + (p.ln_xi - std::log(xi_max * (1 - kMargin))), i, soft.Contains(Condition::kXiMax));
+        add(1.0 + (p.ln_xi - std::log(xi_max * (1 - kMargin))), i,
+            soft.Contains(Condition::kXiMax));
       }
       if (two_modes) {
-        const double tolerance =
-            test.second_crossing_tolerance_deg * kRadPerDeg * (1.0 - kMargin);
+        const double tolerance = test.second_crossing_tolerance_deg * kRadPerDeg * (1.0 - kMargin);
         for (const Jet& error : p.line_rad) {
           add(error / tolerance, i, soft.Contains(Condition::kSecondCrossing));
           add(-error / tolerance, i, soft.Contains(Condition::kSecondCrossing));
@@ -432,9 +430,12 @@ struct LocalSearch::Impl {
   bool ToModel(std::size_t i, State& state, LoopModel& model) const {
     Point<double> point;
     if (!Build(i, state.local[i], state.omega_hz[i], point)) return false;
-    model = {std::exp(point.ln_omega), std::exp(point.ln_xi),
-             std::exp(point.ln_N),     two_modes ? std::exp(point.ln_M) : 0.0,
-             point.tau_s,              ratio};
+    model = {std::exp(point.ln_omega),
+             std::exp(point.ln_xi),
+             std::exp(point.ln_N),
+             two_modes ? std::exp(point.ln_M) : 0.0,
+             point.tau_s,
+             ratio};
     // What is shared is shared to the last digit.
     if (shared_second) {
       const double second = std::exp(state.local[i][kSecond]);
@@ -487,8 +488,8 @@ struct LocalSearch::Impl {
   struct Task {
     ConditionSet soft;
     bool domain_soft = false;
-    bool has_s = false;  // minimise s; else maximise the quantity
-    double enough = -1.0;
+    bool has_s = false;          // minimise s; else maximise the quantity
+    double enough = -kInfinite;  // s at which to stop
     const MemberQuantity* quantity = nullptr;
     double sign = 1.0;
     double scale = 1.0;
@@ -511,13 +512,15 @@ struct LocalSearch::Impl {
         const Range& box = scales[i].box[k];
         const double u = state.local[i][k];
         if (!(u > box.lo) || !(u < box.hi)) return kInfinite;
-        sum -= std::log((u - box.lo) / (box.hi - box.lo)) + std::log((box.hi - u) / (box.hi - box.lo));
+        sum -=
+            std::log((u - box.lo) / (box.hi - box.lo)) + std::log((box.hi - u) / (box.hi - box.lo));
       }
     }
     return sum;
   }
 
-  double Merit(const State& state, const Task& task, double barrier, double t, double penalty) const {
+  double Merit(const State& state, const Task& task, double barrier, double t,
+               double penalty) const {
     double merit = barrier;
     if (task.has_s) merit += t * state.s;
     if (task.quantity != nullptr) {
@@ -532,8 +535,9 @@ struct LocalSearch::Impl {
   }
 
   bool Solve(State& state, const Task& task) const {
-    constexpr int kSteps = 25;
-    constexpr double kGap = 2e-5;
+    constexpr int kSteps = 80;
+    // Of s, or of the quantity in units of its scale.
+    const double gap = task.has_s ? 5e-7 : 2e-5;
     const int n = layout.size + (task.has_s ? 1 : 0);
     std::vector<Row> rows, trial;
     double barrier = Barrier(state, task, rows);
@@ -639,19 +643,48 @@ struct LocalSearch::Impl {
         }
         if (task.has_s && !task.pinned && state.s < task.enough) return true;
       }
-      if (conditions / t < kGap || (stuck && t > 1e7)) return true;
+      if (conditions / t < gap || (stuck && t > 1e7)) return true;
     }
   }
 
-  // The largest violation of the soft conditions of a state.
+  // The largest violation of the soft conditions of a state, at least zero.
   double LargestViolation(State& state, const Task& task) const {
     std::vector<Row> rows;
     if (!Rows(state, task.soft, task.domain_soft, &rows)) return kInfinite;
-    double largest = -kInfinite;
+    double largest = 0.0;
     for (const Row& row : rows) {
       if (row.weight > 0.0) largest = std::max(largest, -row.value);
     }
     return largest;
+  }
+
+  struct Centre {
+    double omega_hz, xi;
+  };
+
+  // Models at the measured phase and gain.
+  std::optional<Member> FromCentres(const std::vector<Centre>& centres, double ln_second) const {
+    if (shared_second) {
+      ln_second = std::clamp(ln_second, scales[0].box[kSecond].lo, scales[0].box[kSecond].hi);
+    }
+    Member member;
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      const double xi = centres[i].xi;
+      State state;
+      state.local.assign(i + 1, {});
+      state.omega_hz.assign(i + 1, centres[i].omega_hz);
+      state.local[i] = {std::log(xi), 0.0, 0.0, 0.0, ln_second};
+      const double top =
+          OmegaFromDetuning(problem.experiments[i].frequency_hz, xi * std::tan(-scales[i].phase_0));
+      if (two_modes && !shared_second) {
+        state.local[i][kSecond] =
+            std::log(std::clamp(centres[i].omega_hz, top / ratio * 1.001, top * 0.999));
+      }
+      LoopModel model;
+      if (!ToModel(i, state, model)) return std::nullopt;
+      member.push_back(model);
+    }
+    return member;
   }
 
   static constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -696,13 +729,13 @@ std::optional<Approach> LocalSearch::Minimise(const Member& start, const Conditi
   }
   const double violation = impl_->LargestViolation(state, task);
   if (!std::isfinite(violation)) return std::nullopt;
-  state.s = std::max(violation, 0.0) + 0.1;
+  state.s = violation + 0.1;
   Approach approach;
   approach.converged = impl_->Solve(state, task);
   if (!impl_->ToMember(state, approach.member)) return std::nullopt;
-  approach.violation = std::max(impl_->LargestViolation(state, task), 0.0);
-  if (quantity != nullptr && !(std::abs(quantity->value(approach.member) - at) <=
-                               1e-7 * std::max(std::abs(at), 1e-300))) {
+  approach.violation = impl_->LargestViolation(state, task);
+  if (quantity != nullptr &&
+      !(std::abs(quantity->value(approach.member) - at) <= 1e-7 * std::max(std::abs(at), 1e-300))) {
     return std::nullopt;
   }
   return approach;
@@ -724,44 +757,42 @@ std::optional<Member> LocalSearch::Farthest(const Member& start, const MemberQua
   return member;
 }
 
+std::optional<Member> LocalSearch::Nominal(double xi, double relative) const {
+  const FamilyProblem& problem = impl_->problem;
+  if (!impl_->supported) return std::nullopt;
+  const Range range = problem.RangeOf(ParameterKind::kXi);
+  xi = std::clamp(xi, std::max(range.lo, kLeastXi) * (1 + 1e-6),
+                  std::min({range.hi, problem.test.xi_max, kLargestXi}) * (1 - 1e-6));
+  double ln_second = std::log(relative);
+  if (impl_->shared_second && !impl_->relative) {
+    for (const Experiment& experiment : problem.experiments) {  // about N = 2 xi w |G|
+      ln_second += std::log(2.0 * xi * kRadPerSPerHz * experiment.frequency_hz * experiment.gain) /
+                   static_cast<double>(problem.experiments.size());
+    }
+  }
+  std::vector<Impl::Centre> centres;
+  for (const Experiment& experiment : problem.experiments) {
+    centres.push_back({0.99 * experiment.frequency_hz, xi});
+  }
+  return impl_->FromCentres(centres, ln_second);
+}
+
 std::optional<Member> LocalSearch::FromTransfer() const {
   const FamilyProblem& problem = impl_->problem;
   if (!impl_->supported) return std::nullopt;
   double ln_second = 0.0;
+  std::vector<Impl::Centre> centres;
+  const Range xi = problem.RangeOf(ParameterKind::kXi);
   for (const Experiment& experiment : problem.experiments) {
     if (!experiment.transfer_ellipsoid) return std::nullopt;
     const TransferVector& centre = experiment.transfer_ellipsoid->Centre();
     ln_second += (impl_->relative ? centre(3) - centre(2) : centre(3)) /
                  static_cast<double>(problem.experiments.size());
+    centres.push_back({std::exp(centre(0)),
+                       std::clamp(std::exp(centre(1)), std::max(xi.lo, kLeastXi) * (1 + 1e-6),
+                                  std::min(xi.hi, kLargestXi) * (1 - 1e-6))});
   }
-  if (impl_->shared_second) {
-    const Range& box = impl_->scales[0].box[kSecond];
-    ln_second = std::clamp(ln_second, box.lo, box.hi);
-  }
-  Member member;
-  for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
-    const TransferVector& centre = problem.experiments[i].transfer_ellipsoid->Centre();
-    const Range xi = problem.RangeOf(ParameterKind::kXi);
-    const double x = std::clamp(std::exp(centre(1)), std::max(xi.lo, kLeastXi) * (1 + 1e-6),
-                                std::min(xi.hi, kLargestXi) * (1 - 1e-6));
-    State state;
-    state.local.assign(i + 1, {});
-    state.omega_hz.assign(i + 1, std::exp(centre(0)));
-    std::array<double, kLocals>& u = state.local[i];
-    u = {std::log(x), 0.0, 0.0, 0.0, 0.0};
-    const double phase = impl_->scales[i].phase_0;
-    const double top = OmegaFromDetuning(problem.experiments[i].frequency_hz, x * std::tan(-phase));
-    if (impl_->two_modes) {
-      u[kSecond] = impl_->shared_second
-                       ? ln_second
-                       : std::log(std::clamp(std::exp(centre(0)), top / impl_->ratio * 1.001,
-                                             top * 0.999));
-    }
-    LoopModel model;
-    if (!impl_->ToModel(i, state, model)) return std::nullopt;
-    member.push_back(model);
-  }
-  return member;
+  return impl_->FromCentres(centres, ln_second);
 }
 
 }  // namespace howl

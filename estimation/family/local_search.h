@@ -1,11 +1,11 @@
-// Local searches over the family: from a start to a member, and from a member to the farthest that a
-// quantity reaches within the family.
+// Local searches over the family: from a start to a member, and from a member to the farthest that
+// a quantity reaches within the family.
 //
-// Interior-point steps (logarithmic barrier, Gauss-Newton curvature) in the coordinates in which most
-// conditions of the test are bounds: ln xi, and the errors of phase, gain and loop phase, each in
-// units of its tolerance; with a second mode of each experiment's own ln omega as well; the shared
-// second mode counts once. Every iterate keeps the hard conditions strictly, so that what is found
-// is a member. A local search proves nothing: it makes `inner` wide, never `outer` tight.
+// Interior-point steps (logarithmic barrier, Gauss-Newton curvature) in the coordinates in which
+// most conditions of the test are bounds: ln xi, and the errors of phase, gain and loop phase, each
+// in units of its tolerance; with a second mode of each experiment's own ln omega as well; the
+// shared second mode counts once. Every iterate keeps the hard conditions strictly, so that what is
+// found is a member. A local search proves nothing: it makes `inner` wide, never `outer` tight.
 #ifndef HOWL_ESTIMATION_FAMILY_LOCAL_SEARCH_H_
 #define HOWL_ESTIMATION_FAMILY_LOCAL_SEARCH_H_
 
@@ -55,6 +55,10 @@ class LocalSearch {
   // `scale`: a typical range of the quantity. Nothing where it found none.
   std::optional<Member> Farthest(const Member& start, const MemberQuantity& quantity, double sign,
                                  double scale) const;
+
+  // A model for each experiment with that damping and about that M / N, at the measured phase and
+  // gain, to start from; nothing where there is no such model.
+  std::optional<Member> Nominal(double xi, double relative) const;
 
   // A model for each experiment from the centre of its transfer and the characteristics, to start
   // from; nothing where an experiment has no transfer, or no such model.

@@ -39,11 +39,10 @@ enum class Condition {
   kTransfer,
 };
 
-inline constexpr std::array kConditions = {Condition::kGain,           Condition::kPhase,
-                                           Condition::kLoopPhase,      Condition::kLoopGain,
-                                           Condition::kSecondCrossing, Condition::kOmegaSpread,
-                                           Condition::kXiMax,          Condition::kXiIncreasing,
-                                           Condition::kTransfer};
+inline constexpr std::array kConditions = {
+    Condition::kGain,     Condition::kPhase,          Condition::kLoopPhase,
+    Condition::kLoopGain, Condition::kSecondCrossing, Condition::kOmegaSpread,
+    Condition::kXiMax,    Condition::kXiIncreasing,   Condition::kTransfer};
 inline constexpr std::size_t kNumConditions = kConditions.size();
 
 // The condition's key in a config's `family: test:`.

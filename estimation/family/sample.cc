@@ -496,7 +496,10 @@ MemberSample SampleMembers(const FamilyProblem& problem, const SampleOptions& op
   chart.SetWidths(states);
   // Starts that are far from each other.
   const std::vector<std::size_t> spread = SpreadMembers(starts.members, chains);
-  const std::size_t thin = options.thin > 0 ? options.thin : (chart.TwoModes() ? 4 : 8);
+  const std::size_t thin = options.thin > 0 ? options.thin
+                                            : (problem.HasTransfer() ? 12
+                                               : chart.TwoModes()    ? 4
+                                                                     : 8);
   const std::size_t length = (options.count + chains - 1) / chains;
   std::vector<std::vector<Member>> drawn(chains);
   std::vector<std::size_t> rejected(chains, 0);

@@ -21,7 +21,7 @@ struct SampleOptions {
   std::size_t count = 10000;
   std::size_t chains = 8;
   std::size_t burn_in = 200;  // sweeps
-  std::size_t thin = 0;       // sweeps a member; 0: 8 with one mode, 4 with two
+  std::size_t thin = 0;       // sweeps a member; 0: 8 with one mode, 4 with two, 12 with transfers
   std::uint64_t seed = 0;
   int threads = 1;
   std::vector<Member> starts;  // of the chains; empty: found by the sampler itself

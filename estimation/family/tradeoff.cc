@@ -43,30 +43,52 @@ std::optional<double> SearchSmallestXi(FamilyProblem problem, std::uint64_t seed
   return best;
 }
 
-// The least largest xi that a local search reaches from members; the starts have to keep all other
-// conditions.
-std::optional<double> LeastXiLocally(FamilyProblem problem, const std::vector<Member>& starts) {
-  std::optional<double> best;
+// The least largest xi that a local search reaches from members, and whether it is the same from
+// all of them.
+struct LocalLeast {
+  std::optional<double> xi;
+  bool agreed = true;
+};
+
+LocalLeast LeastXiLocally(FamilyProblem problem, const std::vector<Member>& starts) {
+  constexpr double kAgreement = 1e-6;
+  LocalLeast result;
+  std::optional<double>& best = result.xi;
+  ConditionSet soft;
+  soft.Insert(Condition::kXiMax);
+  problem.test.xi_max = std::numeric_limits<double>::infinity();
+  const LocalSearch free(problem);
   for (const Member& start : starts) {
-    const double largest = LargestXi(start);
-    problem.test.xi_max = 1.01 * largest;
-    const LocalSearch search(problem);
-    ConditionSet soft;
-    soft.Insert(Condition::kXiMax);
-    const std::optional<Approach> inside = search.FindMember(start);
+    const std::optional<Approach> inside = free.FindMember(start);
     if (!inside || !Holds(problem, inside->member)) continue;
-    const std::optional<Approach> least = search.Minimise(inside->member, soft);
+    FamilyProblem limited = problem;
+    limited.test.xi_max = 1.01 * LargestXi(inside->member);
+    const std::optional<Approach> least = LocalSearch(limited).Minimise(inside->member, soft);
     if (!least || !Holds(problem, least->member)) continue;
     const double xi = LargestXi(least->member);
+    result.agreed &= !best || std::abs(*best - xi) < kAgreement;
     best = best ? std::min(*best, xi) : xi;
   }
-  return best;
+  return result;
 }
 
-}  // namespace
+// Members to start local searches from: with all the spread that is asked for anywhere.
+std::vector<Member> LocalStarts(const FamilyProblem& problem, double omega_spread,
+                                std::uint64_t seed) {
+  constexpr std::size_t kStarts = 6;
+  FamilyProblem wide = problem;
+  wide.test.omega_spread_max = std::max(omega_spread, problem.test.omega_spread_max);
+  if (problem.model.modes == 1 || !LocalSearch(wide).IsSupported()) return {};
+  std::vector<Member> starts = EnumerateMembers(wide, kStarts, seed, 1).members;
+  if (starts.empty()) {
+    wide.test.xi_max = std::numeric_limits<double>::infinity();
+    starts = EnumerateMembers(wide, kStarts, seed, 1).members;
+  }
+  return starts;
+}
 
-TradeoffPoint ComputeTradeoff(const FamilyProblem& problem, double omega_spread,
-                              std::uint64_t seed) {
+TradeoffPoint TradeoffAt(const FamilyProblem& problem, double omega_spread, std::uint64_t seed,
+                         const std::vector<Member>& starts) {
   TradeoffPoint point{omega_spread, std::nullopt, HasExactWindows(problem)};
   FamilyProblem at = problem;
   at.test.omega_spread_max = omega_spread;
@@ -74,20 +96,36 @@ TradeoffPoint ComputeTradeoff(const FamilyProblem& problem, double omega_spread,
   if (point.exact) {
     point.xi_max = SmallestLargestXi(MakeWindowProblem(at, 0.0));
   } else if (NeedsTransferStarts(at)) {
-    point.xi_max = LeastXiLocally(at, TransferStarts(at, 1, seed));
+    point.xi_max = LeastXiLocally(at, TransferStarts(at, 1, seed)).xi;
+  } else if (starts.empty()) {
+    point.xi_max = SearchSmallestXi(at, seed);
   } else {
-    if (HasGreedyTradeoff(at)) point.xi_max = GreedySmallestXi(at);
-    if (!point.xi_max) point.xi_max = SearchSmallestXi(at, seed);
+    const LocalLeast local = LeastXiLocally(at, starts);
+    point.xi_max = local.xi;
+    if (!local.agreed && HasGreedyTradeoff(at)) {
+      const std::optional<double> greedy = GreedySmallestXi(at);
+      if (greedy && (!point.xi_max || *greedy < *point.xi_max)) point.xi_max = greedy;
+    }
   }
   return point;
+}
+
+}  // namespace
+
+TradeoffPoint ComputeTradeoff(const FamilyProblem& problem, double omega_spread,
+                              std::uint64_t seed) {
+  return TradeoffAt(problem, omega_spread, seed, LocalStarts(problem, omega_spread, seed));
 }
 
 std::vector<TradeoffPoint> ComputeTradeoff(const FamilyProblem& problem,
                                            std::span<const double> omega_spreads, int threads,
                                            std::uint64_t seed) {
   std::vector<TradeoffPoint> points(omega_spreads.size());
+  if (points.empty()) return points;
+  const std::vector<Member> starts =
+      LocalStarts(problem, *std::ranges::max_element(omega_spreads), seed);
   RunUnits(points.size(), threads, [&](std::size_t k) {
-    points[k] = ComputeTradeoff(problem, omega_spreads[k], seed + 1000 * k);
+    points[k] = TradeoffAt(problem, omega_spreads[k], seed + 1000 * k, starts);
   });
   return points;
 }

@@ -74,9 +74,8 @@ TransferVolume MeasureTransferVolume(const FamilyProblem& problem, const VolumeO
   const double target = problem.test.transfer_distance_max;
   if (!volume.finite_without || !(volume.least_distance.value_or(0.0) <= target)) return volume;
 
-  SampleOptions sampling{.count = 8 * options.population,
-                         .seed = options.seed + 17,
-                         .threads = options.threads};
+  SampleOptions sampling{
+      .count = 8 * options.population, .seed = options.seed + 17, .threads = options.threads};
   std::vector<Member> members = SampleMembers(without, sampling).members;
   sampling.count = sampling.chains = options.population;
   sampling.burn_in = options.sweeps - 1;

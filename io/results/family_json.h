@@ -62,8 +62,8 @@ nlohmann::ordered_json FamilyJson(const FamilyReport& report);
 // any member are left out.
 std::string TradeoffCsv(std::span<const TradeoffPoint> points);
 
-// value,cost,flagged and every experiment's parameters, one row a point: cost is the largest share of
-// its tolerance that an error uses, one at the edge of the family.
+// value,cost,flagged and every experiment's parameters, one row a point: cost is the largest share
+// of its tolerance that an error uses, one at the edge of the family.
 std::string ProfileCsv(std::span<const Experiment> experiments, const Profile& profile);
 
 // "edge" (cost one), "bound" (the farthest member), "failed" or "points".

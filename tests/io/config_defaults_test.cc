@@ -56,6 +56,7 @@ Defaults StructDefaults() {
       {"family.test.omega_spread_max", Dump(config.family.test.omega_spread_max)},
       {"family.test.xi_max", Dump(config.family.test.xi_max)},
       {"family.test.xi_increasing", Dump(config.family.test.xi_increasing)},
+      {"family.test.transfer_distance_max", Dump(config.family.test.transfer_distance_max)},
       {"family.draw", Dump(config.family.draw == MemberDraw::kSpread ? "spread" : "uniform")},
       {"simulate.duration_s", Dump(config.simulation.duration_s)},
       {"simulate.sampling_hz", Dump(config.simulation.sampling_hz)},

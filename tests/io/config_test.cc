@@ -210,7 +210,7 @@ TEST(Config, SolverFamilyAnalysis) {
       "  width: 0.001\n"
       "  test: {gain_tolerance: 0.02, phase_tolerance_deg: 0.6, loop_phase_tolerance_deg: 2,\n"
       "         loop_gain_min: 1.1, second_crossing_tolerance_deg: 12, omega_spread_max: 0.15,\n"
-      "         xi_max: 0.4, xi_increasing: false}\n"
+      "         xi_max: 0.4, xi_increasing: false, transfer_distance_max: 3.08}\n"
       "analysis: {method: seed, delay_branch: 1, min_frequency_hz: 50, max_frequency_hz: 400}\n");
   EXPECT_EQ(config.solver.starts, 3);
   EXPECT_EQ(config.solver.max_iterations, 1000);
@@ -225,6 +225,7 @@ TEST(Config, SolverFamilyAnalysis) {
   EXPECT_EQ(test.omega_spread_max, 0.15);
   EXPECT_EQ(test.xi_max, 0.4);
   EXPECT_FALSE(test.xi_increasing);
+  EXPECT_EQ(test.transfer_distance_max, 3.08);
   EXPECT_EQ(config.analysis.method, CharacteristicsMethod::kSeed);
   EXPECT_EQ(config.analysis.delay_branch, 1);
   EXPECT_EQ(config.analysis.min_frequency_hz, 50.0);
@@ -236,7 +237,7 @@ TEST(Config, NullSwitchesAConditionOff) {
       Load(kGood +
            "family: {test: {gain_tolerance: null, phase_tolerance_deg: ~, loop_gain_min: null,\n"
            "  loop_phase_tolerance_deg: null, second_crossing_tolerance_deg: null,\n"
-           "  omega_spread_max: null, xi_max: null}}\n");
+           "  omega_spread_max: null, xi_max: null, transfer_distance_max: null}}\n");
   const MembershipTest& test = config.family.test;
   EXPECT_TRUE(std::isinf(test.gain_tolerance));
   EXPECT_TRUE(std::isinf(test.phase_tolerance_deg));
@@ -244,6 +245,7 @@ TEST(Config, NullSwitchesAConditionOff) {
   EXPECT_TRUE(std::isinf(test.second_crossing_tolerance_deg));
   EXPECT_TRUE(std::isinf(test.omega_spread_max));
   EXPECT_TRUE(std::isinf(test.xi_max));
+  EXPECT_TRUE(std::isinf(test.transfer_distance_max));
   EXPECT_EQ(test.loop_gain_min, 0.0);
 }
 

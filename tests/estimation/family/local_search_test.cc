@@ -1,4 +1,5 @@
-// Local searches and the profiles made of them, against closed forms of one experiment with one mode.
+// Local searches and the profiles made of them, against closed forms of one experiment with one
+// mode.
 #include "estimation/family/local_search.h"
 
 #include <gtest/gtest.h>
@@ -124,7 +125,8 @@ TEST(FamilyProfileTest, DelayAgainstTheClosedForm) {
   const double tau_0 = (270 + e.phase_deg) * kRad / w;
   ASSERT_GT(profile->points.size(), 10u);
   for (const ProfilePoint& point : profile->points) {
-    EXPECT_NEAR(point.cost, std::abs(w * (point.value - tau_0)) / (1.5 * kRad), 1e-4) << point.value;
+    EXPECT_NEAR(point.cost, std::abs(w * (point.value - tau_0)) / (1.5 * kRad), 1e-4)
+        << point.value;
   }
   EXPECT_NEAR(profile->lo, tau_0 - 1.5 * kRad / w, 1e-3 * kRad / w);
   EXPECT_NEAR(profile->hi, tau_0 + 1.5 * kRad / w, 1e-3 * kRad / w);

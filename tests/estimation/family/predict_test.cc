@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/family/advise.h"
-#include "estimation/family/sample.h"
 #include "estimation/closed_form.h"
+#include "estimation/family/advise.h"
 #include "estimation/family/enumerate.h"
+#include "estimation/family/sample.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
@@ -72,9 +72,9 @@ TEST(AdviseTest, FurtherExperimentsFalsifyWhatTheyShould) {
   EXPECT_EQ(TestFurther(problem, sample.members, std::span(&all[5], 1)).counts.untested, 300u);
 }
 
-// A cubic flame has the describing function k (1 - a^2 / 9), a = A |k| / Q up to 3 / 2: the cycle has
-// a = 3 sqrt(1 - 1 / loop gain), and p the amplitude A / w, a lightly damped loop passing little of
-// the harmonics.
+// A cubic flame has the describing function k (1 - a^2 / 9), a = A |k| / Q up to 3 / 2: the cycle
+// has a = 3 sqrt(1 - 1 / loop gain), and p the amplitude A / w, a lightly damped loop passing
+// little of the harmonics.
 TEST(PressureAmplitudeTest, CubicFlameAgainstItsDescribingFunction) {
   const Experiment e = R228()[0];
   const double xi = 0.02, w = 2 * M_PI * e.frequency_hz;

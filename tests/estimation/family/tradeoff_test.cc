@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimation/family/enumerate.h"
+#include "estimation/family/two_mode_tradeoff.h"
 #include "tests/r228.h"
 
 namespace howl {
@@ -100,6 +101,31 @@ TEST(TradeoffTest, CurveIsTheEdgeOfTheFamily) {
     EXPECT_EQ(EnumerateMembers(problem, 10, 1, 1).members.size(), 10u);
     problem.test.xi_max = *point.xi_max * (1.0 - 1e-5);
     EXPECT_TRUE(EnumerateMembers(problem, 10, 1, 1).members.empty());
+  }
+}
+
+// Two modes: two algorithms that share no step. One follows the chain of phi upwards and takes the
+// least xi that fits each window, over a search in window and M; the other is an interior-point
+// search over all parameters at once, from several members.
+TEST(TradeoffTest, TwoModesByTwoAlgorithmsAtTenSpreads) {
+  FamilyProblem problem{.experiments = R228()};
+  for (std::size_t i = 0; i < 4; ++i) problem.experiments[i].lines = {{750.0, 10.0}};
+  problem.model.modes = 2;
+  problem.domain[ParameterKind::kOmega].lo = 150.0;
+  problem.domain[ParameterKind::kXi].lo = 0.02;
+  problem.domain[ParameterKind::kM].hi = 5000.0;
+  problem.test.second_crossing_tolerance_deg = 30.0;
+  std::vector<double> spreads;
+  for (int k = 0; k < 10; ++k) spreads.push_back(0.16 + 0.01 * k);
+  const std::vector<TradeoffPoint> points = ComputeTradeoff(problem, spreads, 2, 1);
+  for (std::size_t k = 0; k < spreads.size(); ++k) {
+    FamilyProblem at = problem;
+    at.test.omega_spread_max = spreads[k];
+    at.test.xi_max = std::numeric_limits<double>::infinity();
+    ASSERT_TRUE(HasGreedyTradeoff(at));
+    const std::optional<double> chain = GreedySmallestXi(at);
+    ASSERT_TRUE(chain && points[k].xi_max) << spreads[k];
+    EXPECT_NEAR(*points[k].xi_max, *chain, 1e-6) << spreads[k];
   }
 }
 

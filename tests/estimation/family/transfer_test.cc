@@ -1,5 +1,7 @@
 // Transfers as a condition of membership. Truth: the falsification test of reference.h, and the
 // ellipsoid written out a second time from its covariance.
+#include "estimation/transfer.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -16,7 +18,6 @@
 #include "estimation/family/tradeoff.h"
 #include "estimation/family/transfer_starts.h"
 #include "estimation/family/transfer_volume.h"
-#include "estimation/transfer.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
@@ -156,9 +157,9 @@ TEST(TransferEllipsoidTest, WhatIsNotDeterminedDoesNotCount) {
   EXPECT_GT(TransferDistance(*ellipsoid, m), 1.0);
   fit.available = false;
   EXPECT_FALSE(MakeTransferEllipsoid(fit).has_value());
-  EXPECT_FALSE(TransferEllipsoid::Make(TransferVector::Zero(), -Covariance(1.0),
-                                       {true, true, true, true})
-                   .has_value());
+  EXPECT_FALSE(
+      TransferEllipsoid::Make(TransferVector::Zero(), -Covariance(1.0), {true, true, true, true})
+          .has_value());
 }
 
 TEST(TransferMembershipTest, IsAConditionThatCanBeSwitchedOff) {
@@ -166,7 +167,8 @@ TEST(TransferMembershipTest, IsAConditionThatCanBeSwitchedOff) {
   Member member = Rig(problem.experiments, 2);
   EXPECT_TRUE(Holds(problem, member));
   // Another omega with the same response: only the transfer tells.
-  member[2] = ExactModel(problem.experiments[2], 0.99 * member[2].omega_hz, member[2].xi, 2, 0, 0, 0);
+  member[2] =
+      ExactModel(problem.experiments[2], 0.99 * member[2].omega_hz, member[2].xi, 2, 0, 0, 0);
   const ConditionSet failed = Falsify(problem.experiments, member, problem.test);
   EXPECT_TRUE(failed.Contains(Condition::kTransfer));
   EXPECT_FALSE(failed.Contains(Condition::kGain));
@@ -213,16 +215,14 @@ TEST_P(TransferBruteForceTest, MembersLieWithinOuterAndInsideBoxesHoldMembersAlo
         member[i] = {around(box.omega_hz), around(box.xi), around(box.N), around(box.M),
                      around(box.tau_s)};
       } else {
-        member[i] = ExactModel(problem.experiments[i],
-                               rig[i].omega_hz * std::exp(0.012 * uniform(random)),
-                               rig[i].xi * std::exp(0.3 * uniform(random)), c.modes,
-                               0.0105 * uniform(random), 0.52 * uniform(random),
-                               1.05 * uniform(random));
+        member[i] =
+            ExactModel(problem.experiments[i], rig[i].omega_hz * std::exp(0.012 * uniform(random)),
+                       rig[i].xi * std::exp(0.3 * uniform(random)), c.modes,
+                       0.0105 * uniform(random), 0.52 * uniform(random), 1.05 * uniform(random));
       }
     }
-    const bool positive = std::all_of(member.begin(), member.end(), [](const LoopModel& m) {
-      return m.N > 0.0 && m.M >= 0.0;
-    });
+    const bool positive = std::all_of(member.begin(), member.end(),
+                                      [](const LoopModel& m) { return m.N > 0.0 && m.M >= 0.0; });
     if (positive && Passes(problem, member)) {
       ++passed;
       for (std::size_t i = 0; i < member.size(); ++i) {
@@ -302,9 +302,11 @@ double KolmogorovDistance(std::vector<double> a, std::vector<double> b) {
   std::sort(b.begin(), b.end());
   double largest = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) {
-    const double below = static_cast<double>(std::lower_bound(b.begin(), b.end(), a[k]) - b.begin()) /
-                         static_cast<double>(b.size());
-    largest = std::max(largest, std::abs(below - static_cast<double>(k) / static_cast<double>(a.size())));
+    const double below =
+        static_cast<double>(std::lower_bound(b.begin(), b.end(), a[k]) - b.begin()) /
+        static_cast<double>(b.size());
+    largest =
+        std::max(largest, std::abs(below - static_cast<double>(k) / static_cast<double>(a.size())));
   }
   return largest;
 }
@@ -332,9 +334,8 @@ TEST(TransferVolumeTest, RatioIsTheShareOfUniformDraws) {
   FamilyProblem without = WithoutTransfer(problem);
   const std::vector<LoopModel> uniform = Rejection(without, 20000, 9);
   const double share =
-      static_cast<double>(std::count_if(uniform.begin(), uniform.end(), [&](const LoopModel& m) {
-        return Passes(problem, {m});
-      })) /
+      static_cast<double>(std::count_if(uniform.begin(), uniform.end(),
+                                        [&](const LoopModel& m) { return Passes(problem, {m}); })) /
       static_cast<double>(uniform.size());
   ASSERT_GT(share, 0.005);
   const TransferVolume volume =
