@@ -81,12 +81,12 @@ class DuctOnGrid {
   DuctOnGrid(const Plan& plan, const Point& point, const Grid& grid) : behaviour_(plan.behaviour) {
     const double spacing_s = grid.step_s;
     if (behaviour_.damping_at_cycle == 0.0) {
-      ducts_.push_back(DesignDuct(point.modes, spacing_s, plan.source));
+      ducts_.push_back(DesignDuct(point.modes, spacing_s));
     } else {
       for (std::size_t i = 0; i < kDampingNodes; ++i) {
         Modes modes = point.modes;
         modes.xi = std::clamp(modes.xi + behaviour_.damping_at_cycle * Square(i), 0.002, 0.6);
-        ducts_.push_back(DesignDuct(modes, spacing_s, plan.source));
+        ducts_.push_back(DesignDuct(modes, spacing_s));
       }
     }
     Set(1.0, 0.0);

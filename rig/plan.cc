@@ -105,7 +105,6 @@ double CloseLoop(const Behaviour& behaviour, double wanted_hz, Point& point) {
 
 Plan MakePlan(const Spec& spec) {
   Plan plan;
-  plan.source = spec.source;
   Random draw(spec.seed, "rig");
   const auto drawn = [&](double low, double high, double plain) {
     const double value = draw.Uniform(low, high);

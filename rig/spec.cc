@@ -130,7 +130,7 @@ Spec LoadSpec(const std::string& path) {
   }
   reader.Keys(root, "the rig",
               {"experiments", "effects", "seed", "duration_s", "sampling_hz", "settle_s", "scatter",
-               "source", "flame", "refine", "operating_parameter", "noise"});
+               "flame", "refine", "operating_parameter", "noise"});
   Spec spec;
   const YAML::Node experiments = root["experiments"];
   if (!experiments || !experiments.IsSequence() || experiments.size() == 0) {
@@ -160,11 +160,6 @@ Spec LoadSpec(const std::string& path) {
     reader.Fail(root["scatter"], "scatter", "expected true or false");
   }
   spec.scatter = scatter == "true";
-  const std::string source = reader.Word(root, "source", "distributed");
-  if (source != "distributed" && source != "compact") {
-    reader.Fail(root["source"], "source", "expected distributed or compact");
-  }
-  spec.source = source == "compact" ? Source::kCompact : Source::kDistributed;
   const std::string flame = reader.Word(root, "flame", "any");
   if (flame != "any") {
     const std::vector<std::string>& shapes = FlameShapeNames();
