@@ -103,7 +103,9 @@ std::vector<double> Distribution(const Modes& modes, const Duct& duct) {
       right[i] += real[i] * wanted.real() + imaginary[i] * wanted.imag();
     }
   };
-  for (double f = 0.3 * step_hz; f < top_hz; f += step_hz) {
+  const int inside = static_cast<int>(top_hz / step_hz);
+  for (int i = 0; i < inside; ++i) {
+    const double f = (i + 0.3) * step_hz;
     const Complex s(0.0, kTwoPi * f);
     const Complex open = 1.0 - Sum(duct.reflection, std::exp(-s * duct.spacing_s));
     // In units of N / omega, so that the ridge means the same for all ducts.
@@ -111,7 +113,8 @@ std::vector<double> Distribution(const Modes& modes, const Duct& duct) {
     const double weight = std::min(30.0, 1.0 / (std::abs(wanted) * std::abs(open)));
     add(f, weight, wanted * open);
   }
-  for (double f = top_hz; f < 0.5 / duct.spacing_s; f += 4.0 * step_hz) add(f, kOutsideWeight, 0.0);
+  const int outside = static_cast<int>((0.5 / duct.spacing_s - top_hz) / (4.0 * step_hz));
+  for (int i = 0; i <= outside; ++i) add(top_hz + 4.0 * i * step_hz, kOutsideWeight, 0.0);
   for (std::size_t i = 0; i < count; ++i) normal(i, i) += kRidge * kRidge;
   std::vector<double> taps = SolveSymmetric(normal, right);
   for (double& tap : taps) tap *= modes.N / (kTwoPi * modes.omega_hz);
