@@ -144,7 +144,11 @@ Spec LoadSpec(const std::string& path) {
       reader.Fail(node, "name", spec.experiments.back().name + " is there twice");
     }
   }
-  for (const YAML::Node& node : root["effects"]) spec.effects.push_back(ReadEffect(reader, node));
+  const YAML::Node effects = root["effects"];
+  if (effects && !effects.IsSequence()) {
+    reader.Fail(effects, "effects", "expected a list of effects");
+  }
+  for (const YAML::Node& node : effects) spec.effects.push_back(ReadEffect(reader, node));
   if (const YAML::Node seed = root["seed"]) {
     if (!YAML::convert<std::uint64_t>::decode(seed, spec.seed)) {
       reader.Fail(seed, "seed", "expected a whole number from 0 to 2^64 - 1");
