@@ -15,8 +15,6 @@
 #include "app/interruption.h"
 #include "io/user_error.h"
 
-extern char** environ;
-
 namespace howl {
 namespace {
 

@@ -152,7 +152,6 @@ Command TrialCommand() {
        {"--duration", "S", "of each record, in seconds"},
        {"--sampling", "HZ", "sampling rate"},
        {"--experiments", "N", "operating points, spread over the config's (default: all)"},
-       {"--source", "KIND", "distributed (default) or compact: the flame in the duct"},
        {"--combustion-noise", "R", "rms over the flame's saturation (default: drawn)"},
        {"--sensor-noise", "R", "rms over the cycle's amplitude (default: drawn)"}},
       Run};

@@ -55,10 +55,6 @@ RigSetting MakeRigSetting(const Config& config, const Options& options) {
   RequirePositive(options, "--sampling", &setting.sampling_hz);
   setting.combustion_noise = NotNegative(options, "--combustion-noise");
   setting.sensor_noise = NotNegative(options, "--sensor-noise");
-  setting.source = options.Text("--source").value_or("distributed");
-  if (setting.source != "distributed" && setting.source != "compact") {
-    throw UsageError("--source: " + setting.source + ", expected distributed or compact");
-  }
   const int all = static_cast<int>(setting.experiments.size());
   if (const auto wanted = options.Count("--experiments", 1, all)) {
     // Spread over the range.
@@ -94,7 +90,6 @@ std::string RigSpecYaml(const RigSetting& setting, const CasePlan& plan) {
   out << YAML::Key << "duration_s" << YAML::Value << setting.duration_s;
   out << YAML::Key << "sampling_hz" << YAML::Value << setting.sampling_hz;
   out << YAML::Key << "settle_s" << YAML::Value << setting.settle_s;
-  out << YAML::Key << "source" << YAML::Value << setting.source;
   out << YAML::Key << "operating_parameter" << YAML::Value << setting.operating_parameter;
   out << YAML::Key << "noise" << YAML::Value << YAML::Flow << YAML::BeginMap;
   if (setting.combustion_noise) {

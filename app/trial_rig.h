@@ -23,7 +23,6 @@ struct RigSetting {
   double duration_s = 3.2;
   double sampling_hz = 5000.0;
   double settle_s = 1.0;
-  std::string source = "distributed";
   std::optional<double> combustion_noise;
   std::optional<double> sensor_noise;
 };

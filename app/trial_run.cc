@@ -149,6 +149,8 @@ void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progre
         RunChild({HowlProgram(), "diagnose", (folder.CaseFolder(name) / "config.yaml").string(),
                   "--out", out.string(), "--threads", "1", "--quiet"},
                  "");
+    // A terminal's Ctrl-C reaches the child as well, and may end it before this program knows.
+    if (result.status < 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));
     if (IsInterrupted()) return;
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     Json entry = {{"event", "diagnosed"},

@@ -103,7 +103,9 @@ std::vector<double> Distribution(const Modes& modes, const Duct& duct) {
       right[i] += real[i] * wanted.real() + imaginary[i] * wanted.imag();
     }
   };
-  for (double f = 0.3 * step_hz; f < top_hz; f += step_hz) {
+  const int inside = static_cast<int>(top_hz / step_hz);
+  for (int i = 0; i < inside; ++i) {
+    const double f = (i + 0.3) * step_hz;
     const Complex s(0.0, kTwoPi * f);
     const Complex open = 1.0 - Sum(duct.reflection, std::exp(-s * duct.spacing_s));
     // In units of N / omega, so that the ridge means the same for all ducts.
@@ -111,27 +113,11 @@ std::vector<double> Distribution(const Modes& modes, const Duct& duct) {
     const double weight = std::min(30.0, 1.0 / (std::abs(wanted) * std::abs(open)));
     add(f, weight, wanted * open);
   }
-  for (double f = top_hz; f < 0.5 / duct.spacing_s; f += 4.0 * step_hz) add(f, kOutsideWeight, 0.0);
+  const int outside = static_cast<int>((0.5 / duct.spacing_s - top_hz) / (4.0 * step_hz));
+  for (int i = 0; i <= outside; ++i) add(top_hz + 4.0 * i * step_hz, kOutsideWeight, 0.0);
   for (std::size_t i = 0; i < count; ++i) normal(i, i) += kRidge * kRidge;
   std::vector<double> taps = SolveSymmetric(normal, right);
   for (double& tap : taps) tap *= modes.N / (kTwoPi * modes.omega_hz);
-  return taps;
-}
-
-// A point flame: one wave towards the open end, one by way of the closed end. What has come back
-// passes the flame's place on its way.
-std::vector<double> PointSource(const Modes& modes, const Duct& duct) {
-  const double quarter = 0.25 * kTwoPi;
-  // cos(3 a) / cos(a) = M / N at the angle a of the flame in the first mode.
-  const double cosine = std::sqrt(std::clamp((modes.M / modes.N + 3.0) / 4.0, 0.0, 1.0));
-  const double angle = std::acos(cosine);
-  const auto shift = static_cast<std::size_t>(
-      std::lround(angle / quarter * 0.25 / modes.omega_hz / duct.spacing_s));
-  std::vector<double> taps(duct.reflection.size(), 0.0);
-  taps[shift] += 1.0;
-  for (std::size_t k = shift; k < duct.reflection.size(); ++k) {
-    taps[k - shift] += duct.reflection[k];
-  }
   return taps;
 }
 
@@ -151,21 +137,13 @@ Complex Duct::Response(Complex s) const {
   return Sum(distribution, z) / (1.0 - Sum(reflection, z));
 }
 
-Duct DesignDuct(const Modes& modes, double spacing_s, Source source) {
+Duct DesignDuct(const Modes& modes, double spacing_s) {
   Duct duct;
   duct.spacing_s = spacing_s;
   for (const double widening : {1.0, 1.5, 2.2, 3.2, 4.5, 6.0, 8.0}) {
     duct.reflection = Reflection(modes, spacing_s, widening);
     if (!IsPassive(duct.reflection)) continue;
-    if (source == Source::kDistributed) {
-      duct.distribution = Distribution(modes, duct);
-      return duct;
-    }
-    duct.distribution = PointSource(modes, duct);
-    // The compact flame's duct has the modes' response where the first one resonates.
-    const Complex s(0.0, kTwoPi * modes.omega_hz);
-    const double gain = std::abs(ModalResponse(modes, s)) / std::abs(duct.Response(s));
-    for (double& tap : duct.distribution) tap *= gain;
+    duct.distribution = Distribution(modes, duct);
     return duct;
   }
   throw std::runtime_error("no passive end gives a duct these modes");

@@ -7,8 +7,7 @@
 //
 // R_k < 0 gathers around k d = T: modes at odd multiples of a quarter wave, damped more the higher
 // they are. R is the smoothest reflection for which the duct has two given poles; S, no longer than
-// 1.6 round trips, leaves the first two modes with given strengths and extinguishes the others. A
-// compact flame (a point at a distance from the closed end) keeps them.
+// 1.6 round trips, leaves the first two modes with given strengths and extinguishes the others.
 #ifndef HOWL_RIG_DUCT_H_
 #define HOWL_RIG_DUCT_H_
 
@@ -41,10 +40,8 @@ struct Duct {
   Complex Response(Complex s) const;  // G(s)
 };
 
-enum class Source { kDistributed, kCompact };
-
 // Throws std::runtime_error where no passive end gives these modes.
-Duct DesignDuct(const Modes& modes, double spacing_s, Source source);
+Duct DesignDuct(const Modes& modes, double spacing_s);
 
 // Largest relative distance of the duct's response from the modes' between two frequencies.
 double LargestMismatch(const Duct& duct, const Modes& modes, double low_hz, double high_hz);

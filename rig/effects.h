@@ -84,7 +84,8 @@ struct EffectInfo {
   std::string id;
   std::string block;
   bool in_catalogue = true;
-  // The parameter that carries the effect's size, at severities 0.25, 0.55 and 0.85.
+  // The parameter that carries the effect's size, at severities 0.25, 0.55 and 0.85: hardly seen in
+  // six records of 16 000 samples; plain in some signal; as bad as instruments and rigs get.
   std::string size_name;
   double small = 0.0;
   double medium = 0.0;

@@ -33,7 +33,6 @@ constexpr const char* kHelp =
     "  sampling_hz: 5000\n"
     "  settle_s: 1\n"
     "  scatter: true          # draw rigs like this one; false: as near to it as can be\n"
-    "  source: distributed    # or compact: a point flame, all modes of the duct\n"
     "  flame: any             # or tanh, arctan, erf, rational, asymmetric\n"
     "  noise: {combustion_relative: 0.055, sensor_relative: 0.004}\n\n"
     "Exit status: 0 done; 2 bad input.\n";

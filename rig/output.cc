@@ -101,7 +101,6 @@ std::string KeyJson(const Spec& spec, const Plan& plan, const Grid& grid) {
   const Json key = {{"schema", "howl.rig/1"},
                     {"seed", spec.seed},
                     {"effects", effects},
-                    {"source", spec.source == Source::kCompact ? "compact" : "distributed"},
                     {"flame", FlameShapeNames()[static_cast<std::size_t>(flame.shape)]},
                     {"combustion_noise_relative", plan.combustion_noise},
                     {"combustion_noise_corner_hz", plan.combustion_corner_hz},

@@ -57,7 +57,9 @@ std::vector<double> Crossings(const Point& point, const Behaviour& behaviour, do
   std::vector<double> found;
   const double step_hz = point.modes.omega_hz / 300.0;
   double before = std::arg(OpenLoop(point, behaviour, low_hz));
-  for (double f = low_hz + step_hz; f < high_hz; f += step_hz) {
+  const int steps = static_cast<int>((high_hz - low_hz) / step_hz);
+  for (int i = 1; i <= steps; ++i) {
+    const double f = low_hz + i * step_hz;
     const double after = std::arg(OpenLoop(point, behaviour, f));
     if ((before > 0.0) != (after > 0.0) && std::abs(before - after) < std::numbers::pi) {
       found.push_back(f - step_hz * after / (after - before));
@@ -105,7 +107,6 @@ double CloseLoop(const Behaviour& behaviour, double wanted_hz, Point& point) {
 
 Plan MakePlan(const Spec& spec) {
   Plan plan;
-  plan.source = spec.source;
   Random draw(spec.seed, "rig");
   const auto drawn = [&](double low, double high, double plain) {
     const double value = draw.Uniform(low, high);

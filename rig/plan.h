@@ -9,8 +9,10 @@
 #define HOWL_RIG_PLAN_H_
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "rig/duct.h"
 #include "rig/spec.h"
 
 namespace rig {
@@ -35,7 +37,6 @@ struct Plan {
   std::vector<Point> points;
   std::vector<std::pair<std::string, Parameters>> effects;
   Behaviour behaviour;
-  Source source = Source::kDistributed;
   double combustion_noise = 0.0;  // rms over saturation
   double combustion_corner_hz = 0.0;
   double sensor_noise = 0.0;  // rms over the cycle's amplitude

@@ -130,7 +130,7 @@ Spec LoadSpec(const std::string& path) {
   }
   reader.Keys(root, "the rig",
               {"experiments", "effects", "seed", "duration_s", "sampling_hz", "settle_s", "scatter",
-               "source", "flame", "refine", "operating_parameter", "noise"});
+               "flame", "refine", "operating_parameter", "noise"});
   Spec spec;
   const YAML::Node experiments = root["experiments"];
   if (!experiments || !experiments.IsSequence() || experiments.size() == 0) {
@@ -144,7 +144,11 @@ Spec LoadSpec(const std::string& path) {
       reader.Fail(node, "name", spec.experiments.back().name + " is there twice");
     }
   }
-  for (const YAML::Node& node : root["effects"]) spec.effects.push_back(ReadEffect(reader, node));
+  const YAML::Node effects = root["effects"];
+  if (effects && !effects.IsSequence()) {
+    reader.Fail(effects, "effects", "expected a list of effects");
+  }
+  for (const YAML::Node& node : effects) spec.effects.push_back(ReadEffect(reader, node));
   if (const YAML::Node seed = root["seed"]) {
     if (!YAML::convert<std::uint64_t>::decode(seed, spec.seed)) {
       reader.Fail(seed, "seed", "expected a whole number from 0 to 2^64 - 1");
@@ -160,11 +164,6 @@ Spec LoadSpec(const std::string& path) {
     reader.Fail(root["scatter"], "scatter", "expected true or false");
   }
   spec.scatter = scatter == "true";
-  const std::string source = reader.Word(root, "source", "distributed");
-  if (source != "distributed" && source != "compact") {
-    reader.Fail(root["source"], "source", "expected distributed or compact");
-  }
-  spec.source = source == "compact" ? Source::kCompact : Source::kDistributed;
   const std::string flame = reader.Word(root, "flame", "any");
   if (flame != "any") {
     const std::vector<std::string>& shapes = FlameShapeNames();

@@ -8,7 +8,6 @@
 //   sampling_hz: 5000
 //   settle_s: 1.0
 //   scatter: true                    draw rigs like this one; false: this one
-//   source: distributed              or compact
 //   flame: any                       or a shape's name
 //   refine: 1                        grid steps over the usual number
 //   operating_parameter: phi         its name in the config that is written
@@ -22,7 +21,6 @@
 #include <string>
 #include <vector>
 
-#include "rig/duct.h"
 #include "rig/effects.h"
 #include "rig/flame.h"
 
@@ -56,7 +54,6 @@ struct Spec {
   double sampling_hz = 5000.0;
   double settle_s = 1.0;
   bool scatter = true;
-  Source source = Source::kDistributed;
   std::optional<FlameShape> flame;
   int refine = 1;
   std::string operating_parameter = "phi";
