@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "app/command.h"
-#include "app/progress.h"
+#include "app/progress_line.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/page.h"
 #include "io/report/render.h"
@@ -20,8 +20,8 @@ std::filesystem::path Folder(const Options& options) {
 int Run(const Options& options) {
   const std::filesystem::path folder = Folder(options);
   ReportInput input = ReadReportInput(folder, options.threads);
-  const std::vector<Figure> figures = AllFigures(input, input.missing);
-  Progress progress("drawing", options.quiet);
+  const std::vector<Figure> figures = AllFigures(input, options.threads, input.missing);
+  ProgressLine progress("drawing", options.quiet);
   const auto svgs =
       RenderFigures(figures, folder / "figures", options.threads, input.missing,
                     [&](std::size_t done, std::size_t total) { progress.Show(done, total); });

@@ -53,6 +53,7 @@ std::string SectionText(const std::string& id, const ReportInput& input) {
   if (id == "models") return FitTable(input);
   if (id == "family") return FamilySummary(input);
   if (id == "diagnosis") return DiagnosisSummary(input);
+  if (id == "trial") return TrialSummary(input);
   return {};
 }
 

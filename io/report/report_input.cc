@@ -137,7 +137,7 @@ MeasuredPoint Analysed(const Json& json) {
 void ReadMeasured(ReportInput& input) {
   const auto analysed = [&](const std::string& name) -> const Json* {
     if (!input.analysis.contains("experiments")) return nullptr;
-    for (const Json& each : input.analysis["experiments"]) {
+    for (const Json& each : ListAt(input.analysis, "experiments")) {
       if (each.is_object() && each.value("name", "") == name) return &each;
     }
     return nullptr;
@@ -151,7 +151,7 @@ void ReadMeasured(ReportInput& input) {
         input.measured.push_back(Published(each.experiment));
       } else if (const ExperimentModel* fit = input.Fitted(each.experiment.name)) {
         // Not analysed, but fitted: the fit's own summary of the record.
-        for (const Json& row : input.solution["experiments"]) {
+        for (const Json& row : ListAt(input.solution, "experiments")) {
           if (row.value("name", "") != fit->name) continue;
           Experiment experiment = each.experiment;
           experiment.frequency_hz = NumberAt(row, "frequency_hz");
@@ -172,7 +172,7 @@ void ReadMeasured(ReportInput& input) {
     }
     return;
   }
-  for (const Json& row : input.solution.value("experiments", Json::array())) {
+  for (const Json& row : ListAt(input.solution, "experiments")) {
     Experiment experiment;
     experiment.name = row.value("name", "");
     experiment.phi = NumberAt(row, "phi");
@@ -217,7 +217,7 @@ void ReadRecords(ReportInput& input, const Config& config, std::vector<NamedReco
 }
 
 void ReadFitted(ReportInput& input) {
-  for (const Json& row : input.solution.value("experiments", Json::array())) {
+  for (const Json& row : ListAt(input.solution, "experiments")) {
     LoopModel model{.omega_hz = NumberAt(row, "omega_hz"),
                     .xi = NumberAt(row, "xi"),
                     .N = NumberAt(row, "N"),
@@ -260,6 +260,13 @@ double NumberAt(const Json& json, const char* key) {
   if (!json.is_object()) return kNotANumber;
   const auto found = json.find(key);
   return found != json.end() && found->is_number() ? found->get<double>() : kNotANumber;
+}
+
+const Json& ListAt(const Json& json, const char* key) {
+  static const Json empty = Json::array();
+  if (!json.is_object()) return empty;
+  const auto found = json.find(key);
+  return found != json.end() && found->is_array() ? *found : empty;
 }
 
 Estimate EstimateAt(const Json& json, const char* key) {

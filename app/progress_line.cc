@@ -1,4 +1,4 @@
-#include "app/progress.h"
+#include "app/progress_line.h"
 
 #include <unistd.h>
 
@@ -24,13 +24,13 @@ std::string Duration(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string what, bool quiet)
+ProgressLine::ProgressLine(std::string what, bool quiet)
     : what_(std::move(what)),
       enabled_(!quiet && isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
       last_(start_) {}
 
-void Progress::Show(std::size_t done, std::size_t total) {
+void ProgressLine::Show(std::size_t done, std::size_t total) {
   if (!enabled_ || total == 0) return;
   const Clock::time_point now = Clock::now();
   const std::chrono::duration<double> elapsed = now - start_;
@@ -44,7 +44,7 @@ void Progress::Show(std::size_t done, std::size_t total) {
   std::fflush(stderr);
 }
 
-void Progress::Clear() {
+void ProgressLine::Clear() {
   if (!shown_) return;
   std::fprintf(stderr, "\r\033[K");
   std::fflush(stderr);

@@ -1,7 +1,7 @@
 // Progress on standard error, with the time that remains: from two seconds on, on a terminal only,
 // and never when quiet.
-#ifndef HOWL_APP_PROGRESS_H_
-#define HOWL_APP_PROGRESS_H_
+#ifndef HOWL_APP_PROGRESS_LINE_H_
+#define HOWL_APP_PROGRESS_LINE_H_
 
 #include <chrono>
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace howl {
 
-class Progress {
+class ProgressLine {
  public:
-  Progress(std::string what, bool quiet);
-  ~Progress() { Clear(); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  ProgressLine(std::string what, bool quiet);
+  ~ProgressLine() { Clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 
   // Not to be called from two threads at once.
   void Show(std::size_t done, std::size_t total);
@@ -32,4 +32,4 @@ class Progress {
 
 }  // namespace howl
 
-#endif  // HOWL_APP_PROGRESS_H_
+#endif  // HOWL_APP_PROGRESS_LINE_H_
