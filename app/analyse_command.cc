@@ -15,11 +15,11 @@ namespace {
 constexpr double kPerCent = 100.0;
 constexpr std::size_t kShownLines = 4;
 
-// "219.87 +- 0.02"
+// "219.87±0.02"
 std::string WithStd(const Estimate& estimate, int decimals) {
   if (!std::isfinite(estimate.value)) return "-";
   std::string text = Fixed(estimate.value, decimals);
-  if (std::isfinite(estimate.std)) text += " +- " + Fixed(estimate.std, decimals);
+  if (std::isfinite(estimate.std)) text += "±" + Fixed(estimate.std, decimals);
   return text;
 }
 
@@ -141,8 +141,7 @@ Command AnalyseCommand() {
           "two are coherent. Writes characteristics.csv, lines.csv, transfer.csv, flame_curve.csv\n"
           "and analysis.json. Standard deviations are 95 % intervals' half widths over 1.96.",
           {},
-          Run,
-          true};
+          Run};
 }
 
 }  // namespace howl

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/command.h"
+#include "app/progress_line.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "diagnosis/diagnosis.h"
@@ -96,8 +97,8 @@ int Run(const Options& options) {
   how.threads = options.threads;
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
     how.progress = [](std::size_t done, std::size_t total) {
-      std::fprintf(stderr, "\rcandidates tried: %zu of %zu%s", done, total,
-                   done == total ? "\n" : "");
+      static ProgressLine line("candidates tried", false);
+      line.Show(done, total);
     };
   }
   const Diagnosis diagnosis = Diagnose(experiments, how);
@@ -121,8 +122,7 @@ Command DiagnoseCommand() {
           "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
           "cannot tell from it, the place, the gap before and after, and every candidate.",
           {},
-          Run,
-          true};
+          Run};
 }
 
 }  // namespace howl

@@ -16,9 +16,9 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  // Not to be called from two threads at once.
+  // Not to be called from two threads at once. Takes the line away when all is done; a count that
+  // falls back begins the next stretch of work.
   void Show(std::size_t done, std::size_t total);
-  // Takes the line away.
   void Clear();
 
  private:
@@ -26,9 +26,13 @@ class ProgressLine {
   std::string what_;
   bool enabled_ = false;
   bool shown_ = false;
+  std::size_t last_done_ = 0;
   Clock::time_point start_;
-  Clock::time_point last_;
+  Clock::time_point last_shown_;
 };
+
+// "12 s" or "3 min".
+std::string DurationText(double seconds);
 
 }  // namespace howl
 

@@ -1,6 +1,7 @@
 #include "io/report/page_tables.h"
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "io/report/figures/curves.h"
@@ -17,6 +18,12 @@ std::string WithInterval(const Estimate& estimate, double scale = 1.0) {
   std::string out = Text(scale * estimate.value);
   if (std::isfinite(estimate.std)) out += " ± " + Text(scale * HalfWidth95(estimate), 2);
   return out;
+}
+
+std::string Percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f", 100.0 * share);
+  return text;
 }
 
 std::string Table(const std::string& caption, const std::vector<std::string>& head,
@@ -165,11 +172,11 @@ std::string TrialSummary(const ReportInput& input) {
   if (!input.trial.contains("diagnose")) return {};
   const auto tally = [](const nlohmann::json& json) -> std::string {
     if (!json.is_object() || !(NumberAt(json, "total") > 0.0)) return "–";
-    std::string text = Text(100.0 * NumberAt(json, "share"), 3) + " %";
+    std::string text = Percent(NumberAt(json, "share")) + " %";
     const nlohmann::json& interval = ListAt(json, "interval");
     if (interval.size() == 2 && interval[0].is_number() && interval[1].is_number()) {
-      text += " (" + Text(100.0 * interval[0].get<double>(), 2) + " to " +
-              Text(100.0 * interval[1].get<double>(), 2) + ")";
+      text += " (" + Percent(interval[0].get<double>()) + " to " +
+              Percent(interval[1].get<double>()) + ")";
     }
     return text;
   };

@@ -60,7 +60,8 @@ void ReadConfig(ReportInput& input) {
   Try(input, "run.json", "fit",
       [&](const std::filesystem::path&) { input.run = ReadRunFile(input.folder); });
   if (!input.run) {
-    if (!std::filesystem::exists(input.folder / "run.json")) {
+    if (!std::filesystem::exists(input.folder / "run.json") &&
+        !std::filesystem::exists(input.folder / "trial.json")) {
       input.missing.push_back(
           "run.json, which names the config, is not here: records, tests and priors are unknown; "
           "any command of howl run on the config writes it");
@@ -240,7 +241,8 @@ void NoteAbsent(ReportInput& input) {
   const bool has_records =
       input.config && std::ranges::any_of(input.config->experiments,
                                           [](const auto& each) { return each.record.has_value(); });
-  if (!input.config && !input.solution.is_object() && input.trial.is_object()) return;
+  // A trial stands alone.
+  if (input.trial.is_object() && input.solution.is_null() && input.analysis.is_null()) return;
   for (const Source& source :
        {Source{"analysis.json", "analyse", "spectral lines, flame curves and transfers", true},
         Source{"solution.json", "fit", "the fitted loops", false},

@@ -45,7 +45,11 @@ std::optional<Figure> ConfusionFigure(const ReportInput& input) {
       "(columns). The shade is the row's share, the number counts cases; framed: the right name.";
   figure.csv = csv.Text();
   figure.width = static_cast<int>(std::max<std::size_t>(560, 260 + 30 * columns.size()));
-  figure.height = static_cast<int>(210 + 22 * rows.size());
+  // Height in lines of the longest name, written aslant.
+  std::size_t longest = 0;
+  for (const std::string& name : columns) longest = std::max(longest, name.size());
+  const double slant = 0.34 * static_cast<double>(longest);
+  figure.height = static_cast<int>(70 + 6 * longest + 22 * rows.size());
   Script script;
   script.Line("unset key")
       .Line("unset grid")
@@ -53,11 +57,11 @@ std::optional<Figure> ConfusionFigure(const ReportInput& input) {
       .Line("set palette defined (0 '#eef5fb', 0.5 '#7fb3da', 1 '#3d85bd')")
       .Line("set cbrange [0:1]")
       .Line("set lmargin 27")
-      .Line("set bmargin 12")
+      .Line("set bmargin " + Number(3.0 + slant))
       .Line("set rmargin 3")
       .Line("set xtics noenhanced rotate by 50 right (" + Ticks(columns) + ")")
       .Line("set ytics noenhanced (" + Ticks(rows) + ")")
-      .Line("set xlabel 'answer' offset 0,-5")
+      .Line("set xlabel 'answer' offset 0," + Number(-slant + 0.5))
       .Line("set xrange [0.5:" + Number(static_cast<double>(columns.size()) + 0.5) + "]")
       .Line("set yrange [" + Number(static_cast<double>(rows.size()) + 0.5) + ":0.5]")
       .Line("set style fill solid noborder")
@@ -66,7 +70,7 @@ std::optional<Figure> ConfusionFigure(const ReportInput& input) {
           "palette")
       .Plot(
           "data using (pick('right',2)):3:($2-0.48):($2+0.48):($3-0.46):($3+0.46) with boxxyerror "
-          "fill empty border linecolor rgb '" +
+          "fill empty border rgb '" +
           std::string(colour::kVermillion) + "' linewidth 1.5")
       .Plot("data using 2:3:(sprintf('%d',$5)) with labels font ',10' textcolor rgb '#101010'")
       .EndPlot();

@@ -25,7 +25,7 @@ std::optional<Figure> ReliabilityFigure(const ReportInput& input) {
   if (bins == 0) return std::nullopt;
   Figure figure;
   figure.name = "reliability";
-  figure.title = "Are the probabilities to be trusted?";
+  figure.title = "Reliability of the probabilities";
   figure.caption =
       "Share of right answers among those given with a like probability, with 95 % (Wilson) "
       "intervals and the number of cases. On the line a probability means what it says; below it "
