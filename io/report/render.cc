@@ -150,6 +150,7 @@ std::string InlineSvg(const std::string& svg, const std::string& name, const std
   ReplaceAll(out, "id=\"", "id=\"" + name + "_");
   ReplaceAll(out, "href='#", "href='#" + name + "_");
   ReplaceAll(out, "url(#", "url(#" + name + "_");
+  ReplaceAll(out, "fill=\"#ffffff\"/>", "fill=\"none\"/>");  // the page is the paper
   ReplaceAll(out, "<svg", "<svg role=\"img\" aria-label=\"" + title + "\"");
   const std::size_t own_title = out.find("<title>");
   const std::size_t end = out.find("</title>");

@@ -61,7 +61,7 @@ std::optional<Figure> ConfusionFigure(const ReportInput& input) {
       .Line("set rmargin 3")
       .Line("set xtics noenhanced rotate by 50 right (" + Ticks(columns) + ")")
       .Line("set ytics noenhanced (" + Ticks(rows) + ")")
-      .Line("set xlabel 'answer' offset 0," + Number(-slant + 0.5))
+      .Line("set label 'answer' at graph 0.5, screen 0.04 center")
       .Line("set xrange [0.5:" + Number(static_cast<double>(columns.size()) + 0.5) + "]")
       .Line("set yrange [" + Number(static_cast<double>(rows.size()) + 0.5) + ":0.5]")
       .Line("set style fill solid noborder")
