@@ -15,11 +15,11 @@ namespace {
 constexpr double kPerCent = 100.0;
 constexpr std::size_t kShownLines = 4;
 
-// "219.87 +- 0.02"
+// "219.87±0.02"
 std::string WithStd(const Estimate& estimate, int decimals) {
   if (!std::isfinite(estimate.value)) return "-";
   std::string text = Fixed(estimate.value, decimals);
-  if (std::isfinite(estimate.std)) text += " +- " + Fixed(estimate.std, decimals);
+  if (std::isfinite(estimate.std)) text += "±" + Fixed(estimate.std, decimals);
   return text;
 }
 
@@ -30,8 +30,8 @@ std::string StateText(const Analysis& analysis) {
 }
 
 void PrintCharacteristics(const AnalysisSet& set, const std::string& operating_parameter) {
-  TextTable table({"experiment", operating_parameter, "state", "f Hz", "phase deg", "gain",
-                   "tau ms", "loop gain"});
+  TextTable table(
+      {"name", operating_parameter, "state", "f Hz", "phase deg", "gain", "tau ms", "loop gain"});
   for (const Analysis& analysis : set.analyses) {
     const Characteristics& cycle = analysis.characteristics;
     const bool has_cycle = cycle.state != CycleState::kNoLimitCycle;
@@ -123,10 +123,11 @@ int Run(const Options& options) {
     std::printf("phase, gain, delay, flame curve and transfer need heat release: not available\n");
   }
   std::printf("%s", VanishingText(set.vanishing_phi, config.operating_parameter).c_str());
-  std::printf(
-      "written: characteristics.csv, lines.csv, transfer.csv, flame_curve.csv and "
-      "analysis.json in %s\n",
-      options.out.c_str());
+  const std::string written =
+      "written: characteristics.csv, lines.csv, transfer.csv, flame_curve.csv and analysis.json "
+      "in " +
+      options.out.string();
+  std::printf("%s\n", Wrapped(written, 2).c_str());
   return kDone;
 }
 
@@ -141,8 +142,7 @@ Command AnalyseCommand() {
           "two are coherent. Writes characteristics.csv, lines.csv, transfer.csv, flame_curve.csv\n"
           "and analysis.json. Standard deviations are 95 % intervals' half widths over 1.96.",
           {},
-          Run,
-          true};
+          Run};
 }
 
 }  // namespace howl

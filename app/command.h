@@ -20,7 +20,7 @@ struct Command {
   std::string details;  // what it reads, computes and writes
   std::vector<OptionHelp> options;
   int (*run)(const Options&);
-  bool writes_results = false;  // to the output folder, whose run.json then names the run
+  bool writes_results = true;  // to the output folder, whose run.json then names the run
 };
 
 const std::vector<Command>& Commands();

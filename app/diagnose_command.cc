@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "app/command.h"
+#include "app/progress_line.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "diagnosis/diagnosis.h"
@@ -152,8 +153,8 @@ int Run(const Options& options) {
   }
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
     how.progress = [](std::size_t done, std::size_t total) {
-      std::fprintf(stderr, "\rcandidates tried: %zu of %zu%s", done, total,
-                   done == total ? "\n" : "");
+      static ProgressLine line("candidates tried", false);
+      line.Show(done, total);
     };
   }
   if (const auto path = options.Text("--reference")) {

@@ -51,9 +51,9 @@ Command FamilyCommand() {
       "list and bound all models that the data cannot reject",
       "A model belongs to the family when it passes every condition of the config's\n"
       "`family: test:`. Bounds each parameter with a guarantee, lists members spread over\n"
-      "the whole set (50 or fewer: chosen far apart), and computes the trade-off between the "
-      "spread of omega\n"
-      "and the largest xi. Writes family.csv, family.json and tradeoff.csv. When the family is\n"
+      "the whole set (50 or fewer: chosen far apart), and computes the trade-off between the\n"
+      "spread of omega and the largest xi. Writes family.csv, family.json and tradeoff.csv. When "
+      "the family is\n"
       "empty, names the conditions that exclude each other and exits with 1. Interrupted work\n"
       "goes on where it stopped.",
       {{"--falsify", "OTHER.yaml", "which members survive the experiments of another config"},
@@ -61,8 +61,7 @@ Command FamilyCommand() {
        {"--profile", "QUANTITY",
         "the best fit along exp1.tau_s, exp1.loop_gain, a prediction or any expression"},
        {"--save-every", "SECONDS", "how often the search for bounds saves its state (default: 2)"}},
-      Run,
-      true};
+      Run};
 }
 
 }  // namespace howl

@@ -61,7 +61,7 @@ void PrintIdentifiability(const JointFit& fit) {
   std::printf("%zu parameters, %d directions determined, %zu not\n", fit.free_names.size(),
               what.rank, free_directions);
   for (const UndeterminedDirection& direction : what.undetermined) {
-    std::printf("  %s\n", direction.text.c_str());
+    std::printf("%s\n", Wrapped("  " + direction.text, 4).c_str());
   }
 }
 
@@ -104,8 +104,7 @@ Command FitCommand() {
       "starts, and reports which directions in parameter space the data leave undetermined.\n"
       "Writes solution.json. Exit status 1 when no start converged.",
       {},
-      Run,
-      true};
+      Run};
 }
 
 }  // namespace howl

@@ -136,7 +136,8 @@ Command ListCommand() {
            {"--columns", "NAMES", "columns to show, joined by commas"},
            {"--experiment", "NAME", "show all parameters of one experiment"},
            {"--rows", "N", "rows to show (default: 20; 0: all)"}},
-          Run};
+          Run,
+          false};
 }
 
 }  // namespace howl

@@ -7,6 +7,8 @@
 
 #include "app/command.h"
 #include "app/interruption.h"
+#include "app/progress_line.h"
+#include "estimation/parallel.h"
 #include "io/report/run_file.h"
 #include "io/user_error.h"
 #include "model/version.h"
@@ -76,6 +78,8 @@ int Run(const std::vector<std::string>& words) {
     throw UsageError(command->name + ": no config given, expected howl " + command->name +
                      " CONFIG");
   }
+  ProgressLine progress(command->name, options.quiet);
+  ObserveUnits([&](std::size_t done, std::size_t total) { progress.Show(done, total); });
   const int status = command->run(options);
   if (command->writes_results) NoteRun(options.out, options.config, command->name, options.seed);
   return status;

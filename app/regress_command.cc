@@ -160,7 +160,8 @@ Command RegressCommand() {
           {{"--tolerance", "T", "relative difference that counts as moved (default: 1e-6)"},
            {"--reference", "DIR", "folder of the stored results"},
            {"--update", "", "store the fresh results as the reference instead"}},
-          Run};
+          Run,
+          false};
 }
 
 }  // namespace howl

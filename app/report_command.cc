@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "app/command.h"
-#include "app/progress.h"
+#include "app/text_table.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/page.h"
 #include "io/report/render.h"
@@ -20,15 +20,12 @@ std::filesystem::path Folder(const Options& options) {
 int Run(const Options& options) {
   const std::filesystem::path folder = Folder(options);
   ReportInput input = ReadReportInput(folder, options.threads);
-  const std::vector<Figure> figures = AllFigures(input, input.missing);
-  Progress progress("drawing", options.quiet);
-  const auto svgs =
-      RenderFigures(figures, folder / "figures", options.threads, input.missing,
-                    [&](std::size_t done, std::size_t total) { progress.Show(done, total); });
-  progress.Clear();
+  const std::vector<Figure> figures = AllFigures(input, options.threads, input.missing);
+  const auto svgs = RenderFigures(figures, folder / "figures", options.threads, input.missing);
   WriteWholeFile(folder / "report.html", ReportPage(input, figures, svgs));
   if (!options.quiet) {
-    for (const std::string& each : input.missing) std::printf("missing: %s\n", each.c_str());
+    for (const std::string& each : input.missing)
+      std::printf("%s\n", Wrapped("missing: " + each, 2).c_str());
     std::printf("written: report.html and %zu figures in %s\n", figures.size(), folder.c_str());
   }
   return kDone;
@@ -39,13 +36,14 @@ int Run(const Options& options) {
 Command ReportCommand() {
   return {"report",
           "turn what the other commands wrote to a folder into one page of figures",
-          "howl report DIR reads what analyse, fit, family, simulate, diagnose and trial wrote to\n"
-          "DIR (or to the output folder of a config) and writes DIR/report.html, one page that\n"
+          "howl report DIR reads what analyse, fit, family, simulate, diagnose and trial wrote\n"
+          "to DIR (or to the output folder of a config) and writes DIR/report.html, one page that\n"
           "needs no network: tables, figures, and a browser of the family. DIR/figures/ has each\n"
           "figure as SVG and PDF, its data as CSV and its gnuplot script, to restyle. What is\n"
           "missing is named on the page, and the rest shown.",
           {},
-          Run};
+          Run,
+          false};
 }
 
 }  // namespace howl

@@ -148,8 +148,7 @@ Command SimulateCommand() {
       "Writes NAME.csv (p,q) for each experiment and records.yaml, a config that analyse, fit\n"
       "and family take as it is. The config's `simulate:` has duration, sampling, flame, noise.",
       {{"--member", "K", "member K of family.csv, which howl family wrote to DIR, not the fit"}},
-      Run,
-      true};
+      Run};
 }
 
 }  // namespace howl

@@ -3,15 +3,45 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <mutex>
+#include <utility>
+
 namespace howl {
+namespace {
+
+UnitObserver& Observer() {
+  static UnitObserver observer;
+  return observer;
+}
+
+// A unit may run units of its own: those are not shown.
+thread_local bool is_inside = false;
+
+}  // namespace
+
+void ObserveUnits(UnitObserver observer) { Observer() = std::move(observer); }
 
 void RunUnits(std::size_t count, int threads, const std::function<void(std::size_t)>& unit) {
+  const bool is_shown = Observer() && !is_inside;
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto run = [&](std::size_t i) {
+    if (!is_shown) {
+      unit(i);
+      return;
+    }
+    const bool outer = std::exchange(is_inside, true);
+    unit(i);
+    is_inside = outer;
+    const std::lock_guard lock(mutex);
+    Observer()(++done, count);
+  };
   if (threads == 1 || count < 2) {
-    for (std::size_t i = 0; i < count; ++i) unit(i);
+    for (std::size_t i = 0; i < count; ++i) run(i);
     return;
   }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, unit); });
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, run); });
 }
 
 }  // namespace howl

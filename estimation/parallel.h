@@ -11,6 +11,11 @@ namespace howl {
 // threads = 0: all cores.
 void RunUnits(std::size_t count, int threads, const std::function<void(std::size_t)>& unit);
 
+// Called after every unit of an outermost RunUnits, by one thread at a time: for a progress
+// display. Set it before any unit runs; empty (the default) for none.
+using UnitObserver = std::function<void(std::size_t done, std::size_t total)>;
+void ObserveUnits(UnitObserver observer);
+
 }  // namespace howl
 
 #endif  // HOWL_ESTIMATION_PARALLEL_H_

@@ -320,7 +320,15 @@
   let nyquistRange = [-2, 2];
   const nyquist = make("plot-nyquist", {
     mode: 2, legend: { show: true, live: false }, cursor: freeCursor,
-    scales: { x: { time: false, range: () => nyquistRange }, y: { range: () => nyquistRange } },
+    // One unit is as long on either axis: a circle is round.
+    scales: { x: { time: false, range: (u) => {
+                const stretch = u.bbox && u.bbox.height > 0 ? u.bbox.width / u.bbox.height : 1;
+                return nyquistRange.map((v) => v * Math.max(1, stretch));
+              } },
+              y: { range: (u) => {
+                const stretch = u.bbox && u.bbox.height > 0 ? u.bbox.width / u.bbox.height : 1;
+                return nyquistRange.map((v) => v / Math.min(1, stretch));
+              } } },
     axes: [axis("real part"), axis("imaginary part", { size: 56 })],
     series: [{}, freeCurve("member", colours.member, linePath, { width: 2 }),
              freeCurve("joint fit", colours.fit, linePath, { width: 1.5, dash: [6, 4] }),

@@ -53,6 +53,7 @@ std::string SectionText(const std::string& id, const ReportInput& input) {
   if (id == "models") return FitTable(input);
   if (id == "family") return FamilySummary(input);
   if (id == "diagnosis") return DiagnosisSummary(input);
+  if (id == "trial") return TrialSummary(input);
   return {};
 }
 
@@ -138,10 +139,11 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
         if (figure.name == name) inside += FigureHtml(figure, svgs);
       }
     }
-    if (inside.empty()) continue;
-    body += "<section id=\"" + std::string(section.id) + "\"><h2>" + section.title + "</h2>" +
-            inside + "</section>\n";
-    contents += "<a href=\"#" + std::string(section.id) + "\">" + section.title + "</a>\n";
+    if (!inside.empty()) {
+      body += "<section id=\"" + std::string(section.id) + "\"><h2>" + section.title + "</h2>" +
+              inside + "</section>\n";
+      contents += "<a href=\"#" + std::string(section.id) + "\">" + section.title + "</a>\n";
+    }
     if (section.id == std::string("family") && has_browser) {
       body += BrowserHtml(input);
       contents += "<a href=\"#browser\">Browse the family</a>\n";

@@ -1,6 +1,7 @@
 #include "io/report/page_tables.h"
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "io/report/figures/curves.h"
@@ -17,6 +18,12 @@ std::string WithInterval(const Estimate& estimate, double scale = 1.0) {
   std::string out = Text(scale * estimate.value);
   if (std::isfinite(estimate.std)) out += " ± " + Text(scale * HalfWidth95(estimate), 2);
   return out;
+}
+
+std::string Percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f", 100.0 * share);
+  return text;
 }
 
 std::string Table(const std::string& caption, const std::vector<std::string>& head,
@@ -157,6 +164,60 @@ std::string DiagnosisSummary(const ReportInput& input) {
   }
   if (input.diagnosis.contains("advice") && input.diagnosis["advice"].is_string()) {
     out += "<p>Next: " + EscapeHtml(input.diagnosis["advice"].get<std::string>()) + ".</p>\n";
+  }
+  return out;
+}
+
+std::string TrialSummary(const ReportInput& input) {
+  if (!input.trial.contains("diagnose")) return {};
+  const auto tally = [](const nlohmann::json& json) -> std::string {
+    if (!json.is_object() || !(NumberAt(json, "total") > 0.0)) return "–";
+    std::string text = Percent(NumberAt(json, "share")) + " %";
+    const nlohmann::json& interval = ListAt(json, "interval");
+    if (interval.size() == 2 && interval[0].is_number() && interval[1].is_number()) {
+      text += " (" + Percent(interval[0].get<double>()) + " to " +
+              Percent(interval[1].get<double>()) + ")";
+    }
+    return text;
+  };
+  const auto part = [](const nlohmann::json& json, const char* key) {
+    return json.is_object() && json.contains(key) ? json[key] : nlohmann::json();
+  };
+  std::vector<nlohmann::json> methods = {input.trial["diagnose"]};
+  for (const auto& rival : ListAt(input.trial, "rivals")) methods.push_back(rival);
+  std::vector<std::vector<std::string>> rows;
+  for (const nlohmann::json& method : methods) {
+    const nlohmann::json all = part(method, "all_severities");
+    rows.push_back({method.value("method", ""), tally(part(all, "effect")),
+                    tally(part(all, "class_of_at_most_three")), tally(part(all, "block")),
+                    tally(part(method, "false_alarms")), tally(part(method, "unknown_recall")),
+                    Text(NumberAt(method, "log_score"), 3), Text(NumberAt(method, "brier"), 3)});
+  }
+  std::string out = "<p>" + Text(NumberAt(input.trial, "cases"), 6) +
+                    " sealed cases from another simulator, diagnosed blind.";
+  if (input.trial.contains("about") && input.trial["about"].is_object()) {
+    const std::string seal = input.trial["about"].value("seal_sha256", "");
+    if (!seal.empty()) out += " SHA-256 of the sealed key: <code>" + EscapeHtml(seal) + "</code>.";
+  }
+  out += "</p>\n";
+  out += Table("Scores with 95 % (Wilson) intervals, and those of trivial rivals",
+               {"method", "effect named", "in a class of three", "block", "false alarms",
+                "unknown recognised", "log score", "Brier score"},
+               rows);
+  rows.clear();
+  for (const auto& each : ListAt(input.trial, "power")) {
+    const nlohmann::json& interval = ListAt(each, "size_interval");
+    std::string size = Text(NumberAt(each, "size_found_with_90_percent"), 3);
+    if (interval.size() == 2 && interval[0].is_number() && interval[1].is_number()) {
+      size += " (" + Text(interval[0].get<double>(), 3) + " to " +
+              Text(interval[1].get<double>(), 3) + ")";
+    }
+    rows.push_back({each.value("effect", ""), each.value("parameter", ""), size,
+                    Text(NumberAt(each, "found"), 5) + " of " + Text(NumberAt(each, "cases"), 5)});
+  }
+  if (!rows.empty()) {
+    out += Table("Power: the size that is named in 90 % of cases",
+                 {"effect", "parameter", "size", "named"}, rows);
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// The tables of the page: what was measured, fitted, bounded, diagnosed.
+// The tables of the page: what was measured, fitted, bounded, diagnosed, tried.
 #ifndef HOWL_IO_REPORT_PAGE_TABLES_H_
 #define HOWL_IO_REPORT_PAGE_TABLES_H_
 
@@ -13,6 +13,7 @@ std::string MeasuredTable(const ReportInput& input);
 std::string FitTable(const ReportInput& input);
 std::string FamilySummary(const ReportInput& input);
 std::string DiagnosisSummary(const ReportInput& input);
+std::string TrialSummary(const ReportInput& input);
 
 }  // namespace howl
 

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cerrno>
 #include <fstream>
-#include <mutex>
 #include <sstream>
 
 #include "estimation/parallel.h"
@@ -96,16 +95,13 @@ void ReplaceAll(std::string& text, const std::string& from, const std::string& t
 
 }  // namespace
 
-std::map<std::string, std::string> RenderFigures(
-    const std::vector<Figure>& figures, const std::filesystem::path& folder, int threads,
-    std::vector<std::string>& missing,
-    const std::function<void(std::size_t, std::size_t)>& progress) {
+std::map<std::string, std::string> RenderFigures(const std::vector<Figure>& figures,
+                                                 const std::filesystem::path& folder, int threads,
+                                                 std::vector<std::string>& missing) {
   const WorkFolder work;
   std::map<std::string, std::string> svgs;
   std::vector<std::string> faults(figures.size());
   std::atomic<bool> no_gnuplot = false;
-  std::size_t done = 0;
-  std::mutex mutex;
   RunUnits(figures.size(), threads, [&](std::size_t i) {
     const Figure& figure = figures[i];
     std::ofstream(work.path() / (figure.name + ".csv")) << figure.csv;
@@ -119,8 +115,6 @@ std::map<std::string, std::string> RenderFigures(
         std::filesystem::remove(work.path() / (figure.name + "." + format));
       }
     }
-    const std::lock_guard lock(mutex);
-    progress(++done, figures.size());
   });
   for (std::size_t i = 0; i < figures.size(); ++i) {
     for (const char* ending : {".csv", ".gp", ".svg", ".pdf"}) {
@@ -156,6 +150,7 @@ std::string InlineSvg(const std::string& svg, const std::string& name, const std
   ReplaceAll(out, "id=\"", "id=\"" + name + "_");
   ReplaceAll(out, "href='#", "href='#" + name + "_");
   ReplaceAll(out, "url(#", "url(#" + name + "_");
+  ReplaceAll(out, "fill=\"#ffffff\"/>", "fill=\"none\"/>");  // the page is the paper
   ReplaceAll(out, "<svg", "<svg role=\"img\" aria-label=\"" + title + "\"");
   const std::size_t own_title = out.find("<title>");
   const std::size_t end = out.find("</title>");

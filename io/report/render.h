@@ -3,7 +3,6 @@
 #define HOWL_IO_REPORT_RENDER_H_
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,10 +13,9 @@ namespace howl {
 
 // Writes all figures to `folder` and returns each one's SVG by name. Without gnuplot, or where it
 // fails, data and script are written all the same, and `missing` says so.
-std::map<std::string, std::string> RenderFigures(
-    const std::vector<Figure>& figures, const std::filesystem::path& folder, int threads,
-    std::vector<std::string>& missing,
-    const std::function<void(std::size_t, std::size_t)>& progress);
+std::map<std::string, std::string> RenderFigures(const std::vector<Figure>& figures,
+                                                 const std::filesystem::path& folder, int threads,
+                                                 std::vector<std::string>& missing);
 
 // An SVG of gnuplot's made fit to stand inside a page: no XML head and ids of its own. The
 // page's style gives ink and grid the page's colours.

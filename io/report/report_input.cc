@@ -60,7 +60,8 @@ void ReadConfig(ReportInput& input) {
   Try(input, "run.json", "fit",
       [&](const std::filesystem::path&) { input.run = ReadRunFile(input.folder); });
   if (!input.run) {
-    if (!std::filesystem::exists(input.folder / "run.json")) {
+    if (!std::filesystem::exists(input.folder / "run.json") &&
+        !std::filesystem::exists(input.folder / "trial.json")) {
       input.missing.push_back(
           "run.json, which names the config, is not here: records, tests and priors are unknown; "
           "any command of howl run on the config writes it");
@@ -137,7 +138,7 @@ MeasuredPoint Analysed(const Json& json) {
 void ReadMeasured(ReportInput& input) {
   const auto analysed = [&](const std::string& name) -> const Json* {
     if (!input.analysis.contains("experiments")) return nullptr;
-    for (const Json& each : input.analysis["experiments"]) {
+    for (const Json& each : ListAt(input.analysis, "experiments")) {
       if (each.is_object() && each.value("name", "") == name) return &each;
     }
     return nullptr;
@@ -151,7 +152,7 @@ void ReadMeasured(ReportInput& input) {
         input.measured.push_back(Published(each.experiment));
       } else if (const ExperimentModel* fit = input.Fitted(each.experiment.name)) {
         // Not analysed, but fitted: the fit's own summary of the record.
-        for (const Json& row : input.solution["experiments"]) {
+        for (const Json& row : ListAt(input.solution, "experiments")) {
           if (row.value("name", "") != fit->name) continue;
           Experiment experiment = each.experiment;
           experiment.frequency_hz = NumberAt(row, "frequency_hz");
@@ -172,7 +173,7 @@ void ReadMeasured(ReportInput& input) {
     }
     return;
   }
-  for (const Json& row : input.solution.value("experiments", Json::array())) {
+  for (const Json& row : ListAt(input.solution, "experiments")) {
     Experiment experiment;
     experiment.name = row.value("name", "");
     experiment.phi = NumberAt(row, "phi");
@@ -217,7 +218,7 @@ void ReadRecords(ReportInput& input, const Config& config, std::vector<NamedReco
 }
 
 void ReadFitted(ReportInput& input) {
-  for (const Json& row : input.solution.value("experiments", Json::array())) {
+  for (const Json& row : ListAt(input.solution, "experiments")) {
     LoopModel model{.omega_hz = NumberAt(row, "omega_hz"),
                     .xi = NumberAt(row, "xi"),
                     .N = NumberAt(row, "N"),
@@ -240,7 +241,8 @@ void NoteAbsent(ReportInput& input) {
   const bool has_records =
       input.config && std::ranges::any_of(input.config->experiments,
                                           [](const auto& each) { return each.record.has_value(); });
-  if (!input.config && !input.solution.is_object() && input.trial.is_object()) return;
+  // A trial stands alone.
+  if (input.trial.is_object() && input.solution.is_null() && input.analysis.is_null()) return;
   for (const Source& source :
        {Source{"analysis.json", "analyse", "spectral lines, flame curves and transfers", true},
         Source{"solution.json", "fit", "the fitted loops", false},
@@ -260,6 +262,13 @@ double NumberAt(const Json& json, const char* key) {
   if (!json.is_object()) return kNotANumber;
   const auto found = json.find(key);
   return found != json.end() && found->is_number() ? found->get<double>() : kNotANumber;
+}
+
+const Json& ListAt(const Json& json, const char* key) {
+  static const Json empty = Json::array();
+  if (!json.is_object()) return empty;
+  const auto found = json.find(key);
+  return found != json.end() && found->is_array() ? *found : empty;
 }
 
 Estimate EstimateAt(const Json& json, const char* key) {

@@ -83,6 +83,8 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads);
 // A number of a JSON tree, NaN where there is none.
 double NumberAt(const nlohmann::json& json, const char* key);
 Estimate EstimateAt(const nlohmann::json& json, const char* key);
+// A list of a JSON tree, empty where there is none.
+const nlohmann::json& ListAt(const nlohmann::json& json, const char* key);
 
 }  // namespace howl
 

@@ -86,7 +86,7 @@ std::string WholeScript(const Figure& figure) {
          " font 'sans,9'\n"
          "} else {\n"
          "  set terminal svg enhanced size " +
-         size + " dynamic font 'sans-serif,12' name '" + figure.name +
+         size + " dynamic background rgb '#ffffff' font 'sans-serif,12' name '" + figure.name +
          "'\n"
          "}\n"
          "set encoding utf8\n"

@@ -56,7 +56,15 @@ std::optional<Figure> BifurcationFigure(const ReportInput& input) {
     ContinuationOptions options;
     options.parameter_min = 0.5;
     options.parameter_max = highest;
-    options.max_points = 120;
+    options.max_points = 90;
+    // For the eye: a picture needs no ten digits.
+    options.first_step = 0.05;
+    options.max_step = 0.1;
+    options.balance.tolerance = 1e-7;
+    options.balance.max_harmonics = 64;
+    options.floquet.tolerance = 3e-3;
+    options.floquet.min_steps = 32;
+    options.floquet.max_dimension = 200;
     const Branch branch = ContinueCycle(path, start, cycle, options);
     if (branch.points.size() < 3) continue;
     Drawn drawn{"branch " + std::to_string(branches.size() + 1), cycle.frequency_hz, false, false};

@@ -64,11 +64,14 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
   Script script;
   script.Line("set xrange [" + Number(grid.front()) + ":" + Number(grid.back()) + "]")
       .Line("set multiplot layout 2,1 margins 0.14,0.78,0.15,0.97 spacing 0,0.06");
+  // A long list of names is shared by the two panels.
+  const bool split = points.size() > 6;
   for (const bool phase : {false, true}) {
     const std::string column = phase ? "4" : "3";
     if (phase) {
       script.Line("unset logscale y").Line("set format x '%g'").Line("set xlabel 'frequency (Hz)'");
-      script.Line("set ylabel 'phase of G (degrees)' offset 1").Line("unset key");
+      script.Line("set ylabel 'phase of G (degrees)' offset 1");
+      script.Line(split ? "set key at screen 0.99, screen 0.52" : "unset key");
     } else {
       script.Line("set logscale y").Line("set format x ''").Line("set format y '%g'");
       script.Line("set ylabel '|G| (units of p per q)' offset 1");
@@ -81,14 +84,16 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
         script.Plot("data using (pick(" + Quoted("member " + name) + ",2)):" + column +
                     " with lines linewidth 0.9 dashtype 2 linecolor rgb '" + colour + "' notitle");
       }
-      script.Plot("data using (pick(" + Quoted(name) + ",2)):" + column +
-                  " with lines linewidth 1.3 linecolor rgb '" + colour + "' title " + Quoted(name));
+      script.Plot(
+          "data using (pick(" + Quoted(name) + ",2)):" + column +
+          " with lines linewidth 1.3 linecolor rgb '" + colour + "' " +
+          (phase == (split && i >= points.size() / 2) ? "title " + Quoted(name) : "notitle"));
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
       script.Plot("data using (pick(" + Quoted("measured " + points[i]->name) + ",2)):" + column +
                   " with points pointtype 3 pointsize 1.2 linewidth 1.8 linecolor rgb '" +
                   SeriesColour(i, points.size()) + "' " +
-                  (i == 0 ? "title 'measured'" : "notitle"));
+                  (i == 0 && !phase ? "title 'measured'" : "notitle"));
     }
     script.EndPlot();
   }

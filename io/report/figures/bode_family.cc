@@ -1,5 +1,6 @@
 // Figure 8 of the seed for the data at hand: Bode's diagram of G at one experiment for members of
 // the family, which all pass through the measured point and differ elsewhere.
+#include <algorithm>
 #include <cmath>
 
 #include "io/report/figures/catalogue.h"
@@ -30,7 +31,8 @@ std::optional<Figure> FamilyBodeFigure(const ReportInput& input) {
   if (experiment < 0) return std::nullopt;
   const auto index = static_cast<std::size_t>(experiment);
   const double f = reference->frequency_hz.value;
-  const std::vector<double> grid = LogarithmicGrid(f / 4.0, ShownFrequencyMax(f), kGridPoints);
+  std::vector<double> grid = LogarithmicGrid(f / 4.0, ShownFrequencyMax(f), kGridPoints);
+  grid.insert(std::ranges::upper_bound(grid, f), f);  // where all members meet
   CsvWriter csv("curve,frequency_hz,gain,phase_deg");
   const auto drawn = input.members->Thinned(kDrawnMembers);
   for (const std::size_t member : drawn) {

@@ -1,6 +1,9 @@
 #include "io/report/figures/catalogue.h"
 
 #include <exception>
+#include <iterator>
+
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -29,18 +32,30 @@ constexpr Entry kFigures[] = {{"records", RecordsFigure},
                               {"bounds", BoundsFigure},
                               {"gap_map", GapMapFigure},
                               {"effects", EffectsFigure},
-                              {"remains", RemainsFigure}};
+                              {"remains", RemainsFigure},
+                              {"confusion", ConfusionFigure},
+                              {"reliability", ReliabilityFigure},
+                              {"power", PowerFigure}};
 
 }  // namespace
 
-std::vector<Figure> AllFigures(const ReportInput& input, std::vector<std::string>& missing) {
-  std::vector<Figure> figures;
-  for (const Entry& entry : kFigures) {
+std::vector<Figure> AllFigures(const ReportInput& input, int threads,
+                               std::vector<std::string>& missing) {
+  constexpr std::size_t kCount = std::size(kFigures);
+  std::vector<std::optional<Figure>> made(kCount);
+  std::vector<std::string> faults(kCount);
+  RunUnits(kCount, threads, [&](std::size_t i) {
     try {
-      if (auto figure = entry.make(input)) figures.push_back(*std::move(figure));
+      made[i] = kFigures[i].make(input);
     } catch (const std::exception& error) {
-      missing.push_back(std::string("the figure ") + entry.name + " is left out: " + error.what());
+      faults[i] = error.what();
     }
+  });
+  std::vector<Figure> figures;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (made[i]) figures.push_back(*std::move(made[i]));
+    if (faults[i].empty()) continue;
+    missing.push_back("the figure " + std::string(kFigures[i].name) + " is left out: " + faults[i]);
   }
   return figures;
 }

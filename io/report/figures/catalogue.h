@@ -31,9 +31,13 @@ std::optional<Figure> BifurcationFigure(const ReportInput& input);
 std::optional<Figure> GapMapFigure(const ReportInput& input);
 std::optional<Figure> EffectsFigure(const ReportInput& input);
 std::optional<Figure> RemainsFigure(const ReportInput& input);
+std::optional<Figure> ConfusionFigure(const ReportInput& input);
+std::optional<Figure> ReliabilityFigure(const ReportInput& input);
+std::optional<Figure> PowerFigure(const ReportInput& input);
 
 // Those that apply. A fault in one is a sentence in `missing` and leaves the others.
-std::vector<Figure> AllFigures(const ReportInput& input, std::vector<std::string>& missing);
+std::vector<Figure> AllFigures(const ReportInput& input, int threads,
+                               std::vector<std::string>& missing);
 
 }  // namespace howl
 

@@ -53,7 +53,7 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
       "measured p (delay, flame and both instruments). 0: nothing is left but noise.";
   figure.csv = csv.Text();
   figure.width = 900;
-  figure.height = static_cast<int>(2 * (86 + 24 * experiments.size()) + 20);
+  figure.height = static_cast<int>(2 * (96 + 24 * experiments.size()) + 20);
   const double rows = static_cast<double>(experiments.size());
   Script script;
   script.Line("unset key")
@@ -66,8 +66,8 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
       .Line("set cbrange [0:" + Number(std::max(top, 1e-3)) + "]")
       .Line("set style fill solid noborder")
       .Line("set multiplot layout 2," + std::string(any_after ? "2" : "1") + " margins 0.08,0.88," +
-            Number(50.0 / figure.height) + "," + Number(1.0 - 30.0 / figure.height) +
-            " spacing 0.08," + Number(80.0 / figure.height));
+            Number(64.0 / figure.height) + "," + Number(1.0 - 30.0 / figure.height) +
+            " spacing 0.08," + Number(86.0 / figure.height));
   for (const char* signal : {"p", "q"}) {
     for (const bool after : {false, true}) {
       if (after && !any_after) continue;

@@ -60,6 +60,9 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
         .Cell(0.0)
         .Cell(crossing.frequency_hz);
     csv.Cell(Number(std::round(crossing.frequency_hz * 10.0) / 10.0) + " Hz").EndRow();
+  }
+  std::ranges::sort(crossings, {}, &PhaseCrossing::frequency_hz);
+  for (const PhaseCrossing& crossing : crossings) {
     char text[64];
     std::snprintf(text, sizeof text, "%s%.1f Hz (%.3f)", told.empty() ? "" : ", ",
                   crossing.frequency_hz, crossing.gain);

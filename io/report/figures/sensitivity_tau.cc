@@ -71,6 +71,7 @@ std::optional<Figure> DelaySensitivityFigure(const ReportInput& input) {
   script.Line("set xlabel 'frequency (Hz)'")
       .Line("set ylabel 'phase of the delay (degrees)'")
       .Line("set ytics 180")
+      .Line("set key bottom left")
       .Line("set xrange [0:" + Number(max_hz) + "]");
   for (std::size_t i = 0; i < names.size(); ++i) {
     script.Plot("data using (pick(" + Quoted(names[i]) +
