@@ -1,10 +1,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstdio>
+#include <fstream>
+#include <functional>
 #include <memory>
+#include <sstream>
 
 #include "app/command.h"
+#include "app/diagnose_state.h"
+#include "app/interruption.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "diagnosis/diagnosis.h"
@@ -62,9 +69,11 @@ void CheckReference(const Config& config, const Config& reference,
         std::any_of(model.begin(), model.end(),
                     [&](const DiagnosisExperiment& other) { return other.name == each.name; });
     if (named || (each.phi >= low->phi && each.phi <= high->phi)) continue;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", each.phi);
     throw UserError(file, line, "experiments",
                     "have none called " + each.name + ", and none on both sides of its " +
-                        config.operating_parameter + " " + Significant(each.phi, 6) +
+                        config.operating_parameter + " " + text.data() +
                         ", expected one or the other");
   }
 }
@@ -117,6 +126,42 @@ void Print(const Diagnosis& diagnosis) {
   std::printf("next: %s\n", diagnosis.advice.c_str());
 }
 
+// What a state file belongs to: the config's text (it has the effects) and every number.
+std::string Inputs(const Config& config, const std::vector<DiagnosisExperiment>& rig,
+                   const std::vector<DiagnosisExperiment>& reference) {
+  std::ifstream file(config.source, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const std::vector<DiagnosisExperiment>* each : {&rig, &reference}) {
+    text << each->size() << "\n";
+    for (const DiagnosisExperiment& experiment : *each) {
+      const Record& record = experiment.record;
+      text << experiment.name << " " << record.pressure.size() << "\n";
+      for (const double number : {experiment.phi, record.sampling_hz}) {
+        text.write(reinterpret_cast<const char*>(&number), sizeof number);
+      }
+      for (const std::vector<double>* signal : {&record.pressure, &record.heat_release}) {
+        text.write(reinterpret_cast<const char*>(signal->data()),
+                   static_cast<std::streamsize>(signal->size() * sizeof(double)));
+      }
+    }
+  }
+  return text.str();
+}
+
+std::function<void(std::size_t, std::size_t)> ShowProgress(
+    std::chrono::steady_clock::time_point start) {
+  return [start](std::size_t done, std::size_t total) {
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double left = seconds * static_cast<double>(total - done) /
+                        static_cast<double>(std::max<std::size_t>(done, 1));
+    std::fprintf(stderr, "\reffects: %3.0f %% tried, about %.0f s left ",
+                 kPerCent * static_cast<double>(done) / static_cast<double>(total), left);
+    if (done == total) std::fprintf(stderr, "\r%60s\r", "");
+  };
+}
+
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
@@ -126,19 +171,30 @@ int Run(const Options& options) {
     how.further.push_back(std::make_shared<DeclaredEffect>(declaration));
   }
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
-    how.progress = [](std::size_t done, std::size_t total) {
-      std::fprintf(stderr, "\rcandidates tried: %zu of %zu%s", done, total,
-                   done == total ? "\n" : "");
-    };
+    how.progress = ShowProgress(std::chrono::steady_clock::now());
   }
   if (const auto path = options.Text("--reference")) {
     const Config reference = LoadConfig(*path);
     how.reference = LoadDiagnosisExperiments(reference);
     CheckReference(config, reference, experiments, how.reference);
   }
+  WatchForInterruption();
+  const std::filesystem::path state_path = options.out / "diagnosis.state";
+  DiagnoseState state(state_path, Inputs(config, experiments, how.reference));
+  if (state.recalled() > 0 && !options.quiet) {
+    std::fprintf(stderr, "going on from %s: %zu fits are done\n", state_path.c_str(),
+                 state.recalled());
+  }
+  how.memory = &state;
+  how.stopped = IsInterrupted;
   const Diagnosis diagnosis = Diagnose(experiments, how);
+  if (diagnosis.stopped) {
+    throw Interrupted("interrupted: nothing written; the same command goes on from " +
+                      state_path.string());
+  }
   const std::filesystem::path path = options.out / "diagnosis.json";
   WriteWholeFile(path, DiagnosisJson(diagnosis).dump(2) + "\n");
+  state.Forget();
   if (!options.quiet) {
     Print(diagnosis);
     std::printf("written: %s\n", path.c_str());

@@ -65,7 +65,21 @@ struct Setting {
   const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
   const ReferenceModel* reference = nullptr;
+  FitMemory* memory = nullptr;
 };
+
+// Starts of the search over all forms.
+std::size_t WorkOf(const std::vector<EffectPointer>& forms) {
+  std::size_t work = 0;
+  for (const EffectPointer& form : forms) {
+    std::size_t starts = 1;
+    for (const EffectParameter& p : form->parameters()) {
+      starts *= std::max<std::size_t>(p.starts.size(), 1);
+    }
+    work += starts;
+  }
+  return work;
+}
 
 std::vector<ExperimentFit> HoldOutAll(const Setting& at, const EffectFit& fit) {
   std::vector<ExperimentFit> out;
@@ -94,8 +108,10 @@ EstimatedParameter WithError(const EffectParameter& p, double value, double erro
 
 Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms) {
   Attempt out;
-  for (const EffectPointer& form : forms) {
-    EffectFit fit = FitEffect(*at.records, form, *at.base);
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const EffectPointer& form = forms[i];
+    const std::string key = std::string(form->id()) + "#" + std::to_string(i);
+    EffectFit fit = FitOrRecall(at.memory, key, *at.records, form, *at.base);
     if (!out.fit || fit.cost() < out.fit->cost()) out.fit = std::move(fit);
   }
   const EffectFit& fit = *out.fit;
@@ -393,7 +409,7 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
     lines = NewLines(lines, reference->lines);
   }
   const EffectFit base = FitBase(records);
-  Setting at{&records, &base, &experiments, {}, nullptr};
+  Setting at{&records, &base, &experiments, {}, nullptr, options.memory};
   for (std::size_t e = 0; e < records.size(); ++e) {
     at.base_held_out.push_back(HeldOut(records, base, e));
   }
@@ -419,6 +435,8 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
       units.push_back({effect});
     }
   }
+  std::size_t work = 0;
+  for (const std::vector<EffectPointer>& unit : units) work += WorkOf(unit);
   std::vector<Attempt> attempts(units.size());
   std::atomic<std::size_t> done = 0;
   std::mutex progress_lock;
@@ -427,6 +445,7 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
     tbb::parallel_for(
         std::size_t{0}, units.size(),
         [&](std::size_t i) {
+          if (options.stopped && options.stopped()) return;
           const Effect& effect = *units[i][0];
           switch (effect.kind()) {
             case EffectKind::kTransfer:
@@ -451,14 +470,20 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
               attempts[i] = TryDeclaredLine(at, dynamic_cast<const DeclaredEffect&>(effect), lines);
               break;
           }
-          const std::size_t now = ++done;
+          const std::size_t now = done += WorkOf(units[i]);
           if (options.progress) {
             const std::lock_guard<std::mutex> lock(progress_lock);
-            options.progress(now, units.size());
+            options.progress(now, work);
           }
         },
         tbb::simple_partitioner());
   });
+
+  if (options.stopped && options.stopped()) {
+    Diagnosis unfinished;
+    unfinished.stopped = true;
+    return unfinished;
+  }
 
   // V_B: the least that any fit leaves over.
   std::vector<Eigen::VectorXd> flame_noise;

@@ -75,8 +75,8 @@ TEST(Reference, FactorsAreTheTransferThatTheBaseLacks) {
   for (const ReferencePoint& point : DescribeReference(rig, records, fit)) {
     for (const double u : {0.5, 1.0, 1.4, 2.2, 3.1}) {
       const auto i = static_cast<Eigen::Index>(std::lround(u / kReferenceStep));
-      // The kernel averages over 0.04 in u.
-      EXPECT_LT(std::abs(point.acoustic[i] - Response(1.0, 0.3 * u)), 0.3 * 0.04) << u;
+      // The kernel reaches 0.12 in u, where a stronger line may pull it.
+      EXPECT_LT(std::abs(point.acoustic[i] - Response(1.0, 0.3 * u)), 0.3 * 0.12) << u;
     }
   }
 }
