@@ -1,12 +1,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <sstream>
 
 #include "app/command.h"
+#include "app/diagnose_state.h"
+#include "app/interruption.h"
 #include "app/progress_line.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
@@ -66,9 +70,11 @@ void CheckReference(const Config& config, const Config& reference,
         std::any_of(model.begin(), model.end(),
                     [&](const DiagnosisExperiment& other) { return other.name == each.name; });
     if (named || (each.phi >= low->phi && each.phi <= high->phi)) continue;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", each.phi);
     throw UserError(file, line, "experiments",
                     "have none called " + each.name + ", and none on both sides of its " +
-                        config.operating_parameter + " " + Significant(each.phi, 6) +
+                        config.operating_parameter + " " + text.data() +
                         ", expected one or the other");
   }
 }
@@ -125,6 +131,29 @@ void Print(const Diagnosis& diagnosis) {
   std::printf("next: %s\n", diagnosis.advice.c_str());
 }
 
+// What a state file belongs to: the config's text (it has the effects) and every number.
+std::string Inputs(const Config& config, const std::vector<DiagnosisExperiment>& rig,
+                   const std::vector<DiagnosisExperiment>& reference) {
+  std::ifstream file(config.source, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const std::vector<DiagnosisExperiment>* each : {&rig, &reference}) {
+    text << each->size() << "\n";
+    for (const DiagnosisExperiment& experiment : *each) {
+      const Record& record = experiment.record;
+      text << experiment.name << " " << record.pressure.size() << "\n";
+      for (const double number : {experiment.phi, record.sampling_hz}) {
+        text.write(reinterpret_cast<const char*>(&number), sizeof number);
+      }
+      for (const std::vector<double>* signal : {&record.pressure, &record.heat_release}) {
+        text.write(reinterpret_cast<const char*>(signal->data()),
+                   static_cast<std::streamsize>(signal->size() * sizeof(double)));
+      }
+    }
+  }
+  return text.str();
+}
+
 // "a,b" from --without.
 std::vector<std::string> Withheld(const Options& options) {
   std::vector<std::string> known;
@@ -153,7 +182,7 @@ int Run(const Options& options) {
   }
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
     how.progress = [](std::size_t done, std::size_t total) {
-      static ProgressLine line("candidates tried", false);
+      static ProgressLine line("starts of the search", false);
       line.Show(done, total);
     };
   }
@@ -162,9 +191,23 @@ int Run(const Options& options) {
     how.reference = LoadDiagnosisExperiments(reference);
     CheckReference(config, reference, experiments, how.reference);
   }
+  WatchForInterruption();
+  const std::filesystem::path state_path = options.out / "diagnosis.state";
+  DiagnoseState state(state_path, Inputs(config, experiments, how.reference));
+  if (state.recalled() > 0 && !options.quiet) {
+    std::fprintf(stderr, "going on from %s: %zu fits are done\n", state_path.c_str(),
+                 state.recalled());
+  }
+  how.memory = &state;
+  how.stopped = IsInterrupted;
   const Diagnosis diagnosis = Diagnose(experiments, how);
+  if (diagnosis.stopped) {
+    throw Interrupted("interrupted: nothing written; the same command goes on from " +
+                      state_path.string());
+  }
   const std::filesystem::path path = options.out / "diagnosis.json";
   WriteWholeFile(path, DiagnosisJson(diagnosis).dump(2) + "\n");
+  state.Forget();
   if (!options.quiet) {
     Print(diagnosis);
     std::printf("written: %s\n", path.c_str());

@@ -170,29 +170,41 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
 AcousticLocals StartAcoustics(const CutRecord& record, const Effect& effect, EffectValues x) {
   constexpr std::array kOmega = {0.78, 0.85, 0.92, 0.96, 1.0, 1.05};
   constexpr std::array kXi = {0.05, 0.1, 0.17, 0.28};
-  double best = std::numeric_limits<double>::infinity();
-  AcousticLocals start;
-  const Eigen::Index n = record.acoustic_count;
+  const CutReference& reference = record.reference;
+  std::vector<Eigen::Vector2d> places;  // log omega, log xi
   for (const double omega : kOmega) {
     for (const double xi : kXi) {
-      AcousticLocals locals(std::log(omega * record.at.cycle_frequency_hz), std::log(xi), 0.0, 0.0);
-      Eigen::MatrixXd columns(2 * n, 2);
-      Eigen::VectorXd y(2 * n);
-      const Eigen::VectorXcd target = AcousticResidual(record, effect, x, locals);
-      y << target.real(), target.imag();
-      for (int i = 0; i < 2; ++i) {
-        const Eigen::VectorXcd column =
-            target - Bare(record, RecordedTransfer(record, effect, x, Moved(locals, 2 + i, 1.0)));
-        columns.col(i) << column.real(), column.imag();
-      }
-      const Eigen::Matrix2d gram = columns.transpose() * columns;
-      const Eigen::Vector2d solution = gram.ldlt().solve(columns.transpose() * y);
-      const double cost = (y - columns * solution).squaredNorm();
-      if (cost < best) {
-        best = cost;
-        start = locals;
-        start.tail<2>() = solution;
-      }
+      places.emplace_back(std::log(omega * record.at.cycle_frequency_hz), std::log(xi));
+    }
+  }
+  // A reference's factors stand beside its own base: far from there they mislead.
+  if (reference.acoustic.size() > 0) places = {reference.acoustics.head<2>()};
+  const Eigen::Index n = record.acoustic_count;
+  const auto whitened = [&](const Eigen::VectorXcd& residual) {
+    if (reference.acoustic_shape.size() == 0) return residual;
+    return residual.cwiseQuotient(reference.acoustic_shape.cwiseSqrt().cast<Response>()).eval();
+  };
+  double best = std::numeric_limits<double>::infinity();
+  AcousticLocals start;
+  for (const Eigen::Vector2d& place : places) {
+    AcousticLocals locals(place[0], place[1], 0.0, 0.0);
+    Eigen::MatrixXd columns(2 * n, 2);
+    Eigen::VectorXd y(2 * n);
+    const Eigen::VectorXcd target = whitened(AcousticResidual(record, effect, x, locals));
+    y << target.real(), target.imag();
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::VectorXcd column =
+          target -
+          whitened(Bare(record, RecordedTransfer(record, effect, x, Moved(locals, 2 + i, 1.0))));
+      columns.col(i) << column.real(), column.imag();
+    }
+    const Eigen::Matrix2d gram = columns.transpose() * columns;
+    const Eigen::Vector2d solution = gram.ldlt().solve(columns.transpose() * y);
+    const double cost = (y - columns * solution).squaredNorm();
+    if (cost < best) {
+      best = cost;
+      start = locals;
+      start.tail<2>() = solution;
     }
   }
   return start;

@@ -38,8 +38,10 @@ struct DiagnosisExperiment {
 // What another record of the same loop, the reference, already has beside the base (reference.h).
 // Empty vectors are ones.
 struct CutReference {
-  Eigen::VectorXcd acoustic;       // factor on K (extended band)
-  Eigen::VectorXcd flame;          // factor on delay and flame (cut B's extended band)
+  Eigen::VectorXcd acoustic;  // factor on K (extended band)
+  Eigen::VectorXcd flame;     // factor on delay and flame (cut B's extended band)
+  Eigen::Vector4d acoustics = Eigen::Vector4d::Zero();  // where fits start: cut A's locals, and tau
+  double tau_s = 0.0;
   Eigen::VectorXd acoustic_shape;  // of V_A on the band
   Eigen::VectorXd flame_shape;
   Eigen::VectorXd acoustic_share;  // what a bin counts for, at most 1

@@ -41,6 +41,19 @@ std::vector<EffectForms> Units(const DiagnosisOptions& options) {
   return units;
 }
 
+// Starts of the search over all forms.
+std::size_t WorkOf(const EffectForms& forms) {
+  std::size_t work = 0;
+  for (const EffectPointer& form : forms) {
+    std::size_t starts = 1;
+    for (const EffectParameter& p : form->parameters()) {
+      starts *= std::max<std::size_t>(p.starts.size(), 1);
+    }
+    work += starts;
+  }
+  return work;
+}
+
 class Search {
  public:
   Search(const std::vector<DiagnosisExperiment>& experiments, const DiagnosisOptions& options)
@@ -52,7 +65,8 @@ class Search {
       lines_ = NewLines(lines_, reference_->lines);
     }
     base_ = FitBase(records_);
-    at_ = {&records_, &base_, &experiments, {}, reference_ ? &*reference_ : nullptr};
+    at_ = {&records_, &base_,         &experiments,
+           {},        options.memory, reference_ ? &*reference_ : nullptr};
     for (std::size_t e = 0; e < records_.size(); ++e) {
       at_.base_held_out.push_back(HeldOut(records_, base_, e));
     }
@@ -61,6 +75,11 @@ class Search {
 
   Diagnosis Run() {
     TryAll();
+    if (Stopped()) {
+      Diagnosis unfinished;
+      unfinished.stopped = true;
+      return unfinished;
+    }
     MeasureGaps();
     std::stable_sort(attempts_.begin(), attempts_.end(), Better);
     Slack after;
@@ -112,6 +131,8 @@ class Search {
     return top.candidate.gain > DetectionGain(flame_alone);
   }
 
+  bool Stopped() const { return options_.stopped && options_.stopped(); }
+
   void TryAll() {
     const LineOrigin origin = ExplainLines(records_, base_, lines_);
     GainFluctuation fluctuation = EstimateGainFluctuation(records_, base_);
@@ -119,14 +140,17 @@ class Search {
       fluctuation.gain = std::max(0.0, fluctuation.gain - reference_->fluctuation_gain);
     }
     attempts_.resize(units_.size());
+    std::size_t work = 0;
+    for (const EffectForms& unit : units_) work += WorkOf(unit);
     std::atomic<std::size_t> done = 0;
     std::mutex progress_lock;
     RunUnits(units_.size(), options_.threads, [&](std::size_t i) {
+      if (Stopped()) return;
       attempts_[i] = Try(units_[i], origin, fluctuation);
-      const std::size_t now = ++done;
+      const std::size_t now = done += WorkOf(units_[i]);
       if (options_.progress) {
         const std::lock_guard<std::mutex> lock(progress_lock);
-        options_.progress(now, units_.size());
+        options_.progress(now, work);
       }
     });
     for (Attempt& attempt : attempts_) {

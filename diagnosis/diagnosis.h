@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "diagnosis/cut_record.h"
+#include "diagnosis/fit_memory.h"
 #include "diagnosis/gap_map.h"
 #include "model/effects/catalogue.h"
 
@@ -74,6 +75,7 @@ struct Diagnosis {
   double slack_acoustic_after = 0.0;
   double slack_flame_after = 0.0;
   std::string advice;
+  bool stopped = false;  // before the end: the rest is empty
 };
 
 struct DiagnosisOptions {
@@ -82,7 +84,10 @@ struct DiagnosisOptions {
   std::vector<EffectPointer> further;  // effects of the user's own
   // Records that take the model's place (reference.h); none: the base alone is the model.
   std::vector<DiagnosisExperiment> reference;
+  // In starts of the search, of which an effect has a few or many.
   std::function<void(std::size_t done, std::size_t total)> progress;
+  FitMemory* memory = nullptr;    // of an interrupted run of the same inputs
+  std::function<bool()> stopped;  // asked between effects
 };
 
 // The same for all numbers of threads; nothing in it is random.

@@ -36,6 +36,7 @@ std::vector<FlameColumns> BaseColumns(const std::vector<CutRecord>& records) {
 // The delay by which Phi(v) explains q best, on a grid that no resonance of the objective escapes.
 double StartDelay(const std::vector<CutRecord>& records, const std::vector<FlameColumns>& columns) {
   const NoEffect none;
+  if (records[0].reference.flame.size() > 0) return records[0].reference.tau_s;
   const double f0 = records[0].at.cycle_frequency_hz;
   const double high_hz = records[0].frequency(records[0].flame_count - 1);
   const double step = 0.12 / high_hz;

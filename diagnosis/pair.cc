@@ -65,7 +65,7 @@ std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
   KeepReference(*whole.records, &records);
   MaskLines(lines, &records);
   const EffectFit base = FitBase(records);
-  Setting at{&records, &base, &first.repaired, {}, whole.reference};
+  Setting at{&records, &base, &first.repaired, {}, nullptr, whole.reference};
   for (std::size_t e = 0; e < records.size(); ++e) {
     at.base_held_out.push_back(HeldOut(records, base, e));
   }

@@ -34,6 +34,8 @@ struct ReferencePoint {
   Eigen::VectorXcd flame;
   Eigen::VectorXd acoustic_shape;
   Eigen::VectorXd flame_shape;
+  AcousticLocals locals = AcousticLocals::Zero();  // of the base, which the factors stand beside
+  double tau_s = 0.0;
 };
 
 struct ReferenceModel {

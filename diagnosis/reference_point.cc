@@ -186,7 +186,8 @@ std::vector<ReferencePoint> DescribeReference(const std::vector<DiagnosisExperim
   std::vector<ReferencePoint> points;
   for (std::size_t e = 0; e < records.size(); ++e) {
     points.push_back({experiments[e].name, experiments[e].phi, acoustic[e].factor, flame[e].factor,
-                      acoustic[e].shape, flame[e].shape});
+                      acoustic[e].shape, flame[e].shape, base.experiments[e].acoustics,
+                      base.tau_s});
   }
   return points;
 }
@@ -214,6 +215,7 @@ ReferencePoint PointAt(const std::vector<ReferencePoint>& points, const std::str
   };
   out.acoustic = mix(below->acoustic, above->acoustic);
   out.flame = mix(below->flame, above->flame);
+  out.locals = (1.0 - way) * below->locals + way * above->locals;
   out.acoustic_shape = mix_logs(below->acoustic_shape, above->acoustic_shape);
   out.flame_shape = mix_logs(below->flame_shape, above->flame_shape);
   return out;
@@ -224,6 +226,8 @@ void PutReference(const ReferencePoint& point, CutRecord* record) {
   const double cycle = record->at.cycle_frequency_hz;
   const Eigen::Index extended = record->extended();
   const Eigen::Index flame = record->flame_count + 2 * kTapReach;
+  out.acoustics = point.locals;
+  out.tau_s = point.tau_s;
   out.acoustic.resize(extended);
   out.flame.resize(flame);
   for (Eigen::Index k = 0; k < extended; ++k) {

@@ -39,6 +39,7 @@ struct Setting {
   const EffectFit* base = nullptr;
   const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
+  FitMemory* memory = nullptr;
   const ReferenceModel* reference = nullptr;  // what stands in the model's place, if anything does
 };
 

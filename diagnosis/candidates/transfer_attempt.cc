@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "diagnosis/candidates/attempt.h"
@@ -39,9 +40,11 @@ EstimatedParameter WithError(const EffectParameter& p, double value, double erro
 Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms,
                     const EffectFit* from) {
   Attempt out;
-  for (const EffectPointer& form : forms) {
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const EffectPointer& form = forms[i];
+    const std::string key = std::string(form->id()) + "#" + std::to_string(i);
     EffectFit fit = from ? FitFurther(*at.records, form, *at.base, *from)
-                         : FitEffect(*at.records, form, *at.base);
+                         : FitOrRecall(at.memory, key, *at.records, form, *at.base);
     if (!out.fit || fit.cost() < out.fit->cost()) out.fit = std::move(fit);
   }
   const EffectFit& fit = *out.fit;

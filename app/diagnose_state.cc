@@ -1,0 +1,73 @@
+#include "app/diagnose_state.h"
+
+#include <sstream>
+#include <system_error>
+
+#include "estimation/unit_seed.h"
+#include "model/version.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kLongestEntry = 1'000'000'000;
+
+}  // namespace
+
+DiagnoseState::DiagnoseState(const std::filesystem::path& path, const std::string& inputs)
+    : path_(path) {
+  const std::string header = "howl.diagnosis.state " + std::string(Version()) + " " +
+                             std::to_string(UnitSeed(0, inputs)) + " " +
+                             std::to_string(inputs.size()) + "\n";
+  std::error_code ignored;
+  std::filesystem::create_directories(path.parent_path(), ignored);
+  const std::uintmax_t end = Load(header);
+  if (end > 0) {
+    std::filesystem::resize_file(path, end, ignored);
+    log_.open(path, std::ios::binary | std::ios::app);
+  } else {
+    log_.open(path, std::ios::binary | std::ios::trunc);
+    log_ << header << std::flush;
+  }
+}
+
+std::uintmax_t DiagnoseState::Load(const std::string& header) {
+  std::ifstream file(path_, std::ios::binary);
+  std::string line;
+  if (!std::getline(file, line) || line + "\n" != header) return 0;
+  std::uintmax_t end = header.size();
+  while (std::getline(file, line)) {
+    std::istringstream words(line);
+    std::string key;
+    std::size_t size = 0;
+    std::uint64_t hash = 0;
+    if (!(words >> key >> size >> hash) || size > kLongestEntry) break;
+    std::string bytes(size, '\0');
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)) || file.get() != '\n') break;
+    if (UnitSeed(0, bytes) != hash) break;
+    end += line.size() + 1 + size + 1;
+    found_[key] = std::move(bytes);
+  }
+  return end;
+}
+
+std::optional<std::string> DiagnoseState::Recall(const std::string& key) {
+  const auto found = found_.find(key);
+  if (found == found_.end()) return std::nullopt;
+  return found->second;
+}
+
+void DiagnoseState::Keep(const std::string& key, const std::string& bytes) {
+  const std::lock_guard<std::mutex> hold(lock_);
+  // A full disk costs the resuming, not the diagnosis.
+  log_ << key << " " << bytes.size() << " " << UnitSeed(0, bytes) << "\n"
+       << bytes << "\n"
+       << std::flush;
+}
+
+void DiagnoseState::Forget() {
+  log_.close();
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+}  // namespace howl

@@ -1,0 +1,44 @@
+// What a diagnosis has fitted so far, in DIR/diagnosis.state: an append-only log, so that a run
+// that was interrupted, or killed, goes on where it stopped. The first line names the program, the
+// config, and the records' numbers; a file of other inputs is begun anew. An entry is
+//
+//   key, bytes, hash of them, in one line; the bytes; a line's end
+//
+// and what follows the last whole entry is cut off.
+#ifndef HOWL_APP_DIAGNOSE_STATE_H_
+#define HOWL_APP_DIAGNOSE_STATE_H_
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "diagnosis/fit_memory.h"
+
+namespace howl {
+
+class DiagnoseState final : public FitMemory {
+ public:
+  DiagnoseState(const std::filesystem::path& path, const std::string& inputs);
+
+  std::optional<std::string> Recall(const std::string& key) override;
+  void Keep(const std::string& key, const std::string& bytes) override;
+
+  std::size_t recalled() const { return found_.size(); }  // entries at the start
+  // When the results are written.
+  void Forget();
+
+ private:
+  // The file's whole entries; the offset of their end.
+  std::uintmax_t Load(const std::string& header);
+
+  std::filesystem::path path_;
+  std::map<std::string, std::string> found_;
+  std::mutex lock_;
+  std::ofstream log_;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_APP_DIAGNOSE_STATE_H_

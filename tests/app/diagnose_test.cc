@@ -1,0 +1,101 @@
+// The program's diagnosis: resumed after an interruption, against a reference, with mistakes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "tests/app/program.h"
+
+namespace howl {
+namespace {
+
+constexpr const char* kRig =
+    "experiments:\n"
+    "  - {name: exp1, phi: 0.56, frequency_hz: 219.9, phase_deg: -5.74, gain: 12.14, flame_slope: "
+    "-0.703e-4}\n"
+    "  - {name: exp2, phi: 0.53, frequency_hz: 209.1, phase_deg: -9.44, gain: 13.15, flame_slope: "
+    "-0.711e-4}\n"
+    "simulate: {duration_s: 1.7}\n";
+
+// Two short records, simulated; the config that names them.
+std::string SimulatedRig(const TemporaryFolder& folder, const std::string& name,
+                         const std::string& seed) {
+  const std::string config = folder.Write(name + ".yaml", kRig).string();
+  const std::string out = (folder.path() / name).string();
+  EXPECT_EQ(RunHowl("simulate " + config + " --seed " + seed + " --quiet --out " + out).status, 0);
+  return out + "/records.yaml";
+}
+
+TEST(Diagnose, AnInterruptedRunGoesOnToTheSameResult) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  const std::string whole = (folder.path() / "whole").string();
+  const std::string parts = (folder.path() / "parts").string();
+  ASSERT_EQ(RunHowl("diagnose " + rig + " --quiet --out " + whole).status, 0);
+  // Stopped when some more fits are kept; killed, so that an entry may be cut off.
+  const std::string script = folder
+                                 .Write("stop.sh",
+                                        "\"$1\" diagnose \"$2\" --quiet --out \"$3\" &\n"
+                                        "for i in $(seq 3000); do\n"
+                                        "  size=$(stat -c %s \"$3/diagnosis.state\" 2>/dev/null)\n"
+                                        "  [ \"${size:-0}\" -gt $((100000 + $5)) ] && break\n"
+                                        "  sleep 0.02\n"
+                                        "done\n"
+                                        "kill -\"$4\" $!\n"
+                                        "wait $!\n")
+                                 .string();
+  const auto stop = [&](const std::string& signal) {
+    std::error_code none_yet;
+    const auto kept = std::filesystem::file_size(parts + "/diagnosis.state", none_yet);
+    const std::uintmax_t size = none_yet ? 0 : kept;
+    const std::string command = "bash " + script + " " + HOWL_PROGRAM + " " + rig + " " + parts +
+                                " " + signal + " " + std::to_string(size) + " >/dev/null 2>&1";
+    return std::system(command.c_str());
+  };
+  EXPECT_EQ(WEXITSTATUS(stop("KILL")), 137);
+  ASSERT_TRUE(std::filesystem::exists(parts + "/diagnosis.state"));
+  EXPECT_FALSE(std::filesystem::exists(parts + "/diagnosis.json"));
+  std::filesystem::resize_file(parts + "/diagnosis.state",
+                               std::filesystem::file_size(parts + "/diagnosis.state") - 7);
+  EXPECT_EQ(WEXITSTATUS(stop("TERM")), 130);
+  const ProgramResult rest = RunHowl("diagnose " + rig + " --threads 1 --out " + parts);
+  EXPECT_EQ(rest.status, 0);
+  EXPECT_THAT(rest.err, testing::HasSubstr("going on from"));
+  EXPECT_EQ(ReadFile(parts + "/diagnosis.json"), ReadFile(whole + "/diagnosis.json"));
+  EXPECT_FALSE(std::filesystem::exists(parts + "/diagnosis.state"));
+}
+
+TEST(Diagnose, AgainstAReferenceOfTheSameLoopThereIsNothingToName) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  const std::string reference = SimulatedRig(folder, "reference", "2");
+  const std::string out = (folder.path() / "out").string();
+  const ProgramResult result =
+      RunHowl("diagnose " + rig + " --reference " + reference + " --out " + out);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, testing::StartsWith("verdict: none"));
+}
+
+TEST(Diagnose, AReferenceWithoutTheOperatingPoints) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  const std::string reference =
+      folder
+          .Write("other.yaml",
+                 "experiments:\n"
+                 "  - {name: a, phi: 0.4, record: {file: rig/exp1.csv, pressure: p, "
+                 "heat_release: q, sampling_hz: 5000}}\n")
+          .string();
+  const ProgramResult result = RunHowl("diagnose " + rig + " --reference " + reference + " --out " +
+                                       (folder.path() / "out").string());
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, reference +
+                            ":2: experiments: have none called exp1, and none on both sides of its "
+                            "phi 0.56, expected one or the other\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "diagnosis.state"));
+}
+
+}  // namespace
+}  // namespace howl
