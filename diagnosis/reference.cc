@@ -55,7 +55,7 @@ class BandGains {
     for (Eigen::Index k = 0; k < residual.size(); ++k) {
       if (record.masked[static_cast<std::size_t>(k)]) continue;
       const auto b =
-          std::min(static_cast<Eigen::Index>(record.frequency(k) / cycle / kBand + 0.5), bands - 1);
+          std::min<Eigen::Index>(std::lround(record.frequency(k) / cycle / kBand), bands - 1);
       product[b] += std::conj(predicted[k]) * residual[k] / variance[k];
       norm[b] += std::norm(predicted[k]) / variance[k];
     }
@@ -78,8 +78,7 @@ class BandGains {
  private:
   // Bands are centred on multiples of their width, and so on the cycle's harmonics.
   static Eigen::Index BandOf(Eigen::Index grid_point) {
-    return static_cast<Eigen::Index>(static_cast<double>(grid_point) * kReferenceStep / kBand +
-                                     0.5);
+    return std::lround(static_cast<double>(grid_point) * kReferenceStep / kBand);
   }
   Eigen::VectorXd sum_;
   Eigen::VectorXd count_;

@@ -1,3 +1,5 @@
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -203,7 +205,9 @@ ReferencePoint PointAt(const std::vector<ReferencePoint>& points, const std::str
     if (point.phi < phi && (!below || point.phi > below->phi)) below = &point;
     if (point.phi > phi && (!above || point.phi < above->phi)) above = &point;
   }
-  if (!below || !above) return below ? *below : *above;
+  CHECK(below || above);  // there is a point
+  if (!above) return *below;
+  if (!below) return *above;
   const double way = (phi - below->phi) / (above->phi - below->phi);
   ReferencePoint out = *below;
   const Eigen::Index n = std::min(below->acoustic.size(), above->acoustic.size());
