@@ -164,10 +164,7 @@ std::optional<SchemaMistake> ExplainMistake(const LocatedNode& node, const std::
   }
   if (const auto what = ExplainValue(node, schema)) return SchemaMistake{node.line, key, *what};
   if (node.kind != Kind::kMapping) return std::nullopt;
-  const bool open =
-      schema.contains("additionalProperties") && schema["additionalProperties"] == true;
   for (const LocatedMember& member : node.members) {
-    if (open) break;
     if (schema["properties"].contains(member.key)) continue;
     return SchemaMistake{member.key_line, JoinKey(key, member.key),
                          ExplainUnknownKey(member.key, schema, root_schema)};
