@@ -10,6 +10,7 @@
 
 #include "app/command.h"
 #include "app/diagnose_state.h"
+#include "app/diagnose_table.h"
 #include "app/interruption.h"
 #include "app/progress_line.h"
 #include "app/record_input.h"
@@ -173,6 +174,10 @@ std::vector<std::string> Withheld(const Options& options) {
 
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
+  if (std::ranges::none_of(config.experiments,
+                           [](const auto& e) { return e.record.has_value(); })) {
+    return RunTable(config, options);
+  }
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
   DiagnosisOptions how;
   how.threads = options.threads;
@@ -223,7 +228,8 @@ Command DiagnoseCommand() {
       "say where and why the model falls short of the rig, and by how much",
       "Cuts the loop at its two measured signals (acoustics driven by measured q; delay and\n"
       "flame driven by measured p), refits the model together with each effect of the\n"
-      "catalogue, and scores on operating points left out. Needs records with p and q.\n"
+      "catalogue, and scores on operating points left out. Needs records with p and q; a table\n"
+      "with non-harmonic lines bounds the lag of the q sensor alone.\n"
       "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
       "cannot tell from it, the place, the gap before and after, and every candidate. Effects of\n"
       "your own stand in the config under `effects`.",

@@ -1,3 +1,6 @@
+#include <glog/logging.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -11,6 +14,7 @@
 #include "io/records/records.h"
 #include "io/results/family_csv.h"
 #include "io/results/records_yaml.h"
+#include "io/user_error.h"
 #include "io/whole_file.h"
 #include "model/harmonic_balance.h"
 #include "model/simulate.h"
@@ -24,6 +28,8 @@ struct Rig {
   double loop_gain = 0.0;
   bool slope_raised = false;
   bool on_cycle = false;
+  double pressure_amplitude = 0.0;  // of the cycle; saturation's at rest
+  double heat_release_amplitude = 0.0;
 };
 
 // The stable solution's models, or one listed member's.
@@ -84,13 +90,52 @@ Rig MakeRig(const Experiment& experiment, const LoopModel& model, const Simulati
   noise.combustion_corner_hz = spec.combustion_noise_corner_hz;
   noise.combustion_density =
       2.0 * combustion_std * combustion_std / (std::numbers::pi * spec.combustion_noise_corner_hz);
+  rig.heat_release_amplitude = spec.saturation;
+  rig.pressure_amplitude =
+      spec.saturation * response / (kRadPerSPerHz * experiment.frequency_hz);  // |G|
   if (const auto cycle = ObservedCycle(rig.parameters.model, experiment.frequency_hz)) {
     rig.on_cycle = true;
     rig.parameters.past = PastOnCycle(*cycle);
+    rig.pressure_amplitude = cycle->pressure_amplitude();
+    rig.heat_release_amplitude = cycle->heat_release_amplitude();
     noise.pressure_sensor_std = spec.sensor_noise_relative * cycle->pressure_amplitude();
     noise.heat_release_sensor_std = spec.sensor_noise_relative * cycle->heat_release_amplitude();
   }
   return rig;
+}
+
+// The config's effects, relative to the cycles that the rigs have without them.
+void AddEffects(const Config& config, const std::vector<Experiment>& experiments,
+                std::vector<Rig>* rigs) {
+  const auto count = static_cast<double>(rigs->size());
+  double pressure = 0.0;
+  double heat_release = 0.0;
+  double lowest = HUGE_VAL;
+  double highest = -HUGE_VAL;
+  for (std::size_t i = 0; i < rigs->size(); ++i) {
+    pressure += (*rigs)[i].pressure_amplitude / count;
+    heat_release += (*rigs)[i].heat_release_amplitude / count;
+    lowest = std::min(lowest, experiments[i].phi);
+    highest = std::max(highest, experiments[i].phi);
+  }
+  for (std::size_t i = 0; i < rigs->size(); ++i) {
+    Rig& rig = (*rigs)[i];
+    SimulationScale scale;
+    scale.at.phi_position =
+        highest > lowest ? (experiments[i].phi - lowest) / (highest - lowest) - 0.5 : 0.0;
+    scale.at.cycle_frequency_hz = experiments[i].frequency_hz;
+    scale.at.relative_amplitude = rig.pressure_amplitude / pressure;
+    scale.at.heat_release_over_pressure = heat_release / pressure;
+    scale.pressure_amplitude = rig.pressure_amplitude;
+    scale.heat_release_amplitude = rig.heat_release_amplitude;
+    scale.mean_pressure_amplitude = pressure;
+    scale.duration_s = config.simulation.duration_s;
+    for (const SimulatedEffect& one : config.simulation.effects) {
+      const std::string fault = one.effect->SimulationFault(rig.parameters, one.values);
+      if (!fault.empty()) throw UserError(config.source.string(), one.line, one.key, fault);
+      CHECK(one.effect->AddTo(scale, one.values, &rig.parameters)) << one.effect->id();
+    }
+  }
 }
 
 void Print(const std::vector<Experiment>& experiments, const std::vector<Rig>& rigs) {
@@ -116,7 +161,10 @@ int Run(const Options& options) {
   std::vector<SimulationCase> cases;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     rigs.push_back(MakeRig(experiments[i], models[i], config.simulation));
-    cases.push_back({rigs.back().parameters, UnitSeed(options.seed, experiments[i].name)});
+  }
+  AddEffects(config, experiments, &rigs);
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    cases.push_back({rigs[i].parameters, UnitSeed(options.seed, experiments[i].name)});
   }
   const std::vector<SimulatedRecord> records =
       SimulateBatch(cases, {.duration_s = config.simulation.duration_s,
@@ -146,7 +194,8 @@ Command SimulateCommand() {
       "Fits the config (or takes a listed member of its family), closes the loop with a flame\n"
       "that saturates, and integrates it with noise, each experiment from its observed cycle on.\n"
       "Writes NAME.csv (p,q) for each experiment and records.yaml, a config that analyse, fit\n"
-      "and family take as it is. The config's `simulate:` has duration, sampling, flame, noise.",
+      "and family take as it is. The config's `simulate:` has duration, sampling, flame, noise,\n"
+      "and `effects:`, any of the catalogue of howl diagnose, which records.yaml does not tell.",
       {{"--member", "K", "member K of family.csv, which howl family wrote to DIR, not the fit"}},
       Run};
 }

@@ -45,7 +45,15 @@ class LaneGroup {
       most_delay_steps = std::max(most_delay_steps, c.delay_steps);
     }
     has_effects_ = W == 1 && !first.effects.empty();
-    past_ = (has_effects_ ? 4 : 1) * most_delay_steps + kOrder + kLoopBlock;
+    if (has_effects_) {
+      most_delay_steps *= 4;
+      for (const auto& effect : first.effects) {
+        const double longest = effect->LongestDelay(first.model.loop.tau_s) / step_s_;
+        most_delay_steps = std::max(most_delay_steps, static_cast<int>(std::ceil(longest)));
+        drives_ = drives_ || effect->Drives();
+      }
+    }
+    past_ = most_delay_steps + kOrder + kLoopBlock;
     const std::size_t rows = static_cast<std::size_t>(past_) + kChunk + kLoopBlock + kLoopBlock;
     rate_.assign(rows * W, 0.0);
     heat_.assign(rows * W, 0.0);
@@ -64,6 +72,7 @@ class LaneGroup {
     // state; the record's first half_length_ later.
     if (has_effects_) StartEffects();
     for (int l = 0; l < W; ++l) SetPast(l);
+    if (drives_) released_ = heat_;
   }
 
   void Run(std::span<SimulatedRecord*> records) {
@@ -150,11 +159,14 @@ class LaneGroup {
   void FillHeat(int first, int count) {
     fill_row_ = row_ + first;
     double* heat = Row(heat_, fill_row_);
-    if (has_effects_ && moves_delay_) {
-      std::array<double, kLoopBlock> tau{};
-      const std::span<double> taus(tau.data(), static_cast<std::size_t>(count));
+    std::array<double, kLoopBlock> tau;
+    const std::span<double> taus(tau.data(), static_cast<std::size_t>(count));
+    if (has_effects_) {
       std::fill(taus.begin(), taus.end(), context_.loop.tau_s);
+      context_.tau_s = taus;
       SetContextTime(first);
+    }
+    if (has_effects_ && moves_delay_) {
       for (const auto& effect : effects_) {
         if (effect->MovesDelay()) effect->Delay(context_, taus);
       }
@@ -171,13 +183,18 @@ class LaneGroup {
       Interpolate(block_, count, heat);
     }
     if (has_effects_) {
-      SetContextTime(first);
       const std::span<double> signal(heat, static_cast<std::size_t>(count));
       for (const auto& effect : effects_) effect->FlameIn(context_, signal);
       ApplyFlame(block_, count, heat);
       for (const auto& effect : effects_) effect->FlameOut(context_, signal);
       AddNoise(count, heat);
       for (const auto& effect : effects_) effect->Source(context_, signal);
+      if (drives_) {
+        std::copy(signal.begin(), signal.end(), released_.begin() + fill_row_);
+        for (const auto& effect : effects_) {
+          if (effect->Drives()) effect->Drive(context_, signal);
+        }
+      }
     } else {
       ApplyFlame(block_, count, heat);
       AddNoise(count, heat);
@@ -268,10 +285,11 @@ class LaneGroup {
     const auto n = static_cast<std::size_t>(count - skip);
     line_p_.resize(n);
     line_q_.resize(n);
+    const std::vector<double>& heat = drives_ ? released_ : heat_;
     for (std::size_t l = 0; l < cases_.size(); ++l) {
       for (std::size_t i = 0; i < n; ++i) {
         line_p_[i] = pressure_[(from + i) * W + l];
-        line_q_[i] = heat_[(from + i) * W + l];
+        line_q_[i] = heat[(from + i) * W + l];
       }
       recorders_[l].Push(line_p_, line_q_);
     }
@@ -285,6 +303,7 @@ class LaneGroup {
     };
     move(rate_);
     move(heat_);
+    if (drives_) move(released_);
     move(pressure_);
     row_ = past_;
   }
@@ -299,6 +318,7 @@ class LaneGroup {
   std::int64_t samples_ = 0;
   std::vector<double> rate_;
   std::vector<double> heat_;
+  std::vector<double> released_;  // heat release without what else drives the acoustics
   std::vector<double> pressure_;
   std::vector<double> line_p_;
   std::vector<double> line_q_;
@@ -309,6 +329,7 @@ class LaneGroup {
   std::int64_t step_ = 0;
   bool has_effects_ = false;
   bool moves_delay_ = false;
+  bool drives_ = false;
   std::vector<std::unique_ptr<LoopEffect>> effects_;
   std::unique_ptr<Line> line_;
   LoopContext context_;

@@ -3,7 +3,7 @@
 // effect's null value.
 //
 //   p'(t) -> [Delay] -> v = p'(t - tau) -> [FlameIn] -> Phi -> [FlameOut] -> + n -> [Source] -> q
-//   q -> acoustics, whose parameters [Parameters] may move slowly -> p, p'
+//   q + [Drive] -> acoustics, whose parameters [Parameters] may move slowly -> p, p'
 //
 // Blocks are of at most kLoopBlock consecutive samples. Members with effects run alone, not side
 // by side in vector lanes; their bits do not depend on it.
@@ -40,6 +40,7 @@ struct LoopContext {
   double rate_amplitude = 0.0;
   double pressure_amplitude = 0.0;
   const DelayLine* delay_line = nullptr;
+  std::span<const double> tau_s;  // delay at each sample, once Delay has been called
 };
 
 class LoopEffect {
@@ -58,9 +59,17 @@ class LoopEffect {
   virtual bool MovesDelay() const { return false; }
   virtual void Delay(const LoopContext& /*at*/, std::span<double> /*tau_s*/) {}
 
+  // What the effect reads of the past, given the loop's delay.
+  virtual double ShortestDelay(double tau_s) const { return tau_s; }
+  virtual double LongestDelay(double tau_s) const { return tau_s; }
+
   virtual void FlameIn(const LoopContext& /*at*/, std::span<double> /*v*/) {}
   virtual void FlameOut(const LoopContext& /*at*/, std::span<double> /*heat_release*/) {}
   virtual void Source(const LoopContext& /*at*/, std::span<double> /*heat_release*/) {}
+
+  // Added to what drives the acoustics, not to the heat release; called if Drives().
+  virtual bool Drives() const { return false; }
+  virtual void Drive(const LoopContext& /*at*/, std::span<double> /*drive*/) {}
 };
 
 }  // namespace howl

@@ -21,7 +21,12 @@ constexpr double kDelaySteps = 48.0;
 }  // namespace
 
 double InternalRate(const RigParameters& rig, double sampling_hz) {
-  const double least = std::max(kMinInternalHz, kDelaySteps / rig.model.loop.tau_s);
+  const double tau_s = rig.model.loop.tau_s;
+  double shortest_s = tau_s;
+  for (const auto& effect : rig.effects) {
+    shortest_s = std::min(shortest_s, effect->ShortestDelay(tau_s));
+  }
+  const double least = std::max(kMinInternalHz, kDelaySteps / shortest_s);
   return sampling_hz * std::max(1.0, std::ceil(least / sampling_hz - 1e-9));
 }
 

@@ -1,6 +1,87 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 #include "io/config/config_sections.h"
+#include "io/config/nearest_key.h"
+#include "io/config/schema_words.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
+namespace {
+
+std::string Short(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+// The effect's forms: all with the identifier that the config names.
+std::vector<EffectPointer> FormsOf(const ConfigCursor& item) {
+  const std::string& id = item.Find("effect")->Node().text;
+  std::vector<EffectPointer> forms;
+  std::vector<std::string> known;
+  for (const EffectPointer& effect : SimulationCatalogue()) {
+    if (effect->id() == id) forms.push_back(effect);
+    if (known.empty() || known.back() != effect->id()) known.emplace_back(effect->id());
+  }
+  if (forms.empty()) {
+    const auto nearest = NearestKey(id, known);
+    item.Find("effect")->Fail("\"" + id + "\" is no effect of the catalogue, expected " +
+                              (nearest ? "the nearest one, " + *nearest : Join(known)));
+  }
+  return forms;
+}
+
+EffectPointer ChooseForm(const ConfigCursor& item, const std::vector<EffectPointer>& forms) {
+  const std::string key = forms.front()->form().key;
+  const auto given = key.empty() ? std::nullopt : item.Find(key);
+  if (!given) return forms.front();
+  std::vector<std::string> values;
+  for (const EffectPointer& form : forms) {
+    values.push_back(form->form().value);
+    if (given->Node().text == values.back()) return form;
+  }
+  given->Fail("\"" + given->Node().text + "\" is not known here, expected " +
+              DescribeChoice(given->Node().text, values));
+}
+
+double ReadParameter(const ConfigCursor& at, const EffectParameter& parameter) {
+  const LocatedNode& node = at.Node();
+  const bool is_number =
+      node.kind == LocatedNode::Kind::kInteger || node.kind == LocatedNode::Kind::kNumber;
+  const bool in_range = node.number >= parameter.low && node.number <= parameter.high;
+  if (is_number && (in_range || node.number == parameter.null_value)) return node.number;
+  at.Fail((is_number ? Short(node.number) + " is out of range" : "is no number") +
+          ", expected a number " + (parameter.unit.empty() ? "" : "in " + parameter.unit + " ") +
+          "from " + Short(parameter.low) + " to " + Short(parameter.high) + ", or " +
+          (std::isinf(parameter.null_value) ? ".inf" : Short(parameter.null_value)) +
+          " for no effect");
+}
+
+SimulatedEffect ReadEffect(const ConfigCursor& item, const std::string& key) {
+  const std::vector<EffectPointer> forms = FormsOf(item);
+  SimulatedEffect out{ChooseForm(item, forms), {}, item.Line(), key};
+  std::vector<std::string> keys;
+  for (const EffectParameter& parameter : out.effect->parameters()) {
+    keys.push_back(parameter.name);
+    const auto given = item.Find(parameter.name);
+    out.values.push_back(given ? ReadParameter(*given, parameter) : parameter.null_value);
+  }
+  if (!forms.front()->form().key.empty()) keys.push_back(forms.front()->form().key);
+  for (const LocatedMember& member : item.Node().members) {
+    if (member.key == "effect" || std::ranges::find(keys, member.key) != keys.end()) continue;
+    const auto nearest = NearestKey(member.key, keys);
+    item.FailAt(member.key, "is no parameter of " + std::string(out.effect->id()) + ", expected " +
+                                (nearest ? "the nearest one, " + *nearest : Join(keys)));
+  }
+  const bool any = std::ranges::any_of(
+      out.effect->parameters(), [&](const auto& p) { return item.Find(p.name).has_value(); });
+  if (!any) item.FailAt(keys.front(), "is missing, expected " + Join(keys));
+  return out;
+}
+
+}  // namespace
 
 void ReadSimulation(const ConfigCursor& root, Config& config) {
   const auto simulation = root.Find("simulate");
@@ -20,6 +101,12 @@ void ReadSimulation(const ConfigCursor& root, Config& config) {
   simulation->Read("combustion_noise_corner_hz", spec.combustion_noise_corner_hz);
   simulation->Read("sensor_noise_relative", spec.sensor_noise_relative);
   simulation->Read("loop_gain_min", spec.loop_gain_min);
+  if (const auto effects = simulation->Find("effects")) {
+    for (const ConfigCursor& item : effects->Items()) {
+      spec.effects.push_back(
+          ReadEffect(item, "simulate.effects[" + std::to_string(spec.effects.size()) + "]"));
+    }
+  }
 }
 
 }  // namespace howl

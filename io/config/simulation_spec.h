@@ -3,8 +3,12 @@
 #define HOWL_IO_CONFIG_SIMULATION_SPEC_H_
 
 #include <array>
+#include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "model/effects/effect.h"
 #include "model/flame.h"
 
 namespace howl {
@@ -20,6 +24,14 @@ constexpr std::string_view FlameShapeName(FlameShape shape) {
   return kNames[static_cast<std::size_t>(shape)];
 }
 
+// An effect of the catalogue that the simulated rig has.
+struct SimulatedEffect {
+  std::shared_ptr<const Effect> effect;
+  std::vector<double> values;  // in the order of its parameters; nulls where not given
+  int line = 0;
+  std::string key;  // of the config
+};
+
 struct SimulationSpec {
   double duration_s = 3.2;  // the seed's 16 000 samples at 5 kHz
   double sampling_hz = 5000.0;
@@ -33,6 +45,7 @@ struct SimulationSpec {
   // An experiment was seen in a limit cycle, so (1b) holds: a flame slope that gives less loop gain
   // than this is raised to it.
   double loop_gain_min = 1.1;
+  std::vector<SimulatedEffect> effects;
 };
 
 }  // namespace howl

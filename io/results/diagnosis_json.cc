@@ -101,4 +101,29 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
       {"advice", diagnosis.advice}};
 }
 
+namespace {
+
+Json LagJson(const LagInterval& lag) {
+  return lag.any ? Json{lag.low_deg, lag.high_deg} : Json(nullptr);
+}
+
+}  // namespace
+
+Json TableDiagnosisJson(const TableDiagnosis& table) {
+  Json json = DiagnosisJson(table.diagnosis);
+  json["gap"]["held_out"] = false;
+  json.erase("free_slack");
+  Json experiments = Json::object();
+  for (const TableExperiment& e : table.experiments) {
+    experiments[e.name] = {{"lag_deg", LagJson(e.lag)},
+                           {"tau_s_without_lag", e.tau_s},
+                           {"tau_s", table.lag.any ? Json{e.tau_low_s, e.tau_high_s} : Json()}};
+  }
+  json["table"] = {{"lag_deg", LagJson(table.lag)},
+                   {"at_hz", table.mean_frequency_hz},
+                   {"cutoff_min_hz", NumberOrNull(table.cutoff_min_hz)},
+                   {"experiments", experiments}};
+  return json;
+}
+
 }  // namespace howl

@@ -6,12 +6,16 @@
 #include <string_view>
 
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/table_diagnosis.h"
 
 namespace howl {
 
 std::string_view VerdictKindName(VerdictKind kind);
 
 nlohmann::ordered_json DiagnosisJson(const Diagnosis& diagnosis);
+
+// The same schema without a gap (null), and what the table says: `table`.
+nlohmann::ordered_json TableDiagnosisJson(const TableDiagnosis& table);
 
 }  // namespace howl
 

@@ -16,4 +16,11 @@ std::vector<EffectPointer> Catalogue() {
   return all;
 }
 
+std::vector<EffectPointer> SimulationCatalogue() {
+  std::vector<EffectPointer> all = Catalogue();
+  const std::vector<EffectPointer> more = MainsHumInPressure();
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
 }  // namespace howl

@@ -15,6 +15,8 @@ namespace howl {
 using EffectPointer = std::shared_ptr<const Effect>;
 
 std::vector<EffectPointer> Catalogue();
+// With the forms that only a simulation tells apart.
+std::vector<EffectPointer> SimulationCatalogue();
 
 std::vector<EffectPointer> QSensorLowPass();
 std::vector<EffectPointer> FlameLowPass();
@@ -33,6 +35,7 @@ std::vector<EffectPointer> PClipping();
 std::vector<EffectPointer> QClipping();
 std::vector<EffectPointer> Quantisation();
 std::vector<EffectPointer> MainsHum();
+std::vector<EffectPointer> MainsHumInPressure();
 std::vector<EffectPointer> CrosstalkPToQ();
 std::vector<EffectPointer> SecondDelayPath();
 std::vector<EffectPointer> ExternalTone();

@@ -4,9 +4,24 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
+
+class Leak final : public Instrument {
+ public:
+  explicit Leak(double share) : share_(share) {}
+  std::unique_ptr<Instrument> Clone() const override { return std::make_unique<Leak>(*this); }
+  void Start(double /*rate_hz*/, std::uint64_t /*seed*/) override {}
+  void Apply(double /*time_s*/, std::span<double> pressure,
+             std::span<double> heat_release) override {
+    for (std::size_t i = 0; i < pressure.size(); ++i) heat_release[i] += share_ * pressure[i];
+  }
+
+ private:
+  double share_;
+};
 
 class Crosstalk final : public NamedEffect {
  public:
@@ -18,6 +33,10 @@ class Crosstalk final : public NamedEffect {
   Response PressureLeak(double /*frequency_hz*/, const EffectContext& at,
                         EffectValues x) const override {
     return x[0] * at.heat_release_over_pressure;
+  }
+  bool AddTo(const SimulationScale& scale, EffectValues x, RigParameters* rig) const override {
+    rig->instruments.push_back(std::make_shared<Leak>(x[0] * scale.at.heat_release_over_pressure));
+    return true;
   }
 };
 

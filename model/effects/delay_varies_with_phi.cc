@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
@@ -15,6 +16,10 @@ class Variation final : public NamedEffect {
   bool ChangesFlameCut() const override { return true; }
   double DelayFactor(const EffectContext& at, EffectValues x) const override {
     return 1.0 + x[0] * at.phi_position;
+  }
+  bool AddTo(const SimulationScale& scale, EffectValues x, RigParameters* rig) const override {
+    rig->model.loop.tau_s *= DelayFactor(scale.at, x);
+    return true;
   }
 };
 

@@ -72,6 +72,23 @@ struct EffectContext {
   double heat_release_over_pressure = 1.0;
 };
 
+struct RigParameters;
+
+// What a simulated effect's parameters are relative to.
+struct SimulationScale {
+  EffectContext at;
+  double pressure_amplitude = 1.0;      // of this experiment's cycle, without the effect
+  double heat_release_amplitude = 1.0;  // of this experiment's cycle, without the effect
+  double mean_pressure_amplitude = 1.0;
+  double duration_s = 1.0;
+};
+
+// One of an effect's forms, as configs tell it: "order" "2". Empty where there is one form.
+struct EffectForm {
+  std::string key;
+  std::string value;
+};
+
 using EffectValues = std::span<const double>;
 using Response = std::complex<double>;
 
@@ -91,6 +108,19 @@ class Effect {
   virtual bool ChangesFlameInput() const { return false; }
   virtual bool ModulatesAcoustics() const { return false; }
   virtual bool ModulatesDelay() const { return false; }
+
+  virtual EffectForm form() const { return {}; }
+
+  // Puts the effect into a rig that is to be simulated. False: it has no form in time. At the null
+  // the record keeps every bit.
+  virtual bool AddTo(const SimulationScale& /*scale*/, EffectValues /*x*/,
+                     RigParameters* /*rig*/) const {
+    return false;
+  }
+  // Why it cannot be put there with these values; empty if it can.
+  virtual std::string SimulationFault(const RigParameters& /*rig*/, EffectValues /*x*/) const {
+    return "";
+  }
 
   virtual Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
                              EffectValues /*x*/) const {

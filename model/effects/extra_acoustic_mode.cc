@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
@@ -28,6 +29,14 @@ class Mode final : public NamedEffect {
     const Complex<double> mode = UnitModeResponse(kRadPerSPerHz * x[0] * acoustics.omega_hz, x[2],
                                                   kRadPerSPerHz * frequency_hz);
     return base + x[1] * acoustics.N * Response(mode.re, mode.im);
+  }
+  std::string SimulationFault(const RigParameters& rig, EffectValues /*x*/) const override {
+    return rig.extra_modes.size() < 2 ? "" : "is the third extra mode, expected at most two";
+  }
+  bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
+    const auto& acoustics = rig->model.loop.acoustics;
+    rig->extra_modes.push_back({x[0] * acoustics.omega_hz, x[2], x[1] * acoustics.N});
+    return true;
   }
 };
 

@@ -3,11 +3,27 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class FlameLag final : public LoopEffect {
+ public:
+  explicit FlameLag(double cutoff_hz) : filter_(Channel::kHeatRelease, cutoff_hz) {}
+  std::unique_ptr<LoopEffect> Clone() const override { return std::make_unique<FlameLag>(*this); }
+  void Start(const RigParameters& /*rig*/, double step_s, std::uint64_t seed) override {
+    filter_.Start(1.0 / step_s, seed);
+  }
+  void FlameOut(const LoopContext& at, std::span<double> heat_release) override {
+    filter_.Apply(at.time_s, {}, heat_release);
+  }
+
+ private:
+  FirstOrderLowPass filter_;
+};
 
 class Lag final : public NamedEffect {
  public:
@@ -23,6 +39,10 @@ class Lag final : public NamedEffect {
   bool ChangesFlameCut() const override { return true; }
   Response FlameOut(double frequency_hz, EffectValues x) const override {
     return 1.0 / (1.0 + Response(0.0, frequency_hz / x[0]));
+  }
+  bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
+    rig->effects.push_back(std::make_shared<FlameLag>(x[0]));
+    return true;
   }
 };
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
@@ -24,6 +25,10 @@ class Detuning final : public NamedEffect {
     howl::Acoustics<double> moved = acoustics;
     moved.harmonic_ratio = x[0];
     return Effect::Acoustics(moved, frequency_hz, x);
+  }
+  bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
+    rig->model.loop.acoustics.harmonic_ratio = x[0];
+    return true;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
@@ -28,6 +29,11 @@ class Resonance final : public NamedEffect {
   Response PressureInstrument(double frequency_hz, EffectValues x) const override {
     const Response s(0.0, frequency_hz / x[0]);
     return 1.0 / (1.0 + 2.0 * x[1] * s + s * s);
+  }
+  bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
+    rig->instruments.push_back(
+        std::make_shared<SecondOrderResponse>(Channel::kPressure, x[0], x[1]));
+    return true;
   }
 };
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
@@ -17,6 +18,11 @@ class Clipping final : public NamedEffect {
   EffectKind kind() const override { return EffectKind::kClipping; }
   bool ChangesAcousticCut() const override { return true; }
   bool ChangesFlameCut() const override { return true; }
+  bool AddTo(const SimulationScale& scale, EffectValues x, RigParameters* rig) const override {
+    rig->digitisers.push_back(std::make_shared<ClippingInstrument>(
+        Channel::kHeatRelease, x[0] * scale.heat_release_amplitude));
+    return true;
+  }
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
@@ -27,6 +28,16 @@ class Filter final : public NamedEffect {
   Response HeatReleaseInstrument(double frequency_hz, EffectValues x) const override {
     const Response s(0.0, frequency_hz / x[0]);
     return order_ == 1 ? 1.0 / (1.0 + s) : 1.0 / (1.0 + std::sqrt(2.0) * s + s * s);
+  }
+  EffectForm form() const override { return {"order", std::to_string(order_)}; }
+  bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
+    if (order_ == 1) {
+      rig->instruments.push_back(std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, x[0]));
+    } else {
+      rig->instruments.push_back(
+          std::make_shared<SecondOrderResponse>(Channel::kHeatRelease, x[0], std::sqrt(0.5)));
+    }
+    return true;
   }
 
  private:

@@ -3,11 +3,31 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Simulated with the levels over +-1.2 amplitudes of the cycle, the converter's full scale, one of
+// them at zero; beyond it the converter goes on.
+constexpr double kFullScale = 1.2;
+
+class Quantiser final : public ChannelInstrument {
+ public:
+  explicit Quantiser(double step) : ChannelInstrument(Channel::kPressure), step_(step) {}
+  std::unique_ptr<Instrument> Clone() const override { return std::make_unique<Quantiser>(*this); }
+
+ protected:
+  void ApplyToChannel(double /*time_s*/, std::span<double> signal) override {
+    if (step_ == 0.0) return;
+    for (double& x : signal) x = step_ * std::nearbyint(x / step_);
+  }
+
+ private:
+  double step_;
+};
 
 class Levels final : public NamedEffect {
  public:
@@ -17,6 +37,11 @@ class Levels final : public NamedEffect {
   EffectKind kind() const override { return EffectKind::kQuantisation; }
   bool ChangesAcousticCut() const override { return true; }
   bool ChangesFlameCut() const override { return true; }
+  bool AddTo(const SimulationScale& scale, EffectValues x, RigParameters* rig) const override {
+    rig->digitisers.push_back(
+        std::make_shared<Quantiser>(2.0 * kFullScale * scale.pressure_amplitude / x[0]));
+    return true;
+  }
 };
 
 }  // namespace

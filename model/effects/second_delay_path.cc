@@ -1,11 +1,45 @@
 // A share of the flame answers after a second, longer delay: 1 - share + share e^(-extra s).
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/simulate.h"
 
 namespace howl {
 namespace {
+
+class SecondPath final : public LoopEffect {
+ public:
+  SecondPath(double share, double extra_s, bool before)
+      : share_(share), extra_s_(extra_s), before_(before) {}
+  std::unique_ptr<LoopEffect> Clone() const override { return std::make_unique<SecondPath>(*this); }
+  double LongestDelay(double tau_s) const override { return tau_s + extra_s_; }
+  void FlameIn(const LoopContext& at, std::span<double> v) override {
+    if (before_) Mix(at, v);
+  }
+  void FlameOut(const LoopContext& at, std::span<double> heat_release) override {
+    if (!before_) Mix(at, heat_release);
+  }
+
+ private:
+  void Mix(const LoopContext& at, std::span<double> signal) {
+    if (share_ == 0.0) return;
+    std::array<double, kLoopBlock> delays;
+    std::array<double, kLoopBlock> values;
+    const std::size_t n = signal.size();
+    for (std::size_t i = 0; i < n; ++i) delays[i] = at.tau_s[i] + extra_s_;
+    at.delay_line->Read({delays.data(), n}, {values.data(), n});
+    for (std::size_t i = 0; i < n; ++i) {
+      const double later = before_ ? values[i] : FlameResponse(at.flame, values[i]);
+      signal[i] = (1.0 - share_) * signal[i] + share_ * later;
+    }
+  }
+
+  double share_;
+  double extra_s_;
+  bool before_;
+};
 
 class Path final : public NamedEffect {
  public:
@@ -28,6 +62,11 @@ class Path final : public NamedEffect {
   }
   Response FlameOut(double frequency_hz, EffectValues x) const override {
     return before_ ? 1.0 : Factor(frequency_hz, x);
+  }
+  EffectForm form() const override { return {"side", before_ ? "before_flame" : "after_flame"}; }
+  bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
+    rig->effects.push_back(std::make_shared<SecondPath>(x[0], x[1], before_));
+    return true;
   }
 
  private:

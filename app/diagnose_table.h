@@ -1,0 +1,16 @@
+// howl diagnose without records: what a table of characteristics says
+// (diagnosis/table_diagnosis.h).
+#ifndef HOWL_APP_DIAGNOSE_TABLE_H_
+#define HOWL_APP_DIAGNOSE_TABLE_H_
+
+#include "app/options.h"
+#include "io/config/config.h"
+
+namespace howl {
+
+// Writes diagnosis.json, prints the bounds. Throws UserError where the table has no lines.
+int RunTable(const Config& config, const Options& options);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_DIAGNOSE_TABLE_H_
