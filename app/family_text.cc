@@ -114,8 +114,9 @@ void PrintTransfer(const FamilyRun& run) {
   if (volume.least_distance && *volume.least_distance > limit) {
     std::printf(
         "no model that passes the other conditions comes nearer to the records' q-to-p transfers\n"
-        "than %s standard deviations; transfer_distance_max allows %s: the model's modes do not\n"
-        "carry what the records show (transfer_distance_max: null leaves the transfers out)\n",
+        "than %s standard deviations; transfer_distance_max allows %s: the modes, or what is\n"
+        "shared, do not carry what the records show (transfer_distance_max: null leaves them "
+        "out)\n",
         Significant(*volume.least_distance, 3).c_str(), Significant(limit, 3).c_str());
     return;
   }

@@ -84,7 +84,7 @@ double BoundBy(const TransferVector& c, const Slabs& slabs, const Multipliers& m
   }
   const double reach = distance * (inverse.transpose() * left).norm();
   const double value = bound + reach + kInflation * (size + reach) + 1e-12;
-  return std::isfinite(value) ? value : kUnbounded;
+  return std::isfinite(value) ? value : Unbounded();
 }
 
 // With the slabs that have a multiplier taken to touch at the end of its sign, the best multipliers
@@ -169,7 +169,7 @@ bool Linearise(const ContractTarget& target, const ExperimentBox& box,
     const Interval stiffness = square(omega) / w;
     const Complex<Interval> d{damping, w - stiffness};
     const Interval size = square(d.re) + square(d.im);
-    const Complex<Interval> u{d.re / size, -d.im / size};
+    Complex<Interval> u{d.re / size, -d.im / size};
     const Complex<Interval> minus_square{square(u.im) - square(u.re), -2.0 * u.re * u.im};
     *by_omega = minus_square * Complex<Interval>{damping, -2.0 * stiffness};
     *by_xi = damping * minus_square;
@@ -254,7 +254,7 @@ bool ContractSlabs(const ContractTarget& target, ExperimentBox& box) {
     add(response.d_phase, response.phase, -Arctangent(box[kCellTangent]));
     add(response.d_gain, response.ln_gain, Logarithm(box[kCellGain]));
   }
-  const auto narrow = [&](const TransferVector& c, Interval centre, Interval& x) {
+  const auto narrow = [&](const TransferVector& c, const Interval& centre, Interval& x) {
     const double hi = Largest(c, slabs, bound.inverse, bound.distance);
     const double lo = -Largest(-c, slabs, bound.inverse, bound.distance);
     return lo <= hi && Narrow(x, Exponential(centre + Interval(lo, hi)));

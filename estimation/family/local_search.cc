@@ -31,12 +31,14 @@ struct Point {
   std::vector<T> line_rad;  // loop phase errors
 };
 
+constexpr std::size_t kMostSlopes = 2 * static_cast<std::size_t>(kLocals);
+
 struct Row {  // slack = weight * s + value
   double value = 0.0;
   double weight = 0.0;
   int count = 0;
-  std::array<int, 2 * kLocals> index{};
-  std::array<double, 2 * kLocals> slope{};
+  std::array<int, kMostSlopes> index{};
+  std::array<double, kMostSlopes> slope{};
   // Of a transfer's distance, whose curvature is all that holds a step along the ellipsoid: minus
   // the second derivatives, over the coordinates of experiment `owner`.
   int owner = -1;
@@ -531,7 +533,8 @@ struct LocalSearch::Impl {
       merit += task.pinned ? penalty * std::abs(value - task.at) / task.scale
                            : -t * task.sign * value / task.scale;
     }
-    return std::isfinite(merit) ? merit : kInfinite;
+    if (!std::isfinite(merit)) return kInfinite;
+    return merit;
   }
 
   bool Solve(State& state, const Task& task) const {
@@ -553,8 +556,8 @@ struct LocalSearch::Impl {
         gradient.setZero();
         for (const Row& row : rows) {
           const double inverse = 1.0 / (row.weight * state.s + row.value);
-          std::array<int, 2 * kLocals + 1> index{};
-          std::array<double, 2 * kLocals + 1> d{};
+          std::array<int, kMostSlopes + 1> index{};
+          std::array<double, kMostSlopes + 1> d{};
           int count = row.count;
           for (int a = 0; a < count; ++a) {
             index[static_cast<std::size_t>(a)] = row.index[static_cast<std::size_t>(a)];

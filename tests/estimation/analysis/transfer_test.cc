@@ -7,6 +7,8 @@
 #include <random>
 
 #include "estimation/analyse.h"
+#include "estimation/family/membership.h"
+#include "estimation/transfer_ellipsoid.h"
 #include "tests/estimation/analysis/measured_data.h"
 
 namespace howl {
@@ -113,6 +115,39 @@ TEST(PracticeRigs, TransferGivesOmegaXiNAndM) {
     EXPECT_NEAR(n, 1.0, 0.01) << rig;
     EXPECT_NEAR(ratio / ratio_weight, 1.0, 0.025) << rig;  // one for the rig, 1 % standard error
   }
+}
+
+// Rigs whose effect leaves p = G q alone: the true model's squared distance is chi-square with four
+// degrees of freedom, of mean 4 and below 9.49 in 95 % of the records.
+TEST(PracticeRigs, TrueModelsLieWithinTheTransfersEllipsoids) {
+  const auto folder = testing::DataFolder("HOWL_PRACTICE");
+  if (!folder) GTEST_SKIP() << "HOWL_PRACTICE is not set";
+  double mean = 0.0;
+  int count = 0, within = 0, beyond_default = 0;
+  for (const char* rig :
+       {"case002", "case006", "case008", "case015", "case019", "case022", "case023"}) {
+    for (int e = 1; e <= 6; ++e) {
+      const Analysis analysis = AnalyseRecord(testing::PracticeRecord(*folder, rig, e));
+      ASSERT_TRUE(analysis.transfer_fit.has_value());
+      const auto ellipsoid = MakeTransferEllipsoid(*analysis.transfer_fit);
+      ASSERT_TRUE(ellipsoid.has_value()) << rig << e;
+      const auto truth = [&](const char* key) {
+        return testing::PracticeTruth(*folder, rig, e, key);
+      };
+      const double distance = TransferDistance(
+          *ellipsoid,
+          {.omega_hz = truth("omega_hz"), .xi = truth("xi"), .N = truth("N"), .M = truth("M")});
+      mean += distance * distance;
+      within += distance * distance <= 9.488;
+      beyond_default += distance > MembershipTest{}.transfer_distance_max;
+      ++count;
+    }
+  }
+  mean /= count;
+  // Four standard errors of the mean; at most six of 42 beyond the 95 % quantile (99 % binomial).
+  EXPECT_NEAR(mean, 4.0, 4.0 * std::sqrt(8.0 / count));
+  EXPECT_GE(within, 36);
+  EXPECT_LE(beyond_default, 1);
 }
 
 }  // namespace
