@@ -291,7 +291,7 @@
   const roundHz = [0.01, 0.1, 1, 10, 100, 1000].flatMap((power) => [power, 2 * power, 5 * power]);
   const bodeAxis = axis("frequency (Hz)", {
     splits: (u, index, low, high) => roundHz.filter((f) => f >= low && f <= high),
-    values: (u, splits) => splits.map(String)
+    filter: (u, splits) => splits, values: (u, splits) => splits.map(String)
   });
   const bodeSeries = () => {
     const value = (u, v) => v === null || v === undefined ? "–" : short(v);
