@@ -6,6 +6,9 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$root/cmake/build.sh"
 howl_install_packages
+# A browser tests the report's page; without one that test skips, saying so.
+howl_install_packages "${howl_browser_packages[@]}" ||
+  echo "no browser could be installed: the report's page is not tested" >&2
 # Measured records and practice rigs are optional: the tests that read them skip, saying so,
 # where these folders are absent.
 if [ -d "$root/../shared/realdata" ]; then

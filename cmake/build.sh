@@ -1,11 +1,16 @@
 # Sourced by run.sh and check.sh: what a fresh Debian 12 machine needs, and how to build.
 
-# Installs the packages that are missing, quietly and without asking; asks no server when none is.
+# For the test that drives a report's page in a real browser, which is skipped without them.
+howl_browser_packages=(chromium chromium-driver python3-selenium)
+
+# Installs the packages that are missing, those named as arguments too, quietly and without asking;
+# asks no server when none is.
 howl_install_packages() {
   local wanted=(g++ cmake ninja-build pkg-config clang-format clang-tidy python3
     libeigen3-dev libceres-dev libgoogle-glog-dev libgflags-dev libyaml-cpp-dev
     libtbb-dev libboost-dev libmpfi-dev nlohmann-json3-dev libvalijson-dev
-    libmatio-dev libhdf5-dev zlib1g-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox)
+    libmatio-dev libhdf5-dev zlib1g-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev
+    gnuplot-nox "$@")
   local missing=() package
   for package in "${wanted[@]}"; do
     if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then

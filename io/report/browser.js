@@ -288,10 +288,12 @@
   }, [null, [spread, xiMax], [shownTradeoff.map((p) => 100 * p[0]), shownTradeoff.map((p) => p[1])],
       [[spread[0]], [xiMax[0]]]]);
 
+  const roundHz = [0.01, 0.1, 1, 10, 100, 1000].flatMap((power) => [power, 2 * power, 5 * power]);
   const bodeAxis = axis("frequency (Hz)", {
-    filter: (u, splits) => splits.map((v) => /^[125]/.test(v.toExponential()) ? v : null)
+    splits: (u, index, low, high) => roundHz.filter((f) => f >= low && f <= high),
+    filter: (u, splits) => splits, values: (u, splits) => splits.map(String)
   });
-  const bodeSeries = (digits) => {
+  const bodeSeries = () => {
     const value = (u, v) => v === null || v === undefined ? "–" : short(v);
     const dots = (label, colour, size) => ({ label, stroke: colour, paths: () => null, value,
         points: { show: true, size, fill: colour, stroke: colour } });

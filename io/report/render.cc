@@ -15,8 +15,6 @@
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
-extern char** environ;
-
 namespace howl {
 namespace {
 
@@ -79,7 +77,7 @@ std::string FirstLine(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     std::size_t end = text.find('\n', at);
     if (end == std::string::npos) end = text.size();
-    const std::string line = text.substr(at, end - at);
+    std::string line = text.substr(at, end - at);
     if (line.find_first_not_of(" ^\t") != std::string::npos) return line;
     at = end + 1;
   }

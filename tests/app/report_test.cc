@@ -184,6 +184,24 @@ TEST_F(ReportOfR228, SaysThatNothingIsMissing) {
   EXPECT_EQ(Page().find("What is missing"), std::string::npos);
 }
 
+// Tables and sentences fit a terminal of 100 columns, and are plain where they are piped.
+TEST_F(ReportOfR228, TerminalTextFitsAHundredColumns) {
+  const std::string out = " --out " + folder_->path().string();
+  for (const std::string command : {"fit", "list"}) {
+    const ProgramResult result = RunHowl(command + " " + Config("r228") + out);
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.out.find('\033'), std::string::npos) << "colours in a pipe";
+    EXPECT_EQ(result.err, "") << "progress in a pipe";
+    std::stringstream lines(result.out);
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+      if (line.starts_with("written")) continue;
+      EXPECT_LE(line.size(), 100U) << line;
+    }
+    EXPECT_GT(count, 10);
+  }
+}
+
 TEST(Report, SaysWhatIsHalfWrittenAndShowsTheRest) {
   const TemporaryFolder folder;
   const std::string out = folder.path().string();

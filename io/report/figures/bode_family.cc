@@ -56,6 +56,7 @@ std::optional<Figure> FamilyBodeFigure(const ReportInput& input) {
   figure.height = 440;
   Script script;
   script.Line("set logscale x")
+      .Line("set xtics (10, 20, 50, 100, 200, 500, 1000, 2000, 5000)")
       .Line("set xrange [" + Number(grid.front()) + ":" + Number(grid.back()) + "]")
       .Line("set multiplot layout 2,1 margins 0.14,0.96,0.15,0.97 spacing 0,0.06");
   for (const bool phase : {false, true}) {

@@ -124,7 +124,7 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
     script.Plot("data using " + pick +
                 "7)):2 with points pointtype 2 pointsize 0.9 linewidth 2 "
                 "linecolor rgb '" +
-                std::string(colour::kOrange) + "'");
+                std::string(colour::kInk) + "'");
     script.EndPlot();
   }
   script.Line("unset multiplot");

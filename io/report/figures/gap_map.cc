@@ -59,6 +59,7 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
   script.Line("unset key")
       .Line("unset grid")
       .Line("set logscale x")
+      .Line("set xtics (10, 20, 50, 100, 200, 500, 1000, 2000, 5000)")
       .Line("set xrange [" + Number(low) + ":" + Number(high) + "]")
       .Line("set yrange [" + Number(rows + 0.5) + ":0.5]")
       .Line("set ytics noenhanced (" + names + ")")

@@ -115,7 +115,7 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
     script.Plot(
         "data using (pick('crossing" + std::string(below ? " below" : "") +
         "',2)):3:(strcol(5)) with labels noenhanced " +
-        (below ? "right rotate by 40 offset -0.4,-0.6" : "left rotate by 40 offset 0.4,0.6") +
+        (below ? "left rotate by -40 offset 0.4,-0.6" : "left rotate by 40 offset 0.4,0.6") +
         " font ',11' textcolor rgb '" + colour::kVermillion + "' notitle");
   }
   script.EndPlot();

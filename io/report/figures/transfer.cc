@@ -111,6 +111,7 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
   const std::string columns = std::to_string(names.size());
   Script script;
   script.Line("set logscale x")
+      .Line("set xtics (20, 100, 500, 2000, 10000)")
       .Line("set xrange [" + Number(0.9 * low) + ":" + Number(1.1 * high) + "]")
       .Line("set multiplot layout 2," + columns + " margins 0.08,0.98,0.11,0.80 spacing 0.06,0.05");
   for (const bool phase : {false, true}) {
