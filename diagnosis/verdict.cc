@@ -41,6 +41,7 @@ Belief Weigh(const Evidence& at) {
   Belief out;
   out.none = Logistic((DetectionGain(at.flame_alone) - at.gain) / kDetectionWidth) *
              Logistic((kUnexplainedDetection - rest) / kUnexplainedWidth);
+  if (at.seen) out.none = 0.0;
   if (!at.seen && rest > 0.5 * kUnexplainedDetection) {
     const double share = at.confirmed ? kConfirmedUnknownShare : kUnknownShare;
     out.unknown = Logistic((rest / (rest + std::max(0.0, at.gain)) - share) / kUnknownWidth);

@@ -118,6 +118,11 @@ TEST(Verdict, FollowsTheEvidence) {
   Evidence far = found;
   far.gap_after = 0.3;
   EXPECT_GT(Weigh(far).unknown, 0.95);
+  // Few levels take nothing off the likelihood, yet there they are.
+  Evidence steps = nothing;
+  steps.seen = true;
+  EXPECT_EQ(Weigh(steps).none, 0.0);
+  EXPECT_EQ(Weigh(steps).unknown, 0.0);
   Evidence line = nothing;
   line.unexplained_lines = true;
   EXPECT_GT((1.0 - Weigh(line).none) * Weigh(line).unknown, 0.85);
