@@ -13,9 +13,8 @@ namespace {
 
 // What a second effect must bring beyond the least for a first: the first's form is never exact.
 constexpr double kSecondGain = 60.0;
-constexpr double kSecondShare = 0.02;       // of what the first brought
-constexpr double kAfterRepairShare = 0.25;  // a repair is rough
-constexpr double kBesideStepsGain = 300.0;
+constexpr double kSecondShare = 0.02;            // of what the first brought
+constexpr double kAfterRepairShare = 0.25;       // a repair is rough
 constexpr double kBesideFluctuationShare = 0.3;  // a fluctuating gain disturbs every other fit
 constexpr double kBesideFluctuationGain = 100.0;
 
@@ -71,7 +70,10 @@ std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
   }
   std::vector<std::optional<Attempt>> tried(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
-    if (units[i][0]->kind() == EffectKind::kTransfer) tried[i] = TryTransfer(at, units[i]);
+    const Effect& effect = *units[i][0];
+    // The repair shows in the flame's answer too; in cut A it was fitted.
+    if (effect.kind() != EffectKind::kTransfer || !effect.ChangesAcousticCut()) return;
+    tried[i] = TryTransfer(at, units[i]);
   });
   std::optional<Attempt> best;
   for (std::optional<Attempt>& attempt : tried) {
@@ -99,10 +101,7 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
   }
   if (top.seen) {
     if (!top.repaired.empty()) return AfterRepair(at, top, units, lines, threads);
-    // Steps in p disturb whatever p drives: only cut A, where p is the answer, is to be trusted.
-    const Attempt* other = BestOf(
-        attempts, [](const Attempt& a) { return a.fit && a.fit->effect->ChangesAcousticCut(); });
-    if (other && other->candidate.gain > kBesideStepsGain) return Join(top, *other);
+    // Steps in p disturb every fit: nothing but a line stands beside them.
     return std::nullopt;
   }
   if (IsGain(top)) {

@@ -6,11 +6,15 @@
 namespace howl {
 namespace {
 
-// Log-likelihoods are of Gaussian noise whose spectrum is itself fitted, and regressors carry noise
-// of their own: gains of 20 come from no effect at all now and then.
-constexpr double kDetectionGain = 25.0;
-// Cut B's regressor is recorded p, whose sensor noise is taken out only in the mean.
-constexpr double kFlameDetectionGain = 45.0;
+// Log-likelihoods are of Gaussian noise whose spectrum is itself fitted. On blind rigs with no
+// effect (results/trial) the largest gain was 3 in cut A.
+constexpr double kDetectionGain = 15.0;
+// Cut B's regressor is recorded p, whose sensor noise is taken out only in the mean: there it
+// was 12.
+constexpr double kFlameDetectionGain = 25.0;
+// Rigs with no effect stay below once the floor.
+constexpr double kGapOverFloor = 2.2;
+constexpr double kGapOverFloorWidth = 0.15;
 constexpr double kDetectionWidth = 4.0;
 // Slack that is left on rigs without an effect, or with one whose form is only nearly right.
 constexpr double kAcousticAllowance = 40.0;
@@ -41,6 +45,9 @@ Belief Weigh(const Evidence& at) {
   Belief out;
   out.none = Logistic((DetectionGain(at.flame_alone) - at.gain) / kDetectionWidth) *
              Logistic((kUnexplainedDetection - rest) / kUnexplainedWidth);
+  // A fit whose noise had to grow is no fit, even if no candidate takes anything off it.
+  out.none *= Logistic((kGapOverFloor - at.gap_before / std::max(at.gap_floor, 1e-12)) /
+                       kGapOverFloorWidth);
   if (at.seen) out.none = 0.0;
   if (!at.seen && rest > 0.5 * kUnexplainedDetection) {
     const double share = at.confirmed ? kConfirmedUnknownShare : kUnknownShare;

@@ -107,6 +107,10 @@ TEST(Verdict, FollowsTheEvidence) {
   Evidence nothing;
   nothing.gap_before = nothing.gap_after = nothing.gap_floor = 0.05;
   EXPECT_GT(Weigh(nothing).none, 0.95);
+  Evidence noisy = nothing;
+  noisy.gap_before = noisy.gap_after = 0.3;
+  EXPECT_LT(Weigh(noisy).none, 0.05);
+  EXPECT_GT(Weigh(noisy).unknown, 0.95);
   Evidence found = nothing;
   found.gain = 500.0;
   found.gap_before = 0.5;
