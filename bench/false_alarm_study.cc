@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/trial/tally.h"
 #include "estimation/parallel.h"
 #include "model/random_stream.h"
 #include "model/simulate.h"
@@ -101,23 +102,17 @@ int main(int argc, char** argv) {
     options.threads = 1;
     found[i] = Diagnose(experiments, options);
   });
-  int accused = 0;
+  Tally accused;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Diagnosis& d = found[i];
+    accused.Count(d.kind != VerdictKind::kNone);
     if (d.kind == VerdictKind::kNone) continue;
-    ++accused;
     std::printf("%4zu %s: %s gain %.1f, gap %.3f to %.3f, slack A %.0f B %.0f\n", i,
                 texts[i].c_str(), d.kind == VerdictKind::kUnknown ? "unknown" : d.effect.c_str(),
                 d.candidates.at(0).gain, d.gap_before, d.gap_after, d.slack_acoustic_before,
                 d.slack_flame_before);
   }
-  const double n = rigs;
-  const double rate = accused / n;
-  const double z = 1.96;
-  const double centre = (rate + z * z / (2.0 * n)) / (1.0 + z * z / n);
-  const double half =
-      z / (1.0 + z * z / n) * std::sqrt(rate * (1.0 - rate) / n + z * z / (4.0 * n * n));
-  std::printf("accused: %d of %d (95 %%: %.3f to %.3f)\n", accused, rigs, centre - half,
-              centre + half);
+  std::printf("accused: %d of %d (95 %%: %.3f to %.3f)\n", accused.right, accused.total,
+              accused.Low(), accused.High());
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "diagnosis/acoustic_cut.h"
+#include "diagnosis/local_power.h"
 
 namespace howl {
 namespace {
@@ -16,16 +17,6 @@ constexpr double kMeanStrength = 20.0;
 constexpr double kLeastStrength = 6.0;
 constexpr double kShoulderRatio = 8.0;
 constexpr double kHarmonicMargin_hz = 4.0;
-
-double MedianPower(const Eigen::VectorXd& power, Eigen::Index k) {
-  std::vector<double> around;
-  for (Eigen::Index i = std::max<Eigen::Index>(0, k - kFlank);
-       i < std::min(power.size(), k + kFlank + 1); ++i) {
-    if (std::abs(i - k) > kPeakReach) around.push_back(power[i]);
-  }
-  std::nth_element(around.begin(), around.begin() + around.size() / 2, around.end());
-  return around[around.size() / 2] / std::log(2.0);
-}
 
 double ShoulderPower(const Eigen::VectorXd& power, Eigen::Index k) {
   double sum = 0.0;
@@ -58,7 +49,7 @@ void FindIn(const std::vector<CutRecord>& records, const std::vector<Eigen::Vect
       if (k >= power[e].size() || NearHarmonic(records[e], records[e].frequency(k))) continue;
       counted += 1.0;
       const double peak = power[e][k];
-      const double over = peak / MedianPower(power[e], k);
+      const double over = peak / LocalPower(power[e], k, kFlank, kPeakReach);
       sum += over;
       if (over > kLeastStrength && peak > kShoulderRatio * ShoulderPower(power[e], k))
         present += 1.0;

@@ -253,11 +253,10 @@ class Search {
     std::vector<double> weight;
     double total = 0.0;
     for (const Attempt& attempt : attempts_) {
-      const bool beaten = attempts_[0].seen && !attempt.seen;
-      weight.push_back(
-          beaten ? 0.0
-                 : std::exp((attempt.candidate.gain - attempts_[0].candidate.gain) / temperature));
-      if (attempts_[0].seen) weight.back() = weight.size() == 1 ? 1.0 : 0.0;
+      const double behind = attempts_[0].candidate.gain - attempt.candidate.gain;
+      // What is seen in the samples leaves no room for another.
+      weight.push_back(attempts_[0].seen ? (weight.empty() ? 1.0 : 0.0)
+                                         : std::exp(-behind / temperature));
       total += weight.back();
     }
     for (std::size_t i = 0; i < attempts_.size(); ++i) {

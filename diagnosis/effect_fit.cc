@@ -79,12 +79,14 @@ double CorrectedDelay(const std::vector<CutRecord>& records, const Effect& effec
   return std::max((tau_s + std::arg(added) / (kRadPerSPerHz * f0)) / factor, 0.0);
 }
 
-std::vector<std::vector<double>> StartValues(const Effect& effect) {
-  std::vector<std::vector<double>> starts = {{}};
-  for (const EffectParameter& parameter : effect.parameters()) {
+// All combinations of the parameters' starts, the first ones as `first` has them.
+std::vector<std::vector<double>> StartValues(const Effect& effect,
+                                             const std::vector<double>& first) {
+  std::vector<std::vector<double>> starts = {first};
+  for (std::size_t j = first.size(); j < effect.parameters().size(); ++j) {
     std::vector<std::vector<double>> longer;
     for (const std::vector<double>& start : starts) {
-      for (const double value : parameter.starts) {
+      for (const double value : effect.parameters()[j].starts) {
         longer.push_back(start);
         longer.back().push_back(value);
       }
@@ -170,24 +172,12 @@ EffectFit FitFrom(const std::vector<CutRecord>& records, const EffectPointer& ef
 
 EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& effect,
                     const EffectFit& base) {
-  return FitFrom(records, effect, base, StartValues(*effect));
+  return FitFrom(records, effect, base, StartValues(*effect, {}));
 }
 
 EffectFit FitFurther(const std::vector<CutRecord>& records, const EffectPointer& combined,
                      const EffectFit& base, const EffectFit& first) {
-  // The first's own place, so that only the second's starts are gone through.
-  std::vector<std::vector<double>> starts = {first.values};
-  for (std::size_t j = first.values.size(); j < combined->parameters().size(); ++j) {
-    std::vector<std::vector<double>> longer;
-    for (const std::vector<double>& start : starts) {
-      for (const double value : combined->parameters()[j].starts) {
-        longer.push_back(start);
-        longer.back().push_back(value);
-      }
-    }
-    starts = std::move(longer);
-  }
-  return FitFrom(records, combined, base, starts);
+  return FitFrom(records, combined, base, StartValues(*combined, first.values));
 }
 
 ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fit,

@@ -56,6 +56,17 @@ Attempt Join(const Attempt& first, Attempt second) {
   return out;
 }
 
+// Parameters paid for; nothing if none was tried. Takes it out of `tried`.
+std::optional<Attempt> Best(std::vector<std::optional<Attempt>>* tried) {
+  std::optional<Attempt> best;
+  for (std::optional<Attempt>& attempt : *tried) {
+    if (!attempt) continue;
+    PayForParameters(&*attempt);
+    if (!best || attempt->candidate.gain > best->candidate.gain) best = std::move(attempt);
+  }
+  return best;
+}
+
 // The best transfer function once the first effect was taken out of the samples.
 std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
                                    const std::vector<EffectForms>& units,
@@ -75,12 +86,7 @@ std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
     if (effect.kind() != EffectKind::kTransfer || !effect.ChangesAcousticCut()) return;
     tried[i] = TryTransfer(at, units[i]);
   });
-  std::optional<Attempt> best;
-  for (std::optional<Attempt>& attempt : tried) {
-    if (!attempt) continue;
-    PayForParameters(&*attempt);
-    if (!best || attempt->candidate.gain > best->candidate.gain) best = std::move(attempt);
-  }
+  std::optional<Attempt> best = Best(&tried);
   const double least = std::max(kSecondGain, kAfterRepairShare * first.candidate.gain);
   if (!best || best->candidate.gain < least) return std::nullopt;
   return Join(first, std::move(*best));
@@ -115,17 +121,12 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
   if (!IsTransfer(top)) return std::nullopt;
   // What fluctuates once the transfer function is right.
   const GainFluctuation fluctuation = EstimateGainFluctuation(*at.records, *top.fit);
-  const bool any = std::any_of(units.begin(), units.end(), [](const EffectForms& forms) {
-    return forms[0]->kind() == EffectKind::kGain;
-  });
-  if (!any) return std::nullopt;
-  std::optional<Attempt> best;
+  std::vector<std::optional<Attempt>> tried;
   for (const EffectForms& forms : units) {
-    if (forms[0]->kind() != EffectKind::kGain) continue;
-    Attempt attempt = TryGain(at, *forms[0], fluctuation);
-    PayForParameters(&attempt);
-    if (!best || attempt.candidate.gain > best->candidate.gain) best = std::move(attempt);
+    if (forms[0]->kind() == EffectKind::kGain) tried.push_back(TryGain(at, *forms[0], fluctuation));
   }
+  std::optional<Attempt> best = Best(&tried);
+  if (!best) return std::nullopt;
   if (best->candidate.gain < std::max(kSecondGain, kSecondShare * top.candidate.gain)) {
     return std::nullopt;
   }
@@ -150,12 +151,7 @@ std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
     for (const EffectPointer& form : forms) combined.push_back(Combine(first.fit->effect, form));
     tried[i] = TryTransfer(at, combined, &*first.fit);
   });
-  std::optional<Attempt> best;
-  for (std::optional<Attempt>& attempt : tried) {
-    if (!attempt) continue;
-    PayForParameters(&*attempt);
-    if (!best || attempt->candidate.gain > best->candidate.gain) best = std::move(attempt);
-  }
+  std::optional<Attempt> best = Best(&tried);
   const double least = std::max(kSecondGain, kSecondShare * first.candidate.gain);
   if (!best || best->candidate.gain - first.candidate.gain < least) return std::nullopt;
   return best;

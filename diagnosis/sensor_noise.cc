@@ -2,8 +2,8 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <vector>
 
+#include "diagnosis/local_power.h"
 #include "diagnosis/noise_fit.h"
 
 namespace howl {
@@ -14,7 +14,6 @@ constexpr Eigen::Index kTerms = 3;
 constexpr Eigen::Index kSmoothing = 30;
 constexpr Eigen::Index kLineReach = 3;
 constexpr double kLineRatio = 6.0;
-constexpr double kMedianOfExponential = 0.6931471805599453;
 // Where p is hardly more than its noise, what the median's scatter lets through is noise, and a
 // regressor with noise looks like a low-pass; a regressor that misses a weak part does not.
 constexpr double kLeastRatio = 2.0;
@@ -68,17 +67,11 @@ Eigen::VectorXd PressureShrinkage(const CutRecord& record, double pressure_varia
   const Eigen::Index count = n - 2 * kTapReach;
   power.segment(kTapReach, count) = ApplyWindow(record.pressure_spectrum, count).cwiseAbs2();
   Eigen::VectorXd out(n);
-  std::vector<double> around;
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::Index from = std::max<Eigen::Index>(k - kSmoothing, 0);
-    const Eigen::Index to = std::min(k + kSmoothing + 1, n);
-    around.assign(power.data() + from, power.data() + to);
-    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-    std::nth_element(around.begin(), middle, around.end());
     // Beside a line, whose own bins are few, the median is what the neighbours have.
     const Eigen::Index near = std::max<Eigen::Index>(k - kLineReach, 0);
     const double own = power.segment(near, std::min(k + kLineReach + 1, n) - near).mean();
-    const double typical = *middle / kMedianOfExponential;
+    const double typical = LocalPower(power, k, kSmoothing);
     const double level = own > kLineRatio * typical ? own : typical;
     out[k] = level > kLeastRatio * pressure_variance ? 1.0 - pressure_variance / level : 0.0;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/local_power.h"
 #include "diagnosis/real_gram.h"
 
 namespace howl {
@@ -11,7 +12,6 @@ namespace {
 
 constexpr double kBandOfCycle = 0.2;  // width, of the cycle's frequency
 constexpr Eigen::Index kMedianReach = 12;
-constexpr double kMedianOfExponential = 0.6931471805599453;
 
 // x: predicted signals, e: residuals, v: noise; one of each for every experiment.
 std::vector<SlackBand> Bands(const std::vector<CutRecord>& records,
@@ -69,21 +69,12 @@ std::vector<double> Offsets(const CutRecord& record, double tau_s) {
   return offsets;
 }
 
-// Around each bin the median of |E|^2 as a variance. A gain that fluctuates spreads the cycle's
+// Around each bin, as a variance. A gain that fluctuates spreads the cycle's
 // line over a few hertz; the smooth V does not know of it, and slack would fit its chance pattern.
-Eigen::VectorXd MedianPower(const Eigen::VectorXcd& residual) {
+Eigen::VectorXd TypicalPower(const Eigen::VectorXcd& residual) {
   const Eigen::VectorXd power = residual.cwiseAbs2();
-  const Eigen::Index n = power.size();
-  Eigen::VectorXd out(n);
-  std::vector<double> around;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::Index from = std::max<Eigen::Index>(0, k - kMedianReach);
-    const Eigen::Index to = std::min(n, k + kMedianReach + 1);
-    around.assign(power.data() + from, power.data() + to);
-    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-    std::nth_element(around.begin(), middle, around.end());
-    out[k] = *middle / kMedianOfExponential;
-  }
+  Eigen::VectorXd out(power.size());
+  for (Eigen::Index k = 0; k < power.size(); ++k) out[k] = LocalPower(power, k, kMedianReach);
   return out;
 }
 
@@ -122,7 +113,7 @@ Slack ComputeSlack(const std::vector<CutRecord>& records, const EffectFit& fit) 
     x -= fit.effect->PressureLeak(records[i].at.cycle_frequency_hz, records[i].at, fit.values) *
          records[i].windowed_pressure.head(n);
     Eigen::VectorXd weight =
-        at.flame_noise.cwiseMax(MedianPower(at.flame_residual)).cwiseInverse() / kBinCorrelation;
+        at.flame_noise.cwiseMax(TypicalPower(at.flame_residual)).cwiseInverse() / kBinCorrelation;
     const Eigen::VectorXd& share = records[i].reference.flame_share;
     if (share.size() > 0) weight = weight.cwiseProduct(share).eval();
     Eigen::MatrixXcd columns(n, taps);

@@ -1,32 +1,11 @@
 // Recorded q saturates at a fraction of its amplitude.
-#include <cmath>
-#include <limits>
-
-#include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/effects/clipping.h"
 
 namespace howl {
-namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-class Clipping final : public NamedEffect {
- public:
-  Clipping()
-      : NamedEffect("q_clipping", LoopBlock::kHeatReleaseInstrument,
-                    {{"fraction", "", kInfinity, 0.2, 2.0, {}}}) {}
-  EffectKind kind() const override { return EffectKind::kClipping; }
-  bool ChangesAcousticCut() const override { return true; }
-  bool ChangesFlameCut() const override { return true; }
-  bool AddTo(const SimulationScale& scale, EffectValues x, RigParameters* rig) const override {
-    rig->digitisers.push_back(std::make_shared<ClippingInstrument>(
-        Channel::kHeatRelease, x[0] * scale.heat_release_amplitude));
-    return true;
-  }
-};
-
-}  // namespace
-
-std::vector<EffectPointer> QClipping() { return {std::make_shared<Clipping>()}; }
+std::vector<EffectPointer> QClipping() {
+  return {std::make_shared<Clipping>("q_clipping", LoopBlock::kHeatReleaseInstrument,
+                                     Channel::kHeatRelease)};
+}
 
 }  // namespace howl
