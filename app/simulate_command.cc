@@ -126,6 +126,7 @@ void AddEffects(const Config& config, const std::vector<Experiment>& experiments
     scale.at.cycle_frequency_hz = experiments[i].frequency_hz;
     scale.at.relative_amplitude = rig.pressure_amplitude / pressure;
     scale.at.heat_release_over_pressure = heat_release / pressure;
+    scale.at.own_heat_release_over_pressure = rig.heat_release_amplitude / rig.pressure_amplitude;
     scale.pressure_amplitude = rig.pressure_amplitude;
     scale.heat_release_amplitude = rig.heat_release_amplitude;
     scale.mean_pressure_amplitude = pressure;

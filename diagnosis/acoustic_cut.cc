@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "diagnosis/real_fft.h"
 
@@ -16,6 +15,9 @@ namespace {
 constexpr Eigen::Index kStride = 4;
 constexpr double kLogStep = 1e-5;
 constexpr double kModulationStep = 1e-3;
+constexpr double kSameMode = 0.75;          // of one cycle's frequency over another's
+constexpr double kNeighbourLogOmega = 0.1;  // on the grid of starts
+constexpr double kNeighbourLogXi = 0.8;
 
 template <typename F>
 Eigen::VectorXcd OnBand(const CutRecord& record, F&& transfer) {
@@ -167,14 +169,20 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
   return jacobian;
 }
 
-AcousticLocals StartAcoustics(const CutRecord& record, const Effect& effect, EffectValues x) {
+std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect& effect,
+                                           EffectValues x, std::size_t count) {
   constexpr std::array kOmega = {0.78, 0.85, 0.92, 0.96, 1.0, 1.05};
   constexpr std::array kXi = {0.05, 0.1, 0.17, 0.28};
   const CutReference& reference = record.reference;
+  std::vector<double> cycles_hz = {record.at.cycle_frequency_hz};
+  // The cycle of another experiment may be another mode's.
+  if (record.lowest_cycle_hz < kSameMode * cycles_hz[0]) {
+    cycles_hz.push_back(record.lowest_cycle_hz);
+  }
   std::vector<Eigen::Vector2d> places;  // log omega, log xi
-  for (const double omega : kOmega) {
-    for (const double xi : kXi) {
-      places.emplace_back(std::log(omega * record.at.cycle_frequency_hz), std::log(xi));
+  for (const double cycle_hz : cycles_hz) {
+    for (const double omega : kOmega) {
+      for (const double xi : kXi) places.emplace_back(std::log(omega * cycle_hz), std::log(xi));
     }
   }
   // A reference's factors stand beside its own base: far from there they mislead.
@@ -184,8 +192,11 @@ AcousticLocals StartAcoustics(const CutRecord& record, const Effect& effect, Eff
     if (reference.acoustic_shape.size() == 0) return residual;
     return residual.cwiseQuotient(reference.acoustic_shape.cwiseSqrt().cast<Response>()).eval();
   };
-  double best = std::numeric_limits<double>::infinity();
-  AcousticLocals start;
+  struct Start {
+    AcousticLocals locals;
+    double cost;
+  };
+  std::vector<Start> starts;
   for (const Eigen::Vector2d& place : places) {
     AcousticLocals locals(place[0], place[1], 0.0, 0.0);
     Eigen::MatrixXd columns(2 * n, 2);
@@ -200,14 +211,21 @@ AcousticLocals StartAcoustics(const CutRecord& record, const Effect& effect, Eff
     }
     const Eigen::Matrix2d gram = columns.transpose() * columns;
     const Eigen::Vector2d solution = gram.ldlt().solve(columns.transpose() * y);
-    const double cost = (y - columns * solution).squaredNorm();
-    if (cost < best) {
-      best = cost;
-      start = locals;
-      start.tail<2>() = solution;
-    }
+    locals.tail<2>() = solution;
+    starts.push_back({locals, (y - columns * solution).squaredNorm()});
   }
-  return start;
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Start& a, const Start& b) { return a.cost < b.cost; });
+  std::vector<AcousticLocals> out;
+  for (const Start& start : starts) {
+    if (out.size() == count) break;
+    const bool apart = std::none_of(out.begin(), out.end(), [&](const AcousticLocals& other) {
+      return std::abs(start.locals[0] - other[0]) < kNeighbourLogOmega &&
+             std::abs(start.locals[1] - other[1]) < kNeighbourLogXi;
+    });
+    if (apart) out.push_back(start.locals);
+  }
+  return out;
 }
 
 }  // namespace howl

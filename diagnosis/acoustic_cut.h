@@ -9,6 +9,8 @@
 #define HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
 #include "diagnosis/cut_record.h"
 
@@ -34,8 +36,10 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
                                   const AcousticLocals& locals, const Eigen::VectorXcd& residual,
                                   const Eigen::VectorXd& steps);
 
-// A start: grid over omega and xi with N and M by least squares.
-AcousticLocals StartAcoustics(const CutRecord& record, const Effect& effect, EffectValues x);
+// Starts, the best first: a grid over omega and xi with N and M by least squares. At most `count`,
+// no two of them neighbours on the grid.
+std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect& effect,
+                                           EffectValues x, std::size_t count);
 
 }  // namespace howl
 

@@ -69,6 +69,18 @@ void FindIn(const std::vector<CutRecord>& records, const std::vector<Eigen::Vect
   }
 }
 
+// Lines are named by frequency: records of another length are another grid.
+bool OnOneGrid(const std::vector<CutRecord>& records) {
+  return std::all_of(records.begin(), records.end(),
+                     [&](const CutRecord& record) { return record.bin_hz == records[0].bin_hz; });
+}
+
+void SortByFrequency(std::vector<CoherentLine>* lines) {
+  std::sort(lines->begin(), lines->end(), [](const CoherentLine& a, const CoherentLine& b) {
+    return a.frequency_hz < b.frequency_hz;
+  });
+}
+
 Eigen::Index NearestBin(const CutRecord& record, double frequency_hz) {
   return static_cast<Eigen::Index>(std::lround(frequency_hz / record.bin_hz)) - record.first;
 }
@@ -77,19 +89,33 @@ Eigen::Index NearestBin(const CutRecord& record, double frequency_hz) {
 
 std::vector<CoherentLine> FindCoherentLines(const std::vector<CutRecord>& records) {
   std::vector<CoherentLine> lines;
+  if (!OnOneGrid(records)) return lines;
   for (const bool pressure : {true, false}) {
     std::vector<Eigen::VectorXd> power;
     for (const CutRecord& record : records) {
-      // Lines are named by frequency: records of another length are another grid.
-      if (record.bin_hz != records[0].bin_hz) return {};
       power.push_back(
           (pressure ? record.windowed_pressure : record.windowed_heat_release).cwiseAbs2());
     }
     FindIn(records, power, &lines);
   }
-  std::sort(lines.begin(), lines.end(), [](const CoherentLine& a, const CoherentLine& b) {
-    return a.frequency_hz < b.frequency_hz;
-  });
+  SortByFrequency(&lines);
+  return lines;
+}
+
+std::vector<CoherentLine> FindLinesLeftOver(const std::vector<CutRecord>& records,
+                                            const EffectFit& fit) {
+  std::vector<CoherentLine> lines;
+  if (!OnOneGrid(records)) return lines;
+  std::vector<Eigen::VectorXd> power;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const ExperimentFit& at = fit.experiments[e];
+    power.push_back(at.acoustic_residual.cwiseAbs2().cwiseQuotient(at.acoustic_noise));
+    for (Eigen::Index k = 0; k < power[e].size(); ++k) {
+      if (records[e].masked[static_cast<std::size_t>(k)]) power[e][k] = 0.0;
+    }
+  }
+  FindIn(records, power, &lines);
+  SortByFrequency(&lines);
   return lines;
 }
 

@@ -32,6 +32,10 @@ struct LineOrigin {
 
 std::vector<CoherentLine> FindCoherentLines(const std::vector<CutRecord>& records);
 
+// Those that cut A leaves over: combustion noise, which is in p and in q, hides none of them.
+std::vector<CoherentLine> FindLinesLeftOver(const std::vector<CutRecord>& records,
+                                            const EffectFit& fit);
+
 // Takes the lines' bins out of every fit.
 void MaskLines(const std::vector<CoherentLine>& lines, std::vector<CutRecord>* records);
 

@@ -57,7 +57,7 @@ double AcousticCost(const CutRecord& record, const Eigen::VectorXcd& residual,
 
 double FlameCost(const CutRecord& record, const Eigen::VectorXcd& residual,
                  const Eigen::VectorXd& variance) {
-  return Cost(residual, variance, record.masked, record.reference.flame_share);
+  return Cost(residual, variance, record.masked, record.flame_share);
 }
 
 Eigen::VectorXd AcousticWeights(const CutRecord& record, const Eigen::VectorXd& variance) {
@@ -65,7 +65,7 @@ Eigen::VectorXd AcousticWeights(const CutRecord& record, const Eigen::VectorXd& 
 }
 
 Eigen::VectorXd FlameWeights(const CutRecord& record, const Eigen::VectorXd& variance) {
-  return Weights(variance, record.masked, record.reference.flame_share);
+  return Weights(variance, record.masked, record.flame_share);
 }
 
 }  // namespace howl

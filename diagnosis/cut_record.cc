@@ -18,6 +18,7 @@ constexpr double kHighestOfCycleAcoustic = 8.0;
 constexpr double kHighestOfCycleFlame = 6.4;
 constexpr double kHighestOfSamplingAcoustic = 0.33;
 constexpr double kHighestOfSamplingFlame = 0.26;
+constexpr double kTaper = 0.3;  // of cut B's band
 constexpr double kLowestSearched_hz = 20.0;
 constexpr double kEnvelopeBand = 0.15;  // of the cycle's frequency
 
@@ -59,6 +60,16 @@ Eigen::VectorXcd DerivativeFilter(const CutRecord& record, double edge_hz) {
   return filter;
 }
 
+// Half a cosine over the band's last part.
+Eigen::VectorXd UpperTaper(Eigen::Index count) {
+  Eigen::VectorXd taper(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double to_edge = static_cast<double>(count - k) / (kTaper * static_cast<double>(count));
+    taper[k] = 0.5 * (1.0 - std::cos(std::numbers::pi * std::min(to_edge, 1.0)));
+  }
+  return taper;
+}
+
 CutRecord Spectra(const DiagnosisExperiment& experiment) {
   CutRecord out;
   const Record& record = experiment.record;
@@ -98,6 +109,7 @@ void SetBand(double cycle_hz, CutRecord* record) {
   record->windowed_heat_release = ApplyWindow(
       record->heat_release_spectrum.segment(start, record->extended()), record->acoustic_count);
   record->derivative_filter = DerivativeFilter(*record, 1.05 * high_b);
+  record->flame_share = UpperTaper(record->flame_count);
   record->masked.assign(static_cast<std::size_t>(record->acoustic_count), 0);
   const SensorNoise noise = EstimateSensorNoise(*record);
   record->sensor_noise = noise.variance;
@@ -141,9 +153,11 @@ std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& ex
   for (std::size_t i = 0; i < records.size(); ++i) {
     CutRecord& record = records[i];
     SetBand(cycle_hz, &record);
+    record.lowest_cycle_hz = *std::min_element(cycles.begin(), cycles.end());
     record.amplitude = SlowAmplitude(record);
     mean_amplitude += record.amplitude.mean() / count;
-    mean_ratio += record.heat_release.norm() / record.pressure.norm() / count;
+    record.at.own_heat_release_over_pressure = record.heat_release.norm() / record.pressure.norm();
+    mean_ratio += record.at.own_heat_release_over_pressure / count;
     record.at.phi_position =
         high > low ? (experiments[i].phi - 0.5 * (low + high)) / (high - low) : 0.0;
   }

@@ -45,7 +45,6 @@ struct CutReference {
   Eigen::VectorXd acoustic_shape;  // of V_A on the band
   Eigen::VectorXd flame_shape;
   Eigen::VectorXd acoustic_share;  // what a bin counts for, at most 1
-  Eigen::VectorXd flame_share;
 };
 
 struct CutRecord {
@@ -54,6 +53,7 @@ struct CutRecord {
   Eigen::Index samples = 0;
   double sampling_hz = 0.0;
   double bin_hz = 0.0;
+  double lowest_cycle_hz = 0.0;     // of all records of the rig
   Eigen::Index first = 0;           // bin of the band's first entry
   Eigen::Index acoustic_count = 0;  // bins in cut A
   Eigen::Index flame_count = 0;     // bins in cut B: the first of cut A's
@@ -70,6 +70,9 @@ struct CutRecord {
   Eigen::VectorXd sensor_noise;  // model-free V_A (sensor_noise.h)
   Eigen::VectorXd amplitude;     // slow amplitude of p, relative to the mean of all records
   std::vector<char> masked;      // bins with a coherent line: not used (acoustic_count)
+  // What a bin counts for in cut B (flame_count). It falls to nothing towards the band's upper
+  // edge: an edge is a filter that looks ahead, and ahead p knows the combustion noise.
+  Eigen::VectorXd flame_share;
   CutReference reference;
 
   Eigen::Index extended() const { return acoustic_count + 2 * kTapReach; }

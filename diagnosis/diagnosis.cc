@@ -65,6 +65,7 @@ class Search {
       lines_ = NewLines(lines_, reference_->lines);
     }
     base_ = FitBase(records_);
+    if (!reference_) TakeLinesLeftOver();
     at_ = {&records_, &base_,         &experiments,
            {},        options.memory, reference_ ? &*reference_ : nullptr};
     for (std::size_t e = 0; e < records_.size(); ++e) {
@@ -121,6 +122,14 @@ class Search {
   }
 
  private:
+  void TakeLinesLeftOver() {
+    const std::vector<CoherentLine> left = FindLinesLeftOver(records_, base_);
+    if (left.empty()) return;
+    MaskLines(left, &records_);
+    lines_.insert(lines_.end(), left.begin(), left.end());
+    base_ = FitBase(records_);
+  }
+
   static bool Better(const Attempt& a, const Attempt& b) {
     return a.seen != b.seen ? a.seen : a.candidate.gain > b.candidate.gain;
   }

@@ -33,11 +33,20 @@ std::vector<FlameColumns> BaseColumns(const std::vector<CutRecord>& records) {
   return columns;
 }
 
+// The lower median: where a higher mode takes over, its cycles are not the delay's.
+double TypicalCycle(const std::vector<CutRecord>& records) {
+  std::vector<double> cycles_hz;
+  for (const CutRecord& record : records) cycles_hz.push_back(record.at.cycle_frequency_hz);
+  const auto middle = cycles_hz.begin() + static_cast<std::ptrdiff_t>((cycles_hz.size() - 1) / 2);
+  std::nth_element(cycles_hz.begin(), middle, cycles_hz.end());
+  return *middle;
+}
+
 // The delay by which Phi(v) explains q best, on a grid that no resonance of the objective escapes.
 double StartDelay(const std::vector<CutRecord>& records, const std::vector<FlameColumns>& columns) {
   const NoEffect none;
   if (records[0].reference.flame.size() > 0) return records[0].reference.tau_s;
-  const double f0 = records[0].at.cycle_frequency_hz;
+  const double f0 = TypicalCycle(records);
   const double high_hz = records[0].frequency(records[0].flame_count - 1);
   const double step = 0.12 / high_hz;
   double best = std::numeric_limits<double>::infinity();
@@ -111,7 +120,7 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
   fit.experiments.resize(records.size());
   for (std::size_t e = 0; e < records.size(); ++e) {
     ExperimentFit& at = fit.experiments[e];
-    at.acoustics = StartAcoustics(records[e], *fit.effect, {});
+    at.acoustics = AcousticStarts(records[e], *fit.effect, {}, 1)[0];
     at.acoustic_noise = Eigen::VectorXd::Ones(records[e].acoustic_count);
     at.flame_noise = Eigen::VectorXd::Ones(records[e].flame_count);
   }
@@ -120,6 +129,7 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
   for (int round = 0; round <= kRounds; ++round) {
     fitter.Descend(&fit, kLaterRoundIterations);
     fitter.RefitNoise(&fit);
+    if (round == 1) fitter.RestartLocals(&fit);
   }
   fitter.Finish(&fit, nullptr);
   return fit;
@@ -142,7 +152,7 @@ EffectFit FitFrom(const std::vector<CutRecord>& records, const EffectPointer& ef
     }
     if (effect->ChangesAcousticCut()) {
       for (std::size_t e = 0; e < records.size(); ++e) {
-        fit.experiments[e].acoustics = StartAcoustics(records[e], *effect, values);
+        fit.experiments[e].acoustics = AcousticStarts(records[e], *effect, values, 1)[0];
       }
     }
     fitter.SetNoise(fit);
@@ -155,6 +165,7 @@ EffectFit FitFrom(const std::vector<CutRecord>& records, const EffectPointer& ef
   }
   for (EffectFit& fit : candidates) {
     fitter.SetNoise(fit);
+    if (fitter.RestartLocals(&fit)) fitter.RefitNoise(&fit);
     for (int round = 1; round < kRounds; ++round) {
       fitter.Descend(&fit, kLaterRoundIterations);
       fitter.RefitNoise(&fit);

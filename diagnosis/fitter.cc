@@ -35,14 +35,16 @@ double Fitter::Evaluate(EffectFit* fit) {
   return cost;
 }
 
+double Fitter::AcousticSquares(EffectFit* fit, std::size_t e) const {
+  ExperimentFit& at = fit->experiments[e];
+  at.acoustic_residual = AcousticResidual(records_[e], effect_, fit->values, at.acoustics);
+  return Squares(at.acoustic_residual, weights_a_[e]) + LeakJacobian(fit->values, at.acoustics, e);
+}
+
 double Fitter::EvaluateOne(EffectFit* fit, std::size_t e) {
   ExperimentFit& at = fit->experiments[e];
   double cost = 0.0;
-  if (acoustic_) {
-    at.acoustic_residual = AcousticResidual(records_[e], effect_, fit->values, at.acoustics);
-    cost += Squares(at.acoustic_residual, weights_a_[e]);
-    cost += LeakJacobian(fit->values, at.acoustics, e);
-  }
+  if (acoustic_) cost += AcousticSquares(fit, e);
   if (flame_) {
     if (own_columns_) {
       columns_[e] = MakeFlameColumns(records_[e], effect_, fit->values, fit->tau_s);

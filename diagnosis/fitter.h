@@ -46,6 +46,9 @@ class Fitter {
   // The experiment's own parameters at fixed shared ones.
   void DescendLocals(EffectFit* fit, std::size_t e);
 
+  // Cut A's from further starts too; the best are kept. True if that was better than before.
+  bool RestartLocals(EffectFit* fit);
+
   const std::vector<FlameColumns>& columns() const { return columns_; }
 
  private:
@@ -71,6 +74,8 @@ class Fitter {
   static Eigen::MatrixXd SolveScaledMany(const Eigen::MatrixXd& h, const Eigen::MatrixXd& g,
                                          double damping);
 
+  double AcousticSquares(EffectFit* fit, std::size_t e) const;
+  double DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) const;
   System Linearise(const EffectFit& fit) const;
   void Step(const System& system, double damping, EffectFit* fit) const;
 

@@ -13,6 +13,11 @@ namespace {
 constexpr double kLargestLogStep = 0.6;
 constexpr double kLargestLinearStep = 0.15;  // of the bounds' distance
 constexpr double kDifferenceStep = 1e-5;
+constexpr int kLocalIterations = 6;
+constexpr std::size_t kFurtherStarts = 3;
+constexpr double kSameModeLogRatio = 0.3;
+constexpr int kRestartIterations = 4;
+constexpr double kRestartGain = 2.0;
 
 double Span(const EffectParameter& p) { return p.high - p.low; }
 
@@ -30,8 +35,7 @@ double Fitter::LeakJacobian(EffectValues x, const AcousticLocals& locals, std::s
   double sum = 0.0;
   for (Eigen::Index k = 0; k < record.flame_count; ++k) {
     const Response leak = effect_.PressureLeak(record.frequency(k), record.at, x);
-    const Eigen::VectorXd& share = record.reference.flame_share;
-    sum -= (share.size() > 0 ? share[k] : 1.0) * std::log(std::norm(1.0 - leak * r[k + kTapReach]));
+    sum -= record.flame_share[k] * std::log(std::norm(1.0 - leak * r[k + kTapReach]));
   }
   return sum / kBinCorrelation;
 }
@@ -152,25 +156,65 @@ void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
   }
 }
 
-void Fitter::DescendLocals(EffectFit* fit, std::size_t e) {
-  double cost = EvaluateOne(fit, e);
-  if (!acoustic_) return;
-  for (int i = 0; i < 6; ++i) {
-    const ExperimentFit& at = fit->experiments[e];
+double Fitter::DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) const {
+  ExperimentFit& at = fit->experiments[e];
+  double cost = AcousticSquares(fit, e);
+  for (int i = 0; i < iterations; ++i) {
     const Eigen::MatrixXcd jacobian = AcousticJacobian(
         records_[e], effect_, fit->values, at.acoustics, at.acoustic_residual, Eigen::VectorXd());
     const Eigen::MatrixXd h = Gram(jacobian, weights_a_[e], jacobian);
     const Eigen::VectorXd g = Gram(jacobian, weights_a_[e], at.acoustic_residual);
-    EffectFit next = *fit;
-    next.experiments[e].acoustics -= SolveScaled(h, g, 1e-8);
-    const double moved = EvaluateOne(&next, e);
-    if (!(moved < cost)) break;
+    const ExperimentFit before = at;
+    at.acoustics -= SolveScaled(h, g, 1e-8);
+    const double moved = AcousticSquares(fit, e);
+    if (!(moved < cost)) {
+      at = before;
+      break;
+    }
     const bool done = cost - moved < kDescentConverged;
     cost = moved;
-    *fit = std::move(next);
     if (done) break;
   }
+  return cost;
+}
+
+void Fitter::DescendLocals(EffectFit* fit, std::size_t e) {
+  if (acoustic_) DescendAcoustics(fit, e, kLocalIterations);
   EvaluateOne(fit, e);
+}
+
+bool Fitter::RestartLocals(EffectFit* fit) {
+  if (!acoustic_) return false;
+  bool better = false;
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    std::vector<AcousticLocals> starts =
+        AcousticStarts(records_[e], effect_, fit->values, kFurtherStarts);
+    // As the other experiments have it, beside their own cycle.
+    for (std::size_t other = 0; other < records_.size(); ++other) {
+      if (other == e) continue;
+      AcousticLocals start = fit->experiments[other].acoustics;
+      const double ratio =
+          records_[e].at.cycle_frequency_hz / records_[other].at.cycle_frequency_hz;
+      // Farther apart they are cycles of two modes.
+      if (std::abs(std::log(ratio)) < kSameModeLogRatio) start[0] += std::log(ratio);
+      starts.push_back(start);
+    }
+    double best = AcousticSquares(fit, e);
+    const double was = best;
+    for (const AcousticLocals& start : starts) {
+      EffectFit& moved = *fit;
+      const ExperimentFit kept = moved.experiments[e];
+      moved.experiments[e].acoustics = start;
+      const double cost = DescendAcoustics(&moved, e, kRestartIterations);
+      if (cost < best) {
+        best = cost;
+      } else {
+        moved.experiments[e] = kept;
+      }
+    }
+    better = better || best < was - kRestartGain;
+  }
+  return better;
 }
 
 }  // namespace howl

@@ -5,8 +5,7 @@
 //   near the cycle
 //
 // Combustion noise has no sense of the cycle's phase: it moves Re D and Im D alike. A fluctuating
-// gain moves Re D alone. Two kinds of fluctuation are told apart by their likelihoods: a
-// first-order Gaussian process, and jumps between two levels (hidden Markov chain).
+// gain moves Re D alone. Its kind: fluctuation_kind.h.
 #ifndef HOWL_DIAGNOSIS_GAIN_FLUCTUATION_H_
 #define HOWL_DIAGNOSIS_GAIN_FLUCTUATION_H_
 

@@ -146,6 +146,7 @@ void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* t
   for (std::size_t e = 0; e < from.size(); ++e) {
     if (from[e].reference.acoustic.size() == (*to)[e].extended()) {
       (*to)[e].reference = from[e].reference;
+      (*to)[e].flame_share = from[e].flame_share;
     }
   }
 }
@@ -231,7 +232,8 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
   for (std::size_t e = 0; e < own.size(); ++e) {
     PutReference(out.points[e], &own[e]);
     own[e].reference.acoustic_share = Share(own[e], out.acoustic_kappa, own[e].acoustic_count);
-    own[e].reference.flame_share = Share(own[e], out.flame_kappa, own[e].flame_count);
+    own[e].flame_share =
+        own[e].flame_share.cwiseProduct(Share(own[e], out.flame_kappa, own[e].flame_count)).eval();
   }
   const EffectFit absorbed = FitBase(own);
   if (test.fluctuation_gains.empty()) {
@@ -255,7 +257,8 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
     CutRecord& record = (*records)[e];
     PutReference(PointAt(out.points, rig[e].name, rig[e].phi), &record);
     record.reference.acoustic_share = Share(record, out.acoustic_kappa, record.acoustic_count);
-    record.reference.flame_share = Share(record, out.flame_kappa, record.flame_count);
+    record.flame_share =
+        record.flame_share.cwiseProduct(Share(record, out.flame_kappa, record.flame_count)).eval();
   }
   return out;
 }

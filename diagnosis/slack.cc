@@ -114,8 +114,7 @@ Slack ComputeSlack(const std::vector<CutRecord>& records, const EffectFit& fit) 
          records[i].windowed_pressure.head(n);
     Eigen::VectorXd weight =
         at.flame_noise.cwiseMax(TypicalPower(at.flame_residual)).cwiseInverse() / kBinCorrelation;
-    const Eigen::VectorXd& share = records[i].reference.flame_share;
-    if (share.size() > 0) weight = weight.cwiseProduct(share).eval();
+    weight = weight.cwiseProduct(records[i].flame_share).eval();
     Eigen::MatrixXcd columns(n, taps);
     for (Eigen::Index k = 0; k < n; ++k) {
       if (records[i].masked[static_cast<std::size_t>(k)]) weight[k] = 0.0;

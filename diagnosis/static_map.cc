@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "diagnosis/cut_noise.h"
 #include "diagnosis/real_fft.h"
@@ -21,7 +22,7 @@ constexpr double kEdgeRatio = 5.0;
 constexpr double kEdgeShare = 0.03;
 constexpr double kSameValue = 1e-6;  // of the range
 constexpr double kRepeatedShare = 0.01;
-constexpr double kRepeatedRatio = 3.0;  // over the samples a fiftieth of the range below
+constexpr double kRepeatedRatio = 5.0;  // over any other value: coarse levels repeat them all
 constexpr std::size_t kMostLevels = 300;
 
 double Quantile(const Eigen::VectorXd& x, double share) {
@@ -43,13 +44,23 @@ bool EdgeAt(const Eigen::VectorXd& x, double range) {
 }
 
 // A saturated sample repeats the extreme value exactly. Distributions that are smooth there have
-// one sample at it, or a few where the levels are coarse.
+// one sample at it; where the levels are coarse, their neighbours have as many.
 bool RepeatedExtreme(const Eigen::VectorXd& x, double range) {
-  const double top = x.maxCoeff();
-  const double at_top = static_cast<double>((x.array() > top - kSameValue * range).count());
-  const double near = static_cast<double>((x.array() > top - kEdgeWidth * range).count());
-  return at_top > kRepeatedShare * static_cast<double>(x.size()) &&
-         at_top > kRepeatedRatio * (near - at_top);
+  std::vector<double> values(x.data(), x.data() + x.size());
+  std::sort(values.begin(), values.end(), std::greater<>());
+  const double same = kSameValue * range;
+  std::size_t at_top = 0;
+  while (at_top < values.size() && values[at_top] > values[0] - same) ++at_top;
+  std::size_t most = 1;
+  std::size_t run = 1;
+  for (std::size_t i = at_top + 1; i < values.size(); ++i) {
+    // The other rail is no level of the converter.
+    if (values[i] < values[0] - 0.5 * range) break;
+    run = values[i] == values[i - 1] ? run + 1 : 1;
+    most = std::max(most, run);
+  }
+  return static_cast<double>(at_top) > kRepeatedShare * static_cast<double>(x.size()) &&
+         static_cast<double>(at_top) > kRepeatedRatio * static_cast<double>(most);
 }
 
 bool SharpEdge(const Eigen::VectorXd& x) {

@@ -1,5 +1,6 @@
-// A share of p leaks into recorded q. rel is the leak at the fundamental over the recorded q there,
-// both signals being scaled to the mean cycle of all experiments.
+// A share of p leaks into recorded q: rel is the leak's amplitude over that of q, in the mean cycle
+// of all experiments (the channels' ranges never change), or in each experiment's own (the ranges
+// follow the cycle).
 #include <cmath>
 #include <limits>
 
@@ -25,23 +26,34 @@ class Leak final : public Instrument {
 
 class Crosstalk final : public NamedEffect {
  public:
-  Crosstalk()
+  explicit Crosstalk(bool own_range)
       : NamedEffect("crosstalk_p_to_q", LoopBlock::kHeatReleaseInstrument,
-                    {{"rel", "", 0.0, -3.0, 3.0, {-0.4, -0.2, -0.1, 0.1, 0.2, 0.4}}}) {}
+                    {{"rel", "", 0.0, -3.0, 3.0, {-0.4, -0.2, -0.1, 0.1, 0.2, 0.4}}}),
+        own_range_(own_range) {}
   bool ChangesAcousticCut() const override { return true; }
   bool ChangesFlameCut() const override { return true; }
   Response PressureLeak(double /*frequency_hz*/, const EffectContext& at,
                         EffectValues x) const override {
-    return x[0] * at.heat_release_over_pressure;
+    return x[0] * HeatReleaseOverPressure(at);
   }
+  EffectForm form() const override { return {"range", own_range_ ? "own" : "mean"}; }
   bool AddTo(const SimulationScale& scale, EffectValues x, RigParameters* rig) const override {
-    rig->instruments.push_back(std::make_shared<Leak>(x[0] * scale.at.heat_release_over_pressure));
+    rig->instruments.push_back(std::make_shared<Leak>(x[0] * HeatReleaseOverPressure(scale.at)));
     return true;
   }
+
+ private:
+  double HeatReleaseOverPressure(const EffectContext& at) const {
+    return own_range_ ? at.own_heat_release_over_pressure : at.heat_release_over_pressure;
+  }
+
+  bool own_range_;
 };
 
 }  // namespace
 
-std::vector<EffectPointer> CrosstalkPToQ() { return {std::make_shared<Crosstalk>()}; }
+std::vector<EffectPointer> CrosstalkPToQ() {
+  return {std::make_shared<Crosstalk>(false), std::make_shared<Crosstalk>(true)};
+}
 
 }  // namespace howl

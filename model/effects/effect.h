@@ -70,6 +70,7 @@ struct EffectContext {
   double relative_amplitude = 1.0;  // of this experiment's cycle, 1 in the mean of all
   // Amplitude of q over that of p at the cycle, in the mean of all experiments.
   double heat_release_over_pressure = 1.0;
+  double own_heat_release_over_pressure = 1.0;  // of this experiment
 };
 
 struct RigParameters;

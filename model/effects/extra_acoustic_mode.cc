@@ -19,7 +19,7 @@ class Mode final : public NamedEffect {
                       12.0,
                       {0.6, 1.5, 2.0, 2.5, 3.6, 4.4, 5.0, 5.6, 6.4, 7.2},
                       ParameterScale::kLogarithmic},
-                     {"coeff_over_N", "", 0.0, -5.0, 5.0, {0.05}},
+                     {"coeff_over_N", "", 0.0, -5.0, 5.0, {0.05, 0.3}},
                      {"zeta", "", 0.05, 0.002, 0.6, {0.05}, ParameterScale::kLogarithmic}}) {}
   bool ChangesAcousticCut() const override { return true; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,

@@ -29,7 +29,6 @@ TEST(Reference, OnesLeaveEveryBitAsItWas) {
   ones.acoustic.setOnes(plain[0].extended());
   ones.flame.setOnes(plain[0].flame_count + 2 * kTapReach);
   ones.acoustic_share.setOnes(plain[0].acoustic_count);
-  ones.flame_share.setOnes(plain[0].flame_count);
   const AcousticLocals locals(std::log(206.0), std::log(0.17), 6400.0, 1700.0);
   const Effect& base = *BaseEffect();
   const auto compare = [&](const Effect& effect, EffectValues x) {
