@@ -32,6 +32,13 @@ double Quantile(const Eigen::VectorXd& x, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
+std::vector<double> Levels(const Eigen::VectorXd& x) {
+  std::vector<double> values(x.data(), x.data() + x.size());
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
 // Many samples just below the extreme, few a little further down.
 bool EdgeAt(const Eigen::VectorXd& x, double range) {
   const double top = Quantile(x, 0.9995);
@@ -66,6 +73,8 @@ bool RepeatedExtreme(const Eigen::VectorXd& x, double range) {
 bool SharpEdge(const Eigen::VectorXd& x) {
   const double range = Quantile(x, 0.9995) - Quantile(x, 0.0005);
   if (RepeatedExtreme(x, range) || RepeatedExtreme(-x, range)) return true;
+  // Between coarse levels any density has edges.
+  if (Levels(x).size() <= kMostLevels) return false;
   return EdgeAt(x, range) && EdgeAt(-x, range);
 }
 
@@ -206,10 +215,7 @@ FewLevels FindQuantisation(const std::vector<CutRecord>& records) {
   FewLevels out;
   std::size_t found = 0;
   for (const CutRecord& record : records) {
-    std::vector<double> values(record.pressure.data(),
-                               record.pressure.data() + record.pressure.size());
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
+    const std::vector<double> values = Levels(record.pressure);
     if (values.size() > kMostLevels || values.size() < 2) continue;
     ++found;
     std::vector<double> steps;

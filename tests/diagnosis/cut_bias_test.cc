@@ -1,0 +1,80 @@
+// What a diagnosis has to find of itself: saturation by its repeated values, and nothing in cut B
+// where the loop's own noise is strong.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "diagnosis/effect_fit.h"
+#include "diagnosis/slack.h"
+#include "diagnosis/static_map.h"
+#include "model/effects/catalogue.h"
+#include "tests/diagnosis/simulated_rig.h"
+
+namespace howl {
+namespace {
+
+std::vector<DiagnosisExperiment> NoisyRig(std::uint64_t seed) {
+  std::vector<SimulationCase> cases;
+  for (int point = 0; point < 4; ++point) {
+    SimulationCase one;
+    one.rig = TestRig(point);
+    one.rig.noise.combustion_density = 2.5e-6;  // a tenth of the flame's range, and more
+    one.rig.noise.combustion_corner_hz = 1600.0;
+    one.rig.past = {{0.1, 205.0, 0.0, 0.0}};
+    one.seed = seed + static_cast<std::uint64_t>(point);
+    cases.push_back(std::move(one));
+  }
+  SimulationOptions options;
+  options.duration_s = 3.2;
+  options.settle_s = 0.5;
+  std::vector<DiagnosisExperiment> out;
+  for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
+    out.push_back({"exp" + std::to_string(out.size() + 1),
+                   0.55 - 0.03 * static_cast<double>(out.size()),
+                   {record.sampling_hz, record.pressure, record.heat_release}});
+  }
+  return out;
+}
+
+// Combustion noise comes back to the flame through the acoustics. Least squares over a band that
+// ends at once is a filter that looks ahead: it finds in p the noise that made it, as a second
+// path of short delay.
+TEST(CutB, StrongCombustionNoiseLeavesNothingForAFreeFilter) {
+  std::vector<CutRecord> records = MakeCutRecords(NoisyRig(5));
+  const EffectFit base = FitBase(records);
+  EXPECT_LT(ComputeSlack(records, base).flame_excess, 25.0);
+  const EffectFit second = FitEffect(records, SecondDelayPath()[0], base);
+  EXPECT_LT(base.cost() - second.cost(), 12.0);
+
+  // With the edge left sharp the same records do deceive it.
+  for (CutRecord& record : records) record.flame_share.setOnes();
+  const EffectFit sharp = FitBase(records);
+  const EffectFit deceived = FitEffect(records, SecondDelayPath()[0], sharp);
+  EXPECT_GT(sharp.cost() - deceived.cost(), 25.0);
+}
+
+TEST(Clipping, RepeatedExtremesAreSeenHoweverFewAreCutOff) {
+  std::vector<DiagnosisExperiment> experiments = SimulateRig();
+  const auto edge = [&](const std::vector<DiagnosisExperiment>& of) {
+    const std::vector<CutRecord> records = MakeCutRecords(of);
+    return FitClipping(records, true, FitBase(records)).sharp_edge;
+  };
+  EXPECT_FALSE(edge(experiments));
+  std::vector<DiagnosisExperiment> coarse = experiments;
+  for (DiagnosisExperiment& one : coarse) {
+    for (double& p : one.record.pressure) p = 0.5 * std::round(p / 0.5);
+  }
+  EXPECT_FALSE(edge(coarse)) << "levels are no rail";
+  for (DiagnosisExperiment& one : experiments) {
+    std::vector<double> sorted = one.record.pressure;
+    std::sort(sorted.begin(), sorted.end());
+    const double rail = sorted[sorted.size() * 97 / 100];
+    for (double& p : one.record.pressure) p = std::min(p, rail);
+  }
+  EXPECT_TRUE(edge(experiments));
+}
+
+}  // namespace
+}  // namespace howl
