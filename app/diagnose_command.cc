@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -121,6 +122,10 @@ void Print(const Diagnosis& diagnosis) {
   }
   std::printf("gap, held out: %.3f before, %.3f after; floor %.3f\n", diagnosis.gap_before,
               diagnosis.gap_after, diagnosis.gap_floor);
+  if (std::isfinite(diagnosis.shrinkage_no_meaning)) {
+    std::printf("an effect of no meaning, as free as the best, shrinks it by %.1f %%\n",
+                kPerCent * diagnosis.shrinkage_no_meaning);
+  }
   TextTable table({"candidate", "probability", "gain", "gap after", "shrinks %", "estimate"});
   for (std::size_t i = 0; i < std::min(kShownCandidates, diagnosis.candidates.size()); ++i) {
     const Candidate& candidate = diagnosis.candidates[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -10,17 +11,21 @@
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/gap.h"
 #include "diagnosis/gap_map.h"
+#include "diagnosis/no_meaning.h"
 #include "diagnosis/pair.h"
 #include "diagnosis/place.h"
 #include "diagnosis/reference.h"
 #include "diagnosis/slack.h"
 #include "diagnosis/verdict.h"
 #include "estimation/parallel.h"
+#include "model/random_stream.h"
 
 namespace howl {
 namespace {
 
 constexpr double kClassProbability = 0.05;
+constexpr std::size_t kNoMeaningDraws = 3;
+constexpr std::uint64_t kNoMeaningSeed = 20;
 
 // One unit of work for each identifier, whatever its forms.
 std::vector<EffectForms> Units(const DiagnosisOptions& options) {
@@ -106,6 +111,9 @@ class Search {
                flame_noise_, lines_.empty());
     if (out.kind != VerdictKind::kNone) {
       out.where = FindPlaces(records_, attempts_, out.kind, slack_before_);
+    }
+    if (out.kind != VerdictKind::kNone && !attempts_.empty()) {
+      out.shrinkage_no_meaning = ShrinkageByNoMeaning(attempts_[0]);
     }
     if (out.kind == VerdictKind::kUnknown && !attempts_.empty() && Detected()) {
       if (std::optional<Attempt> pair =
@@ -214,6 +222,24 @@ class Search {
     const Interval interval = ShrinkageInterval(gap_before_, after);
     candidate.shrinkage_low = interval.low;
     candidate.shrinkage_high = interval.high;
+  }
+
+  double ShrinkageByNoMeaning(const Attempt& best) const {
+    if (!best.fit || best.also || !best.repaired.empty()) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    const Effect& effect = *best.fit->effect;
+    std::vector<double> shrinkage(kNoMeaningDraws);
+    RunUnits(shrinkage.size(), options_.threads, [&](std::size_t i) {
+      Attempt attempt =
+          TryTransfer(at_, {NoMeaning(effect.parameters().size(), effect.ChangesAcousticCut(),
+                                      effect.ChangesFlameCut(), DeriveSeed(kNoMeaningSeed, i))});
+      MeasureGap(&attempt);
+      shrinkage[i] = attempt.candidate.shrinkage;
+    });
+    double mean = 0.0;
+    for (const double each : shrinkage) mean += each / static_cast<double>(kNoMeaningDraws);
+    return mean;
   }
 
   Evidence Look(const Attempt* top, Slack* after) const {

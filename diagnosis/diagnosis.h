@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +68,9 @@ struct Diagnosis {
   double gap_before = 0.0;
   double gap_after = 0.0;
   double gap_floor = 0.0;
+  // By effects that mean nothing, as free as the best (no_meaning.h): the mean. NaN where the best
+  // is no transfer function.
+  double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
   std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first
   // What free slack takes off the likelihood, before and after the best effect, in cuts A and B.

@@ -90,6 +90,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
        {{"before", NumberOrNull(diagnosis.gap_before)},
         {"after", NumberOrNull(diagnosis.gap_after)},
         {"floor", NumberOrNull(diagnosis.gap_floor)},
+        {"shrinkage_by_no_meaning", NumberOrNull(diagnosis.shrinkage_no_meaning)},
         {"held_out", true}}},
       {"map", MapJson(diagnosis)},
       {"candidates", candidates},

@@ -1,0 +1,100 @@
+#include "diagnosis/no_meaning.h"
+
+#include <glog/logging.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "model/random_stream.h"
+
+namespace howl {
+namespace {
+
+constexpr double kMost = 0.5;
+constexpr double kStart = 0.02;
+// Of the phase's waves over frequency: no base parameter bends a response like that.
+constexpr double kShortestPeriod_hz = 150.0;
+constexpr double kLongestPeriod_hz = 700.0;
+
+struct Ripple {
+  std::array<double, 3> per_hz{};
+  std::array<double, 3> phase{};
+  double offset = 0.0;
+
+  Response At(double frequency_hz) const {
+    double psi = offset;
+    for (std::size_t i = 0; i < per_hz.size(); ++i) {
+      psi += std::numbers::pi * std::sin(per_hz[i] * frequency_hz + phase[i]);
+    }
+    return std::polar(1.0, psi);
+  }
+};
+
+Ripple DrawRipple(RandomStream* random) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  Ripple out;
+  for (std::size_t i = 0; i < out.per_hz.size(); ++i) {
+    const double period =
+        kShortestPeriod_hz + (kLongestPeriod_hz - kShortestPeriod_hz) * random->Uniform();
+    out.per_hz[i] = kTurn / period;
+    out.phase[i] = kTurn * random->Uniform();
+  }
+  out.offset = kTurn * random->Uniform();
+  return out;
+}
+
+std::vector<EffectParameter> Parameters(std::size_t count) {
+  std::vector<EffectParameter> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    out.push_back({"x" + std::to_string(i + 1), "", 0.0, -kMost, kMost, {kStart}});
+  }
+  return out;
+}
+
+class Ripples final : public NamedEffect {
+ public:
+  Ripples(std::size_t parameters, bool acoustic_cut, bool flame_cut, std::uint64_t seed)
+      : NamedEffect("no_meaning", LoopBlock::kAcoustics, Parameters(parameters)),
+        acoustic_cut_(acoustic_cut),
+        flame_cut_(flame_cut) {
+    RandomStream random(seed);
+    for (std::size_t i = 0; i < parameters; ++i) ripples_.push_back(DrawRipple(&random));
+  }
+
+  bool ChangesAcousticCut() const override { return acoustic_cut_; }
+  bool ChangesFlameCut() const override { return flame_cut_; }
+  Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
+                     EffectValues x) const override {
+    const Response base = Effect::Acoustics(acoustics, frequency_hz, x);
+    return acoustic_cut_ ? base * Factor(frequency_hz, x) : base;
+  }
+  Response FlameOut(double frequency_hz, EffectValues x) const override {
+    return flame_cut_ ? Factor(frequency_hz, x) : 1.0;
+  }
+
+ private:
+  Response Factor(double frequency_hz, EffectValues x) const {
+    Response out = 1.0;
+    for (std::size_t i = 0; i < ripples_.size(); ++i) out += x[i] * ripples_[i].At(frequency_hz);
+    return out;
+  }
+
+  bool acoustic_cut_;
+  bool flame_cut_;
+  std::vector<Ripple> ripples_;
+};
+
+}  // namespace
+
+EffectPointer NoMeaning(std::size_t parameters, bool acoustic_cut, bool flame_cut,
+                        std::uint64_t seed) {
+  CHECK_GT(parameters, 0u);
+  CHECK(acoustic_cut || flame_cut);
+  return std::make_shared<Ripples>(parameters, acoustic_cut, flame_cut, seed);
+}
+
+}  // namespace howl
