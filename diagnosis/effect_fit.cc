@@ -16,6 +16,7 @@ constexpr int kFirstRoundIterations = 7;
 constexpr int kLaterRoundIterations = 8;
 constexpr int kRounds = 3;
 constexpr std::size_t kStartsKept = 2;
+constexpr Eigen::Index kSlopeStride = 7;
 
 class NoEffect final : public NamedEffect {
  public:
@@ -42,6 +43,17 @@ double TypicalCycle(const std::vector<CutRecord>& records) {
   return *middle;
 }
 
+// The correlation of Phi(v) with v, over samples far enough apart to be a cycle's fractions.
+double SlopeSign(const FlameColumns& columns, const Eigen::VectorXd& coefficients) {
+  const Eigen::Index count = columns.v.size() / kSlopeStride;
+  const Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>>(
+      columns.v.data(), count, Eigen::InnerStride<>(kSlopeStride));
+  const Eigen::VectorXd phi = FlameBasis(columns.range).Value(v, coefficients);
+  const Eigen::VectorXd dv = v.array() - v.mean();
+  const Eigen::VectorXd dphi = phi.array() - phi.mean();
+  return dv.dot(dphi) / std::max(dv.norm() * dphi.norm(), 1e-300);
+}
+
 // The delay by which Phi(v) explains q best, on a grid that no resonance of the objective escapes.
 double StartDelay(const std::vector<CutRecord>& records, const std::vector<FlameColumns>& columns) {
   const NoEffect none;
@@ -61,8 +73,7 @@ double StartDelay(const std::vector<CutRecord>& records, const std::vector<Flame
           FlameWeights(records[e], Eigen::VectorXd::Ones(records[e].flame_count));
       const FlameSolution solution = SolveFlame(records[e], none, {}, tau, columns[e], weight);
       cost += std::log(solution.residual.cwiseAbs2().dot(weight));
-      // Near v = 0, where all records have samples.
-      falling += solution.coefficients[3] - solution.coefficients[6];
+      falling -= SlopeSign(columns[e], solution.coefficients);
     }
     // Half a period away a rising flame fits nearly as well; heat release falls as v rises.
     if (falling <= 0.0) continue;
