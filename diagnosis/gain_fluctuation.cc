@@ -232,9 +232,8 @@ GainFluctuation EstimateGainFluctuation(const std::vector<CutRecord>& records,
     }
     // Independent values: the low-pass's noise bandwidth times the duration.
     const double independent = 1.25 * low_pass_hz * step_s * static_cast<double>(d.size());
-    if (re > im) {
-      out.gain += 0.5 * independent * (2.0 * std::log(0.5 * (re + im)) - std::log(re * im));
-    }
+    (re > im ? out.gain : out.quadrature_gain) +=
+        0.5 * independent * (2.0 * std::log(0.5 * (re + im)) - std::log(re * im));
     for (std::size_t i = 2; i < x.size(); ++i) {
       lag_product += (x[i] - mean.real()) * (x[i - 2] - mean.real());
       lag_power += std::pow(x[i] - mean.real(), 2);

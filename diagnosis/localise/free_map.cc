@@ -1,0 +1,116 @@
+#include "diagnosis/localise/free_map.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/cut_noise.h"
+#include "diagnosis/real_fft.h"
+#include "diagnosis/real_gram.h"
+
+namespace howl {
+namespace {
+
+constexpr int kRounds = 3;
+constexpr int kIterations = 3;
+
+const Eigen::VectorXd& Channel(const CutRecord& record, bool pressure) {
+  return pressure ? record.pressure : record.heat_release;
+}
+
+// Spectra of A T_j(x / A), extended band.
+Eigen::MatrixXcd MapSpectra(const CutRecord& record, bool pressure, double largest) {
+  const Eigen::ArrayXd x = Channel(record, pressure).array() / largest;
+  Eigen::ArrayXd before = Eigen::ArrayXd::Ones(x.size());
+  Eigen::ArrayXd now = x;
+  Eigen::MatrixXcd out(record.extended(), kMapTerms);
+  for (Eigen::Index j = 0; j < kMapTerms; ++j) {
+    const Eigen::ArrayXd next = 2.0 * x * now - before;
+    before = now;
+    now = next;
+    out.col(j) = largest * ForwardFft(now.matrix()).segment(record.first - kTapReach, out.rows());
+  }
+  return out;
+}
+
+Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, const Eigen::MatrixXcd& spectra,
+                         const AcousticLocals& locals) {
+  Eigen::MatrixXcd out(record.acoustic_count, kMapTerms);
+  const Eigen::VectorXcd r = RecordedTransfer(record, *BaseEffect(), {}, locals);
+  for (Eigen::Index j = 0; j < kMapTerms; ++j) {
+    out.col(j) = pressure ? ApplyWindow(spectra.col(j), record.acoustic_count)
+                          : ApplyWindow(-r.cwiseProduct(spectra.col(j)), record.acoustic_count);
+  }
+  return out;
+}
+
+// Scaled and a little damped.
+Eigen::MatrixXd Solve(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& right) {
+  const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-9;
+  return scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * right);
+}
+
+}  // namespace
+
+EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const EffectFit& base) {
+  EffectFit fit = base;
+  const Effect& none = *base.effect;
+  double largest = 0.0;
+  for (const CutRecord& record : records) {
+    largest = std::max(largest, Channel(record, pressure).cwiseAbs().maxCoeff());
+  }
+  std::vector<Eigen::MatrixXcd> spectra;
+  for (const CutRecord& record : records) {
+    spectra.push_back(MapSpectra(record, pressure, largest));
+  }
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(kMapTerms);
+  const auto residual = [&](std::size_t e, const Eigen::MatrixXcd& columns) {
+    return (AcousticResidual(records[e], none, {}, fit.experiments[e].acoustics) + columns * c)
+        .eval();
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    for (int i = 0; i < kIterations; ++i) {
+      Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(kMapTerms, kMapTerms);
+      Eigen::VectorXd right = Eigen::VectorXd::Zero(kMapTerms);
+      std::vector<Eigen::MatrixXd> local(records.size());  // of the experiment's own four
+      for (std::size_t e = 0; e < records.size(); ++e) {
+        const ExperimentFit& at = fit.experiments[e];
+        const Eigen::VectorXd weight = AcousticWeights(records[e], at.acoustic_noise);
+        const Eigen::MatrixXcd columns = Columns(records[e], pressure, spectra[e], at.acoustics);
+        const Eigen::VectorXcd error = residual(e, columns);
+        const Eigen::MatrixXcd jacobian =
+            AcousticJacobian(records[e], none, {}, at.acoustics, error, Eigen::VectorXd());
+        Eigen::MatrixXd both(4, 1 + kMapTerms);
+        both << RealGram(weight, jacobian, error), RealGram(weight, jacobian, columns);
+        local[e] = Solve(RealGram(weight, jacobian, jacobian), both);
+        const Eigen::MatrixXd mixed = both.rightCols(kMapTerms);
+        gram +=
+            RealGram(weight, columns, columns) - mixed.transpose() * local[e].rightCols(kMapTerms);
+        right += RealGram(weight, columns, error) - mixed.transpose() * local[e].col(0);
+      }
+      const Eigen::VectorXd step = -Solve(gram, right);
+      c += step;
+      for (std::size_t e = 0; e < records.size(); ++e) {
+        Eigen::Vector4d move = -local[e].col(0) - local[e].rightCols(kMapTerms) * step;
+        move[0] = std::clamp(move[0], -0.1, 0.1);
+        move[1] = std::clamp(move[1], -0.5, 0.5);
+        fit.experiments[e].acoustics += move;
+      }
+    }
+    fit.acoustic_cost = 0.0;
+    for (std::size_t e = 0; e < records.size(); ++e) {
+      ExperimentFit& at = fit.experiments[e];
+      at.acoustic_residual = residual(e, Columns(records[e], pressure, spectra[e], at.acoustics));
+      const Eigen::VectorXcd r = RecordedTransfer(records[e], none, {}, at.acoustics);
+      at.acoustic_noise =
+          FitAcousticNoise(records[e], at.acoustic_residual,
+                           r.segment(kTapReach, records[e].acoustic_count).cwiseAbs2());
+      fit.acoustic_cost += AcousticCost(records[e], at.acoustic_residual, at.acoustic_noise);
+    }
+  }
+  return fit;
+}
+
+}  // namespace howl
