@@ -19,8 +19,9 @@ const Eigen::VectorXd& Channel(const CutRecord& record, bool pressure) {
 }
 
 // Spectra of A T_j(x / A), extended band.
-Eigen::MatrixXcd MapSpectra(const CutRecord& record, bool pressure, double largest) {
-  const Eigen::ArrayXd x = Channel(record, pressure).array() / largest;
+Eigen::MatrixXcd MapSpectra(const CutRecord& record, const Eigen::VectorXd& signal,
+                            double largest) {
+  const Eigen::ArrayXd x = (signal.array() / largest).max(-1.0).min(1.0);
   Eigen::ArrayXd before = Eigen::ArrayXd::Ones(x.size());
   Eigen::ArrayXd now = x;
   Eigen::MatrixXcd out(record.extended(), kMapTerms);
@@ -33,12 +34,24 @@ Eigen::MatrixXcd MapSpectra(const CutRecord& record, bool pressure, double large
   return out;
 }
 
-Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, const Eigen::MatrixXcd& spectra,
+Eigen::VectorXd PredictedPressure(const CutRecord& record, const Eigen::VectorXcd& transfer) {
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.pressure_spectrum.size());
+  const Eigen::Index start = record.first - kTapReach;
+  spectrum.segment(start, transfer.size()) =
+      transfer.cwiseProduct(record.heat_release_spectrum.segment(start, transfer.size()));
+  return InverseFft(spectrum, record.samples);
+}
+
+Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, double largest,
                          const AcousticLocals& locals) {
   Eigen::MatrixXcd out(record.acoustic_count, kMapTerms);
   const Eigen::VectorXcd r = RecordedTransfer(record, *BaseEffect(), {}, locals);
+  // A predicted p may be larger than any that was recorded.
+  const Eigen::MatrixXcd spectra =
+      pressure ? MapSpectra(record, PredictedPressure(record, r), 1.5 * largest)
+               : MapSpectra(record, record.heat_release, largest);
   for (Eigen::Index j = 0; j < kMapTerms; ++j) {
-    out.col(j) = pressure ? ApplyWindow(spectra.col(j), record.acoustic_count)
+    out.col(j) = pressure ? ApplyWindow(-spectra.col(j), record.acoustic_count)
                           : ApplyWindow(-r.cwiseProduct(spectra.col(j)), record.acoustic_count);
   }
   return out;
@@ -61,10 +74,6 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
   for (const CutRecord& record : records) {
     largest = std::max(largest, Channel(record, pressure).cwiseAbs().maxCoeff());
   }
-  std::vector<Eigen::MatrixXcd> spectra;
-  for (const CutRecord& record : records) {
-    spectra.push_back(MapSpectra(record, pressure, largest));
-  }
   Eigen::VectorXd c = Eigen::VectorXd::Zero(kMapTerms);
   const auto residual = [&](std::size_t e, const Eigen::MatrixXcd& columns) {
     return (AcousticResidual(records[e], none, {}, fit.experiments[e].acoustics) + columns * c)
@@ -78,7 +87,7 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
       for (std::size_t e = 0; e < records.size(); ++e) {
         const ExperimentFit& at = fit.experiments[e];
         const Eigen::VectorXd weight = AcousticWeights(records[e], at.acoustic_noise);
-        const Eigen::MatrixXcd columns = Columns(records[e], pressure, spectra[e], at.acoustics);
+        const Eigen::MatrixXcd columns = Columns(records[e], pressure, largest, at.acoustics);
         const Eigen::VectorXcd error = residual(e, columns);
         const Eigen::MatrixXcd jacobian =
             AcousticJacobian(records[e], none, {}, at.acoustics, error, Eigen::VectorXd());
@@ -102,7 +111,7 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
     fit.acoustic_cost = 0.0;
     for (std::size_t e = 0; e < records.size(); ++e) {
       ExperimentFit& at = fit.experiments[e];
-      at.acoustic_residual = residual(e, Columns(records[e], pressure, spectra[e], at.acoustics));
+      at.acoustic_residual = residual(e, Columns(records[e], pressure, largest, at.acoustics));
       const Eigen::VectorXcd r = RecordedTransfer(records[e], none, {}, at.acoustics);
       at.acoustic_noise =
           FitAcousticNoise(records[e], at.acoustic_residual,

@@ -1,10 +1,11 @@
-// Slack of a channel without memory: true signal = recorded + sum over j of c_j T_j(recorded / A),
-// j = 2 ... 5, T_j Chebyshev's polynomials, A the largest value in all experiments. In cut A alone:
+// Slack of a channel without memory, in cut A, with Chebyshev's polynomials T_j, j = 2 ... 7:
 //
-//   recorded p bent   E_A = P + sum c_j H_j - R Q     recorded q bent   E_A = P - R (Q + sum c_j
-//   H_j)
+//   recorded p bent   p_r = p + A sum c_j T_j(p / A),        p = R q_r as the duct makes it
+//   recorded q bent   q = q_r + A sum c_j T_j(q_r / A),      p_r = R q
 //
-// In cut B the flame's own characteristic absorbs a bent q.
+// A the largest value in all experiments. Each map acts on a signal that is known: a saturated p
+// cannot be bent back, but it can be predicted. In cut B the flame's own characteristic absorbs a
+// bent q.
 #ifndef HOWL_DIAGNOSIS_LOCALISE_FREE_MAP_H_
 #define HOWL_DIAGNOSIS_LOCALISE_FREE_MAP_H_
 
@@ -14,7 +15,7 @@
 
 namespace howl {
 
-inline constexpr Eigen::Index kMapTerms = 4;
+inline constexpr Eigen::Index kMapTerms = 6;
 
 // The base's fit with the map in cut A: acoustic_cost and residuals are with it.
 EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const EffectFit& base);

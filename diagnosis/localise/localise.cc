@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 
+#include "diagnosis/localise/free_additive.h"
 #include "diagnosis/localise/free_map.h"
 #include "diagnosis/localise/free_slack.h"
 #include "diagnosis/static_map.h"
@@ -117,6 +118,17 @@ std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLi
   RunUnits(out.size(), threads, [&](std::size_t i) {
     out[i] = i < forms.size() ? TryForm(at, forms[i]) : TryMap(at, i == forms.size());
   });
+  const AdditiveGain additive = FitFreeAdditive(*at.records, *at.base);
+  const auto paid = [&](LoopBlock block, const std::string& form, double gain) {
+    Attempt attempt;
+    attempt.candidate.gain = gain;
+    attempt.parameters = additive.parameters;
+    PayForParameters(&attempt);
+    out.push_back({block, form, attempt.candidate.gain, false, additive.low_hz, additive.high_hz});
+  };
+  paid(LoopBlock::kSource, "slack_source_additive", additive.source);
+  paid(LoopBlock::kPressureInstrument, "slack_p_additive", additive.pressure);
+  paid(LoopBlock::kHeatReleaseInstrument, "slack_q_additive", additive.heat_release);
   if (fluctuation.gain > 0.0) {
     out.push_back({LoopBlock::kFlame, "slack_flame_gain", fluctuation.gain, false, 0.0, 0.0});
   }
