@@ -5,7 +5,7 @@
 //
 // A the largest value in all experiments. Each map acts on a signal that is known: a saturated p
 // cannot be bent back, but it can be predicted. In cut B the flame's own characteristic absorbs a
-// bent q.
+// bent q; behind a bent p, the flame is driven by R q_r.
 #ifndef HOWL_DIAGNOSIS_LOCALISE_FREE_MAP_H_
 #define HOWL_DIAGNOSIS_LOCALISE_FREE_MAP_H_
 
@@ -17,7 +17,7 @@ namespace howl {
 
 inline constexpr Eigen::Index kMapTerms = 6;
 
-// The base's fit with the map in cut A: acoustic_cost and residuals are with it.
+// The base's fit with the map: costs and residuals are with it.
 EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const EffectFit& base);
 
 }  // namespace howl
