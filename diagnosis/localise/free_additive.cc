@@ -5,8 +5,6 @@
 #include <cmath>
 #include <complex>
 
-#include "diagnosis/noise_fit.h"
-
 namespace howl {
 namespace {
 
@@ -72,16 +70,10 @@ AdditiveGain FitFreeAdditive(const std::vector<CutRecord>& records, const Effect
       if (band >= bands.size()) bands.resize(band + 1);
       const double v_a = at.acoustic_noise[k];
       const double v_b = at.flame_noise[k];
-      // A misfit's largest bins count no more than in the base's own likelihood.
       Number e_a = at.acoustic_residual[k];
       Number e_b = at.flame_residual[k];
       // q from p as the base predicts it here.
       const Number f = (record.windowed_heat_release[k] - e_b) / record.windowed_pressure[k];
-      // Together, so that what they leave over keeps its direction.
-      const double most = std::max(std::norm(e_a) / v_a, std::norm(e_b) / v_b);
-      const double within = std::min(1.0, std::sqrt(kNoiseCap / most));
-      e_a *= within;
-      e_b *= within;
       Bin bin{std::norm(e_a) / v_a, std::norm(e_b) / v_b, {}};
       const std::array<std::array<Number, 2>, 3> u = {
           {{1.0, 0.0}, {1.0, -f}, {-r[k + kTapReach], 1.0}}};
