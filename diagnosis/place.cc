@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace howl {
 namespace {
@@ -98,7 +99,15 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
   std::vector<Place> places;
   for (const Score& score : scores) {
     if (score.gain / total < 0.02) continue;
-    places.push_back({score.block, low, high, names, score.gain / total});
+    Place place{score.block, low, high, names, score.gain / total};
+    double best = 0.0;  // of the block's own forms
+    for (const BlockSlack& slack : blocks) {
+      if (slack.block != score.block || slack.high_hz == 0.0 || slack.gain <= best) continue;
+      best = slack.gain;
+      place.low_hz = slack.low_hz;
+      place.high_hz = slack.high_hz;
+    }
+    places.push_back(std::move(place));
   }
   std::sort(places.begin(), places.end(),
             [](const Place& a, const Place& b) { return a.share > b.share; });

@@ -73,8 +73,13 @@ BlockSlack TryMap(const Setting& at, bool pressure) {
   BlockSlack out =
       Paid(at, fit, pressure ? LoopBlock::kPressureInstrument : LoopBlock::kHeatReleaseInstrument,
            pressure ? "slack_p_map" : "slack_q_map", static_cast<double>(kMapTerms));
-  const bool edge = HasSharpEdge(*at.records, pressure);
-  out.seen = edge || (pressure && FindQuantisation(*at.records).found);
+  // What a reference shows too is no gap.
+  const ReferenceModel* known = at.reference;
+  const bool known_edge =
+      known && (pressure ? known->pressure_sharp_edge : known->heat_release_sharp_edge);
+  const bool known_levels = known && known->quantisation_levels > 0.0;
+  out.seen = (HasSharpEdge(*at.records, pressure) && !known_edge) ||
+             (pressure && FindQuantisation(*at.records).found && !known_levels);
   return out;
 }
 
