@@ -11,6 +11,7 @@
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/gap.h"
 #include "diagnosis/gap_map.h"
+#include "diagnosis/localise/localise.h"
 #include "diagnosis/no_meaning.h"
 #include "diagnosis/pair.h"
 #include "diagnosis/place.h"
@@ -110,7 +111,11 @@ class Search {
         GapMap(records_, at_.base_held_out, attempts_.empty() ? nullptr : &attempts_[0].held_out,
                flame_noise_, lines_.empty());
     if (out.kind != VerdictKind::kNone) {
-      out.where = FindPlaces(records_, attempts_, out.kind, slack_before_);
+      std::vector<BlockSlack> blocks;
+      if (out.kind == VerdictKind::kUnknown) {
+        blocks = Localise(at_, lines_, origin_, fluctuation_, options_.threads);
+      }
+      out.where = FindPlaces(records_, attempts_, out.kind, slack_before_, blocks);
     }
     if (out.kind != VerdictKind::kNone && !attempts_.empty()) {
       out.shrinkage_no_meaning = ShrinkageByNoMeaning(attempts_[0]);
@@ -151,10 +156,10 @@ class Search {
   bool Stopped() const { return options_.stopped && options_.stopped(); }
 
   void TryAll() {
-    const LineOrigin origin = ExplainLines(records_, base_, lines_);
-    GainFluctuation fluctuation = EstimateGainFluctuation(records_, base_);
+    origin_ = ExplainLines(records_, base_, lines_);
+    fluctuation_ = EstimateGainFluctuation(records_, base_);
     if (reference_) {
-      fluctuation.gain = std::max(0.0, fluctuation.gain - reference_->fluctuation_gain);
+      fluctuation_.gain = std::max(0.0, fluctuation_.gain - reference_->fluctuation_gain);
     }
     attempts_.resize(units_.size());
     std::size_t work = 0;
@@ -163,7 +168,7 @@ class Search {
     std::mutex progress_lock;
     RunUnits(units_.size(), options_.threads, [&](std::size_t i) {
       if (Stopped()) return;
-      attempts_[i] = Try(units_[i], origin, fluctuation);
+      attempts_[i] = Try(units_[i]);
       const std::size_t now = done += WorkOf(units_[i]);
       if (options_.progress) {
         const std::lock_guard<std::mutex> lock(progress_lock);
@@ -176,16 +181,15 @@ class Search {
     }
   }
 
-  Attempt Try(const EffectForms& forms, const LineOrigin& origin,
-              const GainFluctuation& fluctuation) const {
+  Attempt Try(const EffectForms& forms) const {
     const Effect& effect = *forms[0];
     switch (effect.kind()) {
       case EffectKind::kTransfer:
         return TryTransfer(at_, forms);
       case EffectKind::kGain:
-        return TryGain(at_, effect, fluctuation);
+        return TryGain(at_, effect, fluctuation_);
       case EffectKind::kLine:
-        return TryLines(at_, effect, lines_, origin);
+        return TryLines(at_, effect, lines_, origin_);
       case EffectKind::kClipping:
         return TryClipping(at_, effect);
       case EffectKind::kDeclaredMap:
@@ -325,6 +329,8 @@ class Search {
   EffectFit base_;
   Setting at_;
   Slack slack_before_;
+  LineOrigin origin_;
+  GainFluctuation fluctuation_;
   std::vector<Attempt> attempts_;
   std::vector<Eigen::VectorXd> flame_noise_;
   GapParts gap_before_;

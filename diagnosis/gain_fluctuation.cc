@@ -163,9 +163,8 @@ GainFluctuation EstimateGainFluctuation(const std::vector<CutRecord>& records,
     }
     // Independent values: the low-pass's noise bandwidth times the duration.
     const double independent = 1.25 * low_pass_hz * d.step_s * count;
-    if (re > im) {
-      out.gain += 0.5 * independent * (2.0 * std::log(0.5 * (re + im)) - std::log(re * im));
-    }
+    (re > im ? out.gain : out.quadrature_gain) +=
+        0.5 * independent * (2.0 * std::log(0.5 * (re + im)) - std::log(re * im));
     for (std::size_t i = 2; i < d.ratio.size(); ++i) {
       const double off = d.Scaled(i).real() - mean.real();
       lag_product += off * (d.Scaled(i - 2).real() - mean.real());

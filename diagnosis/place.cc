@@ -3,55 +3,49 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace howl {
 namespace {
 
 constexpr double kFlameAllowance = 120.0;
 constexpr double kTemperature = 3.0;
+constexpr double kTemperatureShare = 0.02;
 
-bool IsInstrument(LoopBlock block) {
-  return block == LoopBlock::kPressureInstrument || block == LoopBlock::kHeatReleaseInstrument;
-}
+struct Score {
+  LoopBlock block;
+  double gain;
+};
 
-// Which cuts a block's error shows in.
-bool Reaches(LoopBlock block, bool acoustic_cut) {
-  if (IsInstrument(block)) return true;
-  const bool acoustic = block == LoopBlock::kAcoustics || block == LoopBlock::kSource;
-  return acoustic == acoustic_cut;
+void Raise(LoopBlock block, double gain, std::vector<Score>* scores) {
+  const auto same = std::find_if(scores->begin(), scores->end(),
+                                 [&](const Score& score) { return score.block == block; });
+  if (same == scores->end()) {
+    scores->push_back({block, gain});
+  } else {
+    same->gain = std::max(same->gain, gain);
+  }
 }
 
 }  // namespace
 
 std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
                               const std::vector<Attempt>& attempts, VerdictKind kind,
-                              const Slack& before) {
+                              const Slack& before, const std::vector<BlockSlack>& blocks) {
   const bool acoustic = before.acoustic_excess > 0.1 * before.flame_excess;
   const bool flame = before.flame_excess > std::max(kFlameAllowance, 0.1 * before.acoustic_excess);
-  struct Score {
-    LoopBlock block;
-    double gain;
-  };
   std::vector<Score> scores;
   for (const Attempt& attempt : attempts) {
-    double gain = std::max(0.0, attempt.candidate.gain);
-    // No effect explains it: the place is where the cuts disagree with the model.
-    if (kind == VerdictKind::kUnknown && acoustic && flame &&
-        !IsInstrument(attempt.candidate.block)) {
-      gain *= 0.3;
-    }
-    if (kind == VerdictKind::kUnknown && acoustic != flame &&
-        (IsInstrument(attempt.candidate.block) || !Reaches(attempt.candidate.block, acoustic))) {
-      gain *= 0.3;
-    }
-    auto same = std::find_if(scores.begin(), scores.end(), [&](const Score& score) {
-      return score.block == attempt.candidate.block;
-    });
-    if (same == scores.end()) {
-      scores.push_back({attempt.candidate.block, gain});
-    } else {
-      same->gain = std::max(same->gain, gain);
-    }
+    Raise(attempt.candidate.block, std::max(0.0, attempt.candidate.gain), &scores);
+  }
+  double most_gain = 0.0;
+  for (const BlockSlack& slack : blocks) {
+    Raise(slack.block, std::max(0.0, slack.gain), &scores);
+  }
+  for (const Score& score : scores) most_gain = std::max(most_gain, score.gain);
+  // What is seen in a channel's samples needs no likelihood.
+  for (const BlockSlack& slack : blocks) {
+    if (slack.seen) Raise(slack.block, 2.0 * most_gain + 10.0 * kTemperature, &scores);
   }
   double total = 0.0;
   if (kind == VerdictKind::kEffect) {
@@ -68,7 +62,8 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
   } else {
     double top = 0.0;
     for (const Score& score : scores) top = std::max(top, score.gain);
-    const double temperature = kTemperature + 0.1 * top;
+    // Models are never exact: distances count by their share of the largest gain too.
+    const double temperature = kTemperature + kTemperatureShare * top;
     for (Score& score : scores) {
       score.gain = std::exp((score.gain - top) / temperature);
       total += score.gain;
@@ -104,7 +99,15 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
   std::vector<Place> places;
   for (const Score& score : scores) {
     if (score.gain / total < 0.02) continue;
-    places.push_back({score.block, low, high, names, score.gain / total});
+    Place place{score.block, low, high, names, score.gain / total};
+    double best = 0.0;  // of the block's own forms
+    for (const BlockSlack& slack : blocks) {
+      if (slack.block != score.block || slack.high_hz == 0.0 || slack.gain <= best) continue;
+      best = slack.gain;
+      place.low_hz = slack.low_hz;
+      place.high_hz = slack.high_hz;
+    }
+    places.push_back(std::move(place));
   }
   std::sort(places.begin(), places.end(),
             [](const Place& a, const Place& b) { return a.share > b.share; });

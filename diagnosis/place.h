@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "diagnosis/candidates/attempt.h"
+#include "diagnosis/localise/localise.h"
 #include "diagnosis/slack.h"
 
 namespace howl {
 
 // Blocks by the probability of the effects that act there; where no effect explains the gap, by
-// what the effects of each block would take off it. Band and experiments are the slack's.
+// what the effects and the free slack of each block would take off it.
 std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
                               const std::vector<Attempt>& attempts, VerdictKind kind,
-                              const Slack& before);
+                              const Slack& before, const std::vector<BlockSlack>& blocks);
 
 }  // namespace howl
 

@@ -139,6 +139,13 @@ Eigen::ArrayXd FlameResidualInTime(const CutRecord& record, const EffectFit& bas
 
 }  // namespace
 
+bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure) {
+  const auto edges = std::count_if(records.begin(), records.end(), [&](const CutRecord& record) {
+    return SharpEdge(pressure ? record.pressure : record.heat_release);
+  });
+  return 2 * static_cast<std::size_t>(edges) > records.size();
+}
+
 ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
                         const EffectFit& base) {
   ClippingFit out;

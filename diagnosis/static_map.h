@@ -28,6 +28,9 @@ struct ClippingFit {
 ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
                         const EffectFit& base);
 
+// In the samples of most records: the density of the signal's values ends in an edge.
+bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure);
+
 struct FewLevels {
   bool found = false;
   double levels = 0.0;  // mean over the experiments

@@ -1,0 +1,176 @@
+#include "diagnosis/localise/free_map.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "diagnosis/cut_noise.h"
+#include "diagnosis/real_fft.h"
+#include "diagnosis/real_gram.h"
+
+namespace howl {
+namespace {
+
+constexpr int kRounds = 3;
+constexpr int kIterations = 5;
+constexpr int kHalvings = 5;
+constexpr double kLeastGain = 25.0;  // what six coefficients cost, and a little
+
+const Eigen::VectorXd& Channel(const CutRecord& record, bool pressure) {
+  return pressure ? record.pressure : record.heat_release;
+}
+
+// Spectra of A T_j(x / A), extended band.
+Eigen::MatrixXcd MapSpectra(const CutRecord& record, const Eigen::VectorXd& signal,
+                            double largest) {
+  const Eigen::ArrayXd x = (signal.array() / largest).max(-1.0).min(1.0);
+  Eigen::ArrayXd before = Eigen::ArrayXd::Ones(x.size());
+  Eigen::ArrayXd now = x;
+  Eigen::MatrixXcd out(record.extended(), kMapTerms);
+  for (Eigen::Index j = 0; j < kMapTerms; ++j) {
+    const Eigen::ArrayXd next = 2.0 * x * now - before;
+    before = now;
+    now = next;
+    out.col(j) = largest * ForwardFft(now.matrix()).segment(record.first - kTapReach, out.rows());
+  }
+  return out;
+}
+
+Eigen::VectorXd PredictedPressure(const CutRecord& record, const Eigen::VectorXcd& transfer) {
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.pressure_spectrum.size());
+  const Eigen::Index start = record.first - kTapReach;
+  spectrum.segment(start, transfer.size()) =
+      transfer.cwiseProduct(record.heat_release_spectrum.segment(start, transfer.size()));
+  return InverseFft(spectrum, record.samples);
+}
+
+Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, double largest,
+                         const AcousticLocals& locals) {
+  Eigen::MatrixXcd out(record.acoustic_count, kMapTerms);
+  const Eigen::VectorXcd r = RecordedTransfer(record, *BaseEffect(), {}, locals);
+  // A predicted p may be larger than any that was recorded.
+  const Eigen::MatrixXcd spectra =
+      pressure ? MapSpectra(record, PredictedPressure(record, r), 1.5 * largest)
+               : MapSpectra(record, record.heat_release, largest);
+  for (Eigen::Index j = 0; j < kMapTerms; ++j) {
+    out.col(j) = pressure ? ApplyWindow(-spectra.col(j), record.acoustic_count)
+                          : ApplyWindow(-r.cwiseProduct(spectra.col(j)), record.acoustic_count);
+  }
+  return out;
+}
+
+// Scaled and a little damped.
+Eigen::MatrixXd Solve(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& right) {
+  const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-9;
+  return scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * right);
+}
+
+// Cut B's fit with p as the duct makes it from recorded q in the place of the bent one.
+class FlameAlone final : public NamedEffect {
+ public:
+  FlameAlone() : NamedEffect("slack_p_map", LoopBlock::kPressureInstrument, {}) {}
+  bool ChangesFlameCut() const override { return true; }
+};
+
+void DriveFlame(const std::vector<CutRecord>& records, EffectFit* fit) {
+  std::vector<CutRecord> driven = records;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const Eigen::VectorXcd r =
+        RecordedTransfer(records[e], *BaseEffect(), {}, fit->experiments[e].acoustics);
+    driven[e].pressure = PredictedPressure(records[e], r);
+    driven[e].pressure_spectrum = ForwardFft(driven[e].pressure);
+  }
+  const EffectFit flame = FitEffect(driven, std::make_shared<FlameAlone>(), *fit);
+  fit->flame_cost = flame.flame_cost;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    fit->experiments[e].flame_residual = flame.experiments[e].flame_residual;
+    fit->experiments[e].flame_noise = flame.experiments[e].flame_noise;
+  }
+}
+
+}  // namespace
+
+EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const EffectFit& base) {
+  EffectFit fit = base;
+  const Effect& none = *base.effect;
+  double largest = 0.0;
+  for (const CutRecord& record : records) {
+    largest = std::max(largest, Channel(record, pressure).cwiseAbs().maxCoeff());
+  }
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(kMapTerms);
+  const auto residual = [&](std::size_t e, const Eigen::MatrixXcd& columns) {
+    return (AcousticResidual(records[e], none, {}, fit.experiments[e].acoustics) + columns * c)
+        .eval();
+  };
+  const auto squares = [&](std::size_t e, const Eigen::VectorXcd& error) {
+    return error.cwiseAbs2().dot(AcousticWeights(records[e], fit.experiments[e].acoustic_noise));
+  };
+  EffectFit best = base;  // refitted noise may undo what the squares gained
+  for (int round = 0; round < kRounds; ++round) {
+    for (int i = 0; i < kIterations; ++i) {
+      double now = 0.0;
+      Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(kMapTerms, kMapTerms);
+      Eigen::VectorXd right = Eigen::VectorXd::Zero(kMapTerms);
+      std::vector<Eigen::MatrixXd> local(records.size());  // of the experiment's own four
+      for (std::size_t e = 0; e < records.size(); ++e) {
+        const ExperimentFit& at = fit.experiments[e];
+        const Eigen::VectorXd weight = AcousticWeights(records[e], at.acoustic_noise);
+        const Eigen::MatrixXcd columns = Columns(records[e], pressure, largest, at.acoustics);
+        const Eigen::VectorXcd error = residual(e, columns);
+        now += squares(e, error);
+        const Eigen::MatrixXcd jacobian =
+            AcousticJacobian(records[e], none, {}, at.acoustics, error, Eigen::VectorXd());
+        Eigen::MatrixXd both(4, 1 + kMapTerms);
+        both << RealGram(weight, jacobian, error), RealGram(weight, jacobian, columns);
+        local[e] = Solve(RealGram(weight, jacobian, jacobian), both);
+        const Eigen::MatrixXd mixed = both.rightCols(kMapTerms);
+        gram +=
+            RealGram(weight, columns, columns) - mixed.transpose() * local[e].rightCols(kMapTerms);
+        right += RealGram(weight, columns, error) - mixed.transpose() * local[e].col(0);
+      }
+      const Eigen::VectorXd step = -Solve(gram, right);
+      const EffectFit was = fit;
+      const Eigen::VectorXd c_was = c;
+      // Halved until the squares fall: far from the truth the locals overshoot.
+      double share = 1.0;
+      for (int half = 0; half < kHalvings; ++half, share *= 0.5) {
+        c = c_was + share * step;
+        double moved = 0.0;
+        for (std::size_t e = 0; e < records.size(); ++e) {
+          Eigen::Vector4d move = -local[e].col(0) - local[e].rightCols(kMapTerms) * step;
+          move[0] = std::clamp(move[0], -0.1, 0.1);
+          move[1] = std::clamp(move[1], -0.5, 0.5);
+          AcousticLocals& locals = fit.experiments[e].acoustics;
+          locals = was.experiments[e].acoustics + share * move;
+          moved += squares(e, residual(e, Columns(records[e], pressure, largest, locals)));
+        }
+        if (moved < now) break;
+        if (half + 1 == kHalvings) {
+          fit = was;
+          c = c_was;
+        }
+      }
+    }
+    fit.acoustic_cost = 0.0;
+    for (std::size_t e = 0; e < records.size(); ++e) {
+      ExperimentFit& at = fit.experiments[e];
+      at.acoustic_residual = residual(e, Columns(records[e], pressure, largest, at.acoustics));
+      const Eigen::VectorXcd r = RecordedTransfer(records[e], none, {}, at.acoustics);
+      at.acoustic_noise =
+          FitAcousticNoise(records[e], at.acoustic_residual,
+                           r.segment(kTapReach, records[e].acoustic_count).cwiseAbs2());
+      fit.acoustic_cost += AcousticCost(records[e], at.acoustic_residual, at.acoustic_noise);
+    }
+    if (fit.acoustic_cost < best.acoustic_cost) best = fit;
+  }
+  // Driven by a predicted p the flame is free of p's sensor noise too: no evidence of a bend.
+  if (pressure && best.acoustic_cost < base.acoustic_cost - kLeastGain) {
+    DriveFlame(records, &best);
+  }
+  return best;
+}
+
+}  // namespace howl

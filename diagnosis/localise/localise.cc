@@ -1,0 +1,156 @@
+#include "diagnosis/localise/localise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+
+#include "diagnosis/localise/free_additive.h"
+#include "diagnosis/localise/free_map.h"
+#include "diagnosis/localise/free_slack.h"
+#include "diagnosis/static_map.h"
+#include "estimation/parallel.h"
+
+namespace howl {
+namespace {
+
+constexpr double kBandOfCycle = 0.2;  // width, of the cycle's frequency
+constexpr double kBandShare = 0.1;    // of the largest band's gain
+
+// In bands of both cuts, what the fit takes off the base's squares.
+void FindBand(const Setting& at, const EffectFit& fit, BlockSlack* out) {
+  const std::vector<CutRecord>& records = *at.records;
+  const double width = kBandOfCycle * records[0].at.cycle_frequency_hz;
+  const double low = records[0].frequency(0);
+  std::vector<double> gains;
+  const auto add = [&](const CutRecord& record, const Eigen::VectorXcd& before,
+                       const Eigen::VectorXcd& after, const Eigen::VectorXd& noise) {
+    for (Eigen::Index k = 0; k < after.size(); ++k) {
+      if (record.masked[static_cast<std::size_t>(k)]) continue;
+      const auto band = static_cast<std::size_t>((record.frequency(k) - low) / width);
+      if (band >= gains.size()) gains.resize(band + 1, 0.0);
+      gains[band] += (std::norm(before[k]) - std::norm(after[k])) / noise[k];
+    }
+  };
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const ExperimentFit& before = at.base->experiments[e];
+    const ExperimentFit& after = fit.experiments[e];
+    if (fit.effect->ChangesAcousticCut()) {
+      add(records[e], before.acoustic_residual, after.acoustic_residual, after.acoustic_noise);
+    }
+    if (fit.effect->ChangesFlameCut()) {
+      add(records[e], before.flame_residual, after.flame_residual, after.flame_noise);
+    }
+  }
+  const double most = *std::max_element(gains.begin(), gains.end());
+  for (std::size_t b = 0; b < gains.size(); ++b) {
+    if (gains[b] < kBandShare * most) continue;
+    const double from = low + static_cast<double>(b) * width;
+    if (out->high_hz == 0.0) out->low_hz = from;
+    out->high_hz = from + width;
+  }
+}
+
+BlockSlack Paid(const Setting& at, const EffectFit& fit, LoopBlock block, std::string form,
+                double parameters) {
+  Attempt attempt;
+  attempt.candidate.gain = at.base->cost() - fit.cost();
+  attempt.parameters = parameters;
+  PayForParameters(&attempt);
+  BlockSlack out{block, std::move(form), attempt.candidate.gain, false, 0.0, 0.0};
+  FindBand(at, fit, &out);
+  return out;
+}
+
+BlockSlack TryForm(const Setting& at, const EffectPointer& form) {
+  const EffectFit fit = FitEffect(*at.records, form, *at.base);
+  return Paid(at, fit, form->block(), std::string(form->id()),
+              static_cast<double>(fit.values.size()));
+}
+
+BlockSlack TryMap(const Setting& at, bool pressure) {
+  const EffectFit fit = FitFreeMap(*at.records, pressure, *at.base);
+  BlockSlack out =
+      Paid(at, fit, pressure ? LoopBlock::kPressureInstrument : LoopBlock::kHeatReleaseInstrument,
+           pressure ? "slack_p_map" : "slack_q_map", static_cast<double>(kMapTerms));
+  // What a reference shows too is no gap.
+  const ReferenceModel* known = at.reference;
+  const bool known_edge =
+      known && (pressure ? known->pressure_sharp_edge : known->heat_release_sharp_edge);
+  const bool known_levels = known && known->quantisation_levels > 0.0;
+  out.seen = (HasSharpEdge(*at.records, pressure) && !known_edge) ||
+             (pressure && FindQuantisation(*at.records).found && !known_levels);
+  return out;
+}
+
+// The experiment whose own delay would differ most from the shared one, to first order.
+std::size_t OddOne(const EffectFit& base) {
+  std::size_t odd = 0;
+  double most = -1.0;
+  for (std::size_t e = 0; e < base.experiments.size(); ++e) {
+    const ExperimentFit& at = base.experiments[e];
+    const double gain = at.gradient[0] * at.gradient[0] / std::max(at.curvature(0, 0), 1e-300);
+    if (gain > most) {
+      most = gain;
+      odd = e;
+    }
+  }
+  return odd;
+}
+
+}  // namespace
+
+std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLine>& lines,
+                                 const LineOrigin& origin, const GainFluctuation& fluctuation,
+                                 int threads) {
+  const CutRecord& first = (*at.records)[0];
+  const SlackScale scale{first.at.cycle_frequency_hz,
+                         std::sqrt(first.frequency(0) * first.frequency(first.acoustic_count - 1)),
+                         at.base->tau_s};
+  std::vector<EffectPointer> forms;
+  const auto add = [&](std::vector<EffectPointer> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(forms));
+  };
+  add(FreePressureInstrument(scale));
+  add(FreeAcoustics(scale));
+  add(FreeHeatReleaseInstrument(scale));
+  add(FreeDelay(scale));
+  add(FreeFlame(scale));
+  if (at.records->size() > 2) {
+    add(FreePoint((*at.records)[OddOne(*at.base)].at.phi_position));
+  }
+  std::vector<BlockSlack> out(forms.size() + 2);
+  RunUnits(out.size(), threads, [&](std::size_t i) {
+    out[i] = i < forms.size() ? TryForm(at, forms[i]) : TryMap(at, i == forms.size());
+  });
+  const AdditiveGain additive = FitFreeAdditive(*at.records, *at.base);
+  const auto paid = [&](LoopBlock block, const std::string& form, double gain) {
+    Attempt attempt;
+    attempt.candidate.gain = gain;
+    attempt.parameters = additive.parameters;
+    PayForParameters(&attempt);
+    out.push_back({block, form, attempt.candidate.gain, false, additive.low_hz, additive.high_hz});
+  };
+  paid(LoopBlock::kSource, "slack_source_additive", additive.source);
+  paid(LoopBlock::kPressureInstrument, "slack_p_additive", additive.pressure);
+  paid(LoopBlock::kHeatReleaseInstrument, "slack_q_additive", additive.heat_release);
+  if (fluctuation.gain > 0.0) {
+    out.push_back({LoopBlock::kFlame, "slack_flame_gain", fluctuation.gain, false, 0.0, 0.0});
+  }
+  if (fluctuation.quadrature_gain > 0.0) {
+    out.push_back(
+        {LoopBlock::kDelay, "slack_delay_wander", fluctuation.quadrature_gain, false, 0.0, 0.0});
+  }
+  if (!lines.empty()) {
+    const double low = lines.front().frequency_hz;
+    const double high = lines.back().frequency_hz;
+    out.push_back({LoopBlock::kSource, "line", origin.source, false, low, high});
+    out.push_back(
+        {LoopBlock::kPressureInstrument, "line_in_p", origin.pressure_hum, false, low, high});
+    out.push_back({LoopBlock::kHeatReleaseInstrument, "line_in_q", origin.heat_release_hum, false,
+                   low, high});
+  }
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,33 @@
+// The place of a gap that no effect of the catalogue explains: each block of the loop in turn is
+// given slack (free_slack.h, free_map.h), base and slack are fitted together, and the block whose
+// slack takes most off the likelihood, parameters paid for, is the place. What is no fit: coherent
+// lines by the ratio that they leave over in the two cuts (coherent_lines.h); fluctuations of the
+// flame's answer in phase (gain: flame) or in quadrature (delay); few levels and sharp edges of a
+// channel, seen in its samples.
+#ifndef HOWL_DIAGNOSIS_LOCALISE_LOCALISE_H_
+#define HOWL_DIAGNOSIS_LOCALISE_LOCALISE_H_
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/candidates/attempt.h"
+
+namespace howl {
+
+struct BlockSlack {
+  LoopBlock block = LoopBlock::kAcoustics;
+  std::string form;
+  double gain = 0.0;    // of log-likelihood over the base, less half a log(data) a parameter
+  bool seen = false;    // in the samples themselves
+  double low_hz = 0.0;  // where it takes most off; zeros: nowhere in particular
+  double high_hz = 0.0;
+};
+
+// Every form of every block; nothing in it is random.
+std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLine>& lines,
+                                 const LineOrigin& origin, const GainFluctuation& fluctuation,
+                                 int threads);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOCALISE_LOCALISE_H_
