@@ -32,8 +32,14 @@ Eigen::VectorXd Hertz(Eigen::Index first, Eigen::Index count, double bin_hz) {
          bin_hz;
 }
 
-Eigen::VectorXcd SquareSpectrum(const CutRecord& record, const Eigen::VectorXcd& spectrum) {
-  return ForwardFft(2.0 * InverseFft(spectrum, record.samples).cwiseAbs2());
+// Of signal squared plus quadrature squared: the square of the amplitude, with no ripple at twice
+// the cycle's frequency.
+Eigen::VectorXcd SquareSpectrum(const CutRecord& record, Eigen::VectorXcd spectrum) {
+  const Eigen::VectorXd in_phase = InverseFft(spectrum, record.samples);
+  spectrum *= std::complex<double>(0.0, -1.0);
+  spectrum[0] = 0.0;
+  const Eigen::VectorXd quadrature = InverseFft(spectrum, record.samples);
+  return ForwardFft(in_phase.cwiseAbs2() + quadrature.cwiseAbs2());
 }
 
 // The root of twice the mean square.
