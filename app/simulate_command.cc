@@ -104,17 +104,24 @@ Rig MakeRig(const Experiment& experiment, const LoopModel& model, const Simulati
   return rig;
 }
 
+// Amplitude of p' at the cycle.
+double Rate(const Rig& rig, const Experiment& experiment) {
+  return kRadPerSPerHz * experiment.frequency_hz * rig.pressure_amplitude;
+}
+
 // The config's effects, relative to the cycles that the rigs have without them.
 void AddEffects(const Config& config, const std::vector<Experiment>& experiments,
                 std::vector<Rig>* rigs) {
   const auto count = static_cast<double>(rigs->size());
   double pressure = 0.0;
   double heat_release = 0.0;
+  double rate = 0.0;
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
   for (std::size_t i = 0; i < rigs->size(); ++i) {
     pressure += (*rigs)[i].pressure_amplitude / count;
     heat_release += (*rigs)[i].heat_release_amplitude / count;
+    rate += Rate((*rigs)[i], experiments[i]) / count;
     lowest = std::min(lowest, experiments[i].phi);
     highest = std::max(highest, experiments[i].phi);
   }
@@ -127,9 +134,11 @@ void AddEffects(const Config& config, const std::vector<Experiment>& experiments
     scale.at.relative_amplitude = rig.pressure_amplitude / pressure;
     scale.at.heat_release_over_pressure = heat_release / pressure;
     scale.at.own_heat_release_over_pressure = rig.heat_release_amplitude / rig.pressure_amplitude;
+    scale.at.relative_rate_amplitude = Rate(rig, experiments[i]) / rate;
     scale.pressure_amplitude = rig.pressure_amplitude;
     scale.heat_release_amplitude = rig.heat_release_amplitude;
     scale.mean_pressure_amplitude = pressure;
+    scale.mean_rate_amplitude = rate;
     scale.duration_s = config.simulation.duration_s;
     for (const SimulatedEffect& one : config.simulation.effects) {
       const std::string fault = one.effect->SimulationFault(rig.parameters, one.values);

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "diagnosis/real_fft.h"
+#include "diagnosis/acoustic_modulation.h"
 
 namespace howl {
 namespace {
@@ -14,7 +14,6 @@ namespace {
 // by cubic Lagrange polynomials.
 constexpr Eigen::Index kStride = 4;
 constexpr double kLogStep = 1e-5;
-constexpr double kModulationStep = 1e-3;
 constexpr double kSameMode = 0.75;          // of one cycle's frequency over another's
 constexpr double kNeighbourLogOmega = 0.1;  // on the grid of starts
 constexpr double kNeighbourLogXi = 0.8;
@@ -53,60 +52,6 @@ AcousticLocals Moved(AcousticLocals locals, int which, double by) {
   return locals;
 }
 
-// p(t) of a transfer on the band.
-Eigen::VectorXd Pressure(const CutRecord& record, const Eigen::VectorXcd& transfer) {
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.pressure_spectrum.size());
-  const Eigen::Index start = record.first - kTapReach;
-  spectrum.segment(start, record.extended()) =
-      transfer.cwiseProduct(record.heat_release_spectrum.segment(start, record.extended()));
-  return InverseFft(spectrum, record.samples);
-}
-
-Eigen::VectorXcd ModulatedResidual(const CutRecord& record, const Effect& effect, EffectValues x,
-                                   const AcousticLocals& locals) {
-  const Eigen::Index n = record.samples;
-  Eigen::ArrayXd log_omega(n);
-  Eigen::ArrayXd xi_add(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double factor = 1.0;
-    double add = 0.0;
-    effect.ModulateAcoustics(static_cast<double>(i) / static_cast<double>(n) - 0.5,
-                             record.amplitude[i], x, &factor, &add);
-    log_omega[i] = std::log(factor);
-    xi_add[i] = add;
-  }
-  if (log_omega.abs().maxCoeff() == 0.0 && xi_add.abs().maxCoeff() == 0.0) {
-    return Bare(record, RecordedTransfer(record, effect, x, locals));
-  }
-  const double xi = std::exp(locals[1]);
-  // Expanded about the means, which keeps the moves small.
-  AcousticLocals centre = locals;
-  centre[0] += log_omega.mean();
-  centre[1] = std::log(std::max(xi + xi_add.mean(), 1e-4));
-  log_omega -= log_omega.mean();
-  Eigen::ArrayXd log_xi = ((xi + xi_add) / std::exp(centre[1])).max(1e-3).log();
-  const auto transfer = [&](int which, double by) {
-    return RecordedTransfer(record, effect, x, Moved(centre, which, by));
-  };
-  const Eigen::VectorXcd r = transfer(0, 0.0);
-  Eigen::ArrayXd moved = Eigen::ArrayXd::Zero(n);
-  for (int which : {0, 1}) {
-    const Eigen::ArrayXd& by = which == 0 ? log_omega : log_xi;
-    if (by.abs().maxCoeff() == 0.0) continue;
-    const Eigen::VectorXcd up = transfer(which, kModulationStep);
-    const Eigen::VectorXcd down = transfer(which, -kModulationStep);
-    moved += by * Pressure(record, (up - down) / (2.0 * kModulationStep)).array();
-    moved += 0.5 * by.square() *
-             Pressure(record, (up + down - 2.0 * r) / (kModulationStep * kModulationStep)).array();
-  }
-  Eigen::VectorXcd residual = Bare(record, r);
-  if (moved.abs().maxCoeff() == 0.0) return residual;
-  residual -=
-      ApplyWindow(ForwardFft(moved.matrix()).segment(record.first - kTapReach, record.extended()),
-                  record.acoustic_count);
-  return residual;
-}
-
 }  // namespace
 
 Acoustics<double> ToAcoustics(const AcousticLocals& locals) {
@@ -116,20 +61,19 @@ Acoustics<double> ToAcoustics(const AcousticLocals& locals) {
 Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
                                   const AcousticLocals& locals) {
   const Acoustics<double> acoustics = ToAcoustics(locals);
+  const auto path = [&](double f) {
+    return effect.Acoustics(acoustics, f, x) * effect.PressureInstrument(f, x) /
+           effect.HeatReleaseInstrument(f, x);
+  };
   if (record.reference.acoustic.size() > 0) {
-    Eigen::VectorXcd k = OnBand(record, [&](double f) {
-      return effect.Acoustics(acoustics, f, x) * effect.PressureInstrument(f, x) /
-             effect.HeatReleaseInstrument(f, x);
-    });
-    k = k.cwiseProduct(record.reference.acoustic);
+    Eigen::VectorXcd k = OnBand(record, path).cwiseProduct(record.reference.acoustic);
     for (Eigen::Index i = 0; i < k.size(); ++i) {
       k[i] /= 1.0 + effect.PressureLeak(record.frequency_hz[i], record.at, x) * k[i];
     }
     return k;
   }
   return OnBand(record, [&](double f) {
-    const Response k = effect.Acoustics(acoustics, f, x) * effect.PressureInstrument(f, x) /
-                       effect.HeatReleaseInstrument(f, x);
+    const Response k = path(f);
     const Response leak = effect.PressureLeak(f, record.at, x);
     return leak == 0.0 ? k : k / (1.0 + leak * k);
   });
@@ -137,8 +81,14 @@ Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect,
 
 Eigen::VectorXcd AcousticResidual(const CutRecord& record, const Effect& effect, EffectValues x,
                                   const AcousticLocals& locals) {
-  if (effect.ModulatesAcoustics()) return ModulatedResidual(record, effect, x, locals);
-  return Bare(record, RecordedTransfer(record, effect, x, locals));
+  Eigen::VectorXcd residual = Bare(record, RecordedTransfer(record, effect, x, locals));
+  if (!effect.ModulatesAcoustics()) return residual;
+  const AcousticModulation modulation = Modulation(record, effect, x);
+  if (modulation.log_omega.size() + modulation.xi_add.size() > 0) {
+    residual -=
+        ApplyWindow(MovedPressure(record, effect, x, locals, modulation), record.acoustic_count);
+  }
+  return residual;
 }
 
 Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect, EffectValues x,
@@ -147,7 +97,7 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
   Eigen::MatrixXcd jacobian(record.acoustic_count, 4 + steps.size());
   const Eigen::Index start = record.first - kTapReach;
   const auto q = record.heat_release_spectrum.segment(start, record.extended());
-  // Modulations hardly change how the residual moves with the locals.
+  // What moves about the means hardly changes how the residual moves with the locals.
   const Eigen::VectorXcd r = RecordedTransfer(record, effect, x, locals);
   for (int i = 0; i < 4; ++i) {
     const double step = i < 2 ? kLogStep : kLogStep * std::max(std::abs(locals[2]), 1e-12);
@@ -197,16 +147,17 @@ std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect
     double cost;
   };
   std::vector<Start> starts;
+  const auto residual = [&](const AcousticLocals& at) {
+    return whitened(Bare(record, RecordedTransfer(record, effect, x, at)));
+  };
   for (const Eigen::Vector2d& place : places) {
     AcousticLocals locals(place[0], place[1], 0.0, 0.0);
     Eigen::MatrixXd columns(2 * n, 2);
     Eigen::VectorXd y(2 * n);
-    const Eigen::VectorXcd target = whitened(AcousticResidual(record, effect, x, locals));
+    const Eigen::VectorXcd target = residual(locals);
     y << target.real(), target.imag();
     for (int i = 0; i < 2; ++i) {
-      const Eigen::VectorXcd column =
-          target -
-          whitened(Bare(record, RecordedTransfer(record, effect, x, Moved(locals, 2 + i, 1.0))));
+      const Eigen::VectorXcd column = target - residual(Moved(locals, 2 + i, 1.0));
       columns.col(i) << column.real(), column.imag();
     }
     const Eigen::Matrix2d gram = columns.transpose() * columns;

@@ -3,8 +3,8 @@
 //
 //   E_A = P - R Q,    R = K / (1 + leak K),    K = G PressureInstrument / HeatReleaseInstrument
 //
-// Slow modulations of the acoustics enter by the quasi-static expansion to second order,
-//   p(t) = [R q] + d(t) [R' q] + d(t)^2 / 2 [R'' q].
+// Where the acoustics move (acoustic_modulation.h), R is that of their mean, and what the
+// movement adds to p is taken off too.
 #ifndef HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_
 #define HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_
 

@@ -20,7 +20,6 @@ constexpr double kHighestOfSamplingAcoustic = 0.33;
 constexpr double kHighestOfSamplingFlame = 0.26;
 constexpr double kTaper = 0.3;  // of cut B's band
 constexpr double kLowestSearched_hz = 20.0;
-constexpr double kEnvelopeBand = 0.15;  // of the cycle's frequency
 
 Eigen::VectorXd WithoutMean(const std::vector<double>& signal, Eigen::Index samples) {
   Eigen::VectorXd out = Eigen::Map<const Eigen::VectorXd>(signal.data(), samples);
@@ -34,19 +33,19 @@ Eigen::VectorXd Hertz(Eigen::Index first, Eigen::Index count, double bin_hz) {
          bin_hz;
 }
 
-// |analytic signal| in a Gaussian band around the cycle.
-Eigen::VectorXd SlowAmplitude(const CutRecord& record) {
-  const double f0 = record.at.cycle_frequency_hz;
-  Eigen::VectorXcd band = record.pressure_spectrum;
-  for (Eigen::Index k = 0; k < band.size(); ++k) {
-    const double x = (static_cast<double>(k) * record.bin_hz - f0) / (kEnvelopeBand * f0);
-    band[k] *= std::exp(-x * x);
-  }
-  const Eigen::VectorXd in_phase = InverseFft(band, record.samples);
-  band *= std::complex<double>(0.0, -1.0);
-  band[0] = 0.0;
-  const Eigen::VectorXd quadrature = InverseFft(band, record.samples);
-  return (in_phase.array().square() + quadrature.array().square()).sqrt();
+// Of signal squared plus quadrature squared: the square of the amplitude, with no ripple at twice
+// the cycle's frequency.
+Eigen::VectorXcd SquareSpectrum(const CutRecord& record, Eigen::VectorXcd spectrum) {
+  const Eigen::VectorXd in_phase = InverseFft(spectrum, record.samples);
+  spectrum *= std::complex<double>(0.0, -1.0);
+  spectrum[0] = 0.0;
+  const Eigen::VectorXd quadrature = InverseFft(spectrum, record.samples);
+  return ForwardFft(in_phase.cwiseAbs2() + quadrature.cwiseAbs2());
+}
+
+// The root of twice the mean square.
+double Amplitude(const CutRecord& record, const Eigen::VectorXcd& square_spectrum) {
+  return std::sqrt(square_spectrum[0].real() / static_cast<double>(record.samples));
 }
 
 // s times a low-pass: one up to `edge`, falling to zero over the next quarter.
@@ -132,6 +131,22 @@ Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
   return out;
 }
 
+Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& sense) {
+  Eigen::VectorXcd spectrum = sense.of_rate ? record.rate_square_spectrum : record.square_spectrum;
+  const double lag_s = sense.memory_s / sense.lags;
+  for (Eigen::Index k = 1; k < spectrum.size(); ++k) {
+    const Response lag =
+        1.0 / (1.0 + lag_s * LaplaceVariable(static_cast<double>(k) * record.bin_hz));
+    for (int i = 0; i < sense.lags; ++i) spectrum[k] *= lag;
+  }
+  if (sense.over_own) {
+    const double own =
+        sense.of_rate ? record.at.relative_rate_amplitude : record.at.relative_amplitude;
+    spectrum /= own * own;
+  }
+  return InverseFft(spectrum, record.samples).array().max(0.0);
+}
+
 std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments) {
   CHECK(!experiments.empty());
   std::vector<CutRecord> records;
@@ -148,22 +163,28 @@ std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& ex
   std::nth_element(cycles.begin(), cycles.begin() + cycles.size() / 2, cycles.end());
   const double cycle_hz = cycles[cycles.size() / 2];
   double mean_amplitude = 0.0;
+  double mean_rate = 0.0;
   double mean_ratio = 0.0;
   const double count = static_cast<double>(records.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
     CutRecord& record = records[i];
     SetBand(cycle_hz, &record);
     record.lowest_cycle_hz = *std::min_element(cycles.begin(), cycles.end());
-    record.amplitude = SlowAmplitude(record);
-    mean_amplitude += record.amplitude.mean() / count;
     record.at.own_heat_release_over_pressure = record.heat_release.norm() / record.pressure.norm();
+    record.square_spectrum = SquareSpectrum(record, record.pressure_spectrum);
+    record.rate_square_spectrum =
+        SquareSpectrum(record, record.pressure_spectrum.cwiseProduct(record.derivative_filter));
+    mean_amplitude += Amplitude(record, record.square_spectrum) / count;
+    mean_rate += Amplitude(record, record.rate_square_spectrum) / count;
     mean_ratio += record.at.own_heat_release_over_pressure / count;
     record.at.phi_position =
         high > low ? (experiments[i].phi - 0.5 * (low + high)) / (high - low) : 0.0;
   }
   for (CutRecord& record : records) {
-    record.amplitude /= mean_amplitude;
-    record.at.relative_amplitude = record.amplitude.mean();
+    record.square_spectrum /= mean_amplitude * mean_amplitude;
+    record.rate_square_spectrum /= mean_rate * mean_rate;
+    record.at.relative_amplitude = Amplitude(record, record.square_spectrum);
+    record.at.relative_rate_amplitude = Amplitude(record, record.rate_square_spectrum);
     record.at.heat_release_over_pressure = mean_ratio;
   }
   return records;

@@ -68,8 +68,11 @@ struct CutRecord {
   // s times a low-pass, times the shrinkage of sensor_noise.h: over the half spectrum.
   Eigen::VectorXcd derivative_filter;
   Eigen::VectorXd sensor_noise;  // model-free V_A (sensor_noise.h)
-  Eigen::VectorXd amplitude;     // slow amplitude of p, relative to the mean of all records
-  std::vector<char> masked;      // bins with a coherent line: not used (acoustic_count)
+  // Twice the squares of p and of p' (low-passed), over those of the mean amplitude of all records:
+  // half spectra.
+  Eigen::VectorXcd square_spectrum;
+  Eigen::VectorXcd rate_square_spectrum;
+  std::vector<char> masked;  // bins with a coherent line: not used (acoustic_count)
   // What a bin counts for in cut B (flame_count). It falls to nothing towards the band's upper
   // edge: an edge is a filter that looks ahead, and ahead p knows the combustion noise.
   Eigen::VectorXd flame_share;
@@ -82,6 +85,10 @@ struct CutRecord {
 // The window's taps over `count` bins; extended has count + 4.
 Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
                              Eigen::Index count);
+
+// The slow amplitude that an effect feels, squared, relative to the mean of all records
+// or to its own.
+Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& sense);
 
 // Records of one rig. Both channels are needed, at one sampling rate each. The band goes from 0.15
 // to 8 (cut A) and 6.4 (cut B) times the cycle's frequency, and no further than 0.34 and 0.27 of

@@ -202,6 +202,24 @@ EffectFit FitFurther(const std::vector<CutRecord>& records, const EffectPointer&
   return FitFrom(records, combined, base, StartValues(*combined, first.values));
 }
 
+namespace {
+
+// Where the others leave the shared parameters loose, what they predict is loose too: under the
+// covariance V + J C J', C being that of the parameters from the others,
+//
+//   r' (V + J C J')^-1 r = min over d of |r - J d|^2 / V + d' C^-1 d.
+//
+// The minimum is the fit to all; the way to it costs shift' rest shift. The part of the shift that
+// costs the held-out experiment as much.
+double Contradiction(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& own,
+                     const Eigen::VectorXd& shift) {
+  const double to_the_rest = shift.dot(rest * shift);
+  const double to_the_own = shift.dot(own * shift);
+  return to_the_own > to_the_rest ? std::sqrt(std::max(to_the_rest, 0.0) / to_the_own) : 1.0;
+}
+
+}  // namespace
+
 ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fit,
                       std::size_t experiment) {
   EffectFit moved = fit;
@@ -213,8 +231,9 @@ ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fi
   const Eigen::VectorXd scale = rest.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * rest * scale.asDiagonal();
   scaled.diagonal().array() += 1e-6;
-  const Eigen::VectorXd shift = scale.cwiseProduct(
+  Eigen::VectorXd shift = scale.cwiseProduct(
       scaled.ldlt().solve(scale.cwiseProduct(fit.experiments[experiment].gradient)));
+  shift *= Contradiction(rest, fit.experiments[experiment].curvature, shift);
   moved.tau_s += shift[0];
   for (std::size_t j = 0; j < fit.values.size(); ++j) {
     const EffectParameter& p = fit.effect->parameters()[j];

@@ -56,7 +56,7 @@ EffectFit FitFurther(const std::vector<CutRecord>& records, const EffectPointer&
                      const EffectFit& base, const EffectFit& first);
 
 // The experiment's residuals with tau and the effect's parameters as the other experiments have
-// them, its own parameters refitted.
+// them, as far as these determine them; its own parameters refitted.
 ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fit,
                       std::size_t experiment);
 

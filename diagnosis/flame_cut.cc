@@ -45,8 +45,11 @@ Eigen::VectorXd FlameInput(const CutRecord& record, const Effect& effect, Effect
     first[k] = s * spectrum[k];
     second[k] = s * first[k];
   }
-  const Eigen::ArrayXd slow = tau_s * effect.DelayPerAmplitude(x) *
-                              (record.amplitude.array() - record.at.relative_amplitude);
+  const AmplitudeSense sense = effect.DelaySense(x).value_or(AmplitudeSense{});
+  const Eigen::ArrayXd amplitude = SquaredAmplitude(record, sense).sqrt();
+  const double mean =
+      sense.of_rate ? record.at.relative_rate_amplitude : record.at.relative_amplitude;
+  const Eigen::ArrayXd slow = tau_s * effect.DelayPerAmplitude(x) * (amplitude - mean);
   Eigen::VectorXd v = InverseFft(spectrum, record.samples);
   v.array() -= slow * InverseFft(first, record.samples).array();
   v.array() += 0.5 * slow.square() * InverseFft(second, record.samples).array();

@@ -16,9 +16,9 @@
 namespace howl {
 
 struct GainFluctuation {
-  double gain = 0.0;          // log-likelihood of unequal variances over equal ones
+  double gain = 0.0;             // log-likelihood of unequal variances over equal ones
   double quadrature_gain = 0.0;  // the same where Im D is the larger one: a delay that wanders
-  double in_phase_std = 0.0;  // of Re D
+  double in_phase_std = 0.0;     // of Re D
   double quadrature_std = 0.0;
   double correlation_s = 0.0;  // of Re D
   double coloured_cost = 0.0;  // - log-likelihood, with Akaike's penalty

@@ -8,14 +8,17 @@
 namespace howl {
 namespace {
 
+// share: what a bin counts for; empty: one.
 double MeanExcess(const CutRecord& record, const Eigen::VectorXcd& residual,
-                  const Eigen::VectorXd& variance, bool without_masked) {
+                  const Eigen::VectorXd& variance, const Eigen::VectorXd& share,
+                  bool without_masked) {
   double sum = 0.0;
   double count = 0.0;
   for (Eigen::Index k = 0; k < residual.size(); ++k) {
     if (without_masked && record.masked[static_cast<std::size_t>(k)]) continue;
-    sum += std::norm(residual[k]) / variance[k];
-    count += 1.0;
+    const double counts = share.size() > 0 ? share[k] : 1.0;
+    sum += counts * std::norm(residual[k]) / variance[k];
+    count += counts;
   }
   return sum / count - 1.0;
 }
@@ -41,9 +44,9 @@ GapParts ComputeGapParts(const std::vector<CutRecord>& records,
   GapParts parts;
   for (std::size_t e = 0; e < records.size(); ++e) {
     parts.acoustic.push_back(MeanExcess(records[e], residuals[e].acoustic_residual,
-                                        records[e].sensor_noise, without_masked));
-    parts.flame.push_back(
-        MeanExcess(records[e], residuals[e].flame_residual, flame_noise[e], without_masked));
+                                        records[e].sensor_noise, {}, without_masked));
+    parts.flame.push_back(MeanExcess(records[e], residuals[e].flame_residual, flame_noise[e],
+                                     records[e].flame_share, without_masked));
   }
   return parts;
 }
@@ -57,7 +60,7 @@ double GapFloor(const std::vector<CutRecord>& records) {
   double sum = 0.0;
   for (const CutRecord& record : records) {
     const double a = static_cast<double>(record.acoustic_count) / kBinCorrelation;
-    const double b = static_cast<double>(record.flame_count) / kBinCorrelation;
+    const double b = record.flame_share.sum() / kBinCorrelation;
     sum += 0.4 * std::sqrt(3.0 * kBinCorrelation / 48.0 / a);
     sum += 0.4 * std::sqrt(static_cast<double>(kFlameNoiseTerms)) / b;
   }

@@ -34,13 +34,14 @@ std::vector<Band> Bands(const CutRecord& record, Eigen::Index count) {
 }
 
 double BandGap(const CutRecord& record, const Band& band, const Eigen::VectorXcd& residual,
-               const Eigen::VectorXd& variance, bool without_masked) {
+               const Eigen::VectorXd& variance, const Eigen::VectorXd* share, bool without_masked) {
   double sum = 0.0;
   double count = 0.0;
   for (Eigen::Index k = band.first; k < std::min(band.last, residual.size()); ++k) {
     if (without_masked && record.masked[static_cast<std::size_t>(k)]) continue;
-    sum += std::norm(residual[k]) / variance[k];
-    count += 1.0;
+    const double counts = share ? (*share)[k] : 1.0;
+    sum += counts * std::norm(residual[k]) / variance[k];
+    count += counts;
   }
   if (count == 0.0) return std::numeric_limits<double>::quiet_NaN();
   return std::sqrt(std::max(0.0, sum / count - 1.0));
@@ -62,7 +63,8 @@ std::vector<GapCell> GapMap(const std::vector<CutRecord>& records,
       };
       for (const Band& band : Bands(record, flame ? record.flame_count : record.acoustic_count)) {
         const auto gap = [&](const std::vector<ExperimentFit>& fits) {
-          return BandGap(record, band, residual(fits[e]), variance, without_masked);
+          return BandGap(record, band, residual(fits[e]), variance,
+                         flame ? &record.flame_share : nullptr, without_masked);
         };
         const double nothing = std::numeric_limits<double>::quiet_NaN();
         cells.push_back({flame ? "q" : "p", record.name, band.low_hz, band.high_hz, gap(before),

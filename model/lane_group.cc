@@ -272,6 +272,8 @@ class LaneGroup {
       rate_square_ = keep * rate_square_ + (1.0 - keep) * rate / kLoopBlock;
       pressure_square_ = keep * pressure_square_ + (1.0 - keep) * pressure / kLoopBlock;
     }
+    context_.rate_square = step_ == 0 ? rate_square_ : rate / kLoopBlock;
+    context_.pressure_square = step_ == 0 ? pressure_square_ : pressure / kLoopBlock;
     context_.rate_amplitude = std::sqrt(2.0 * rate_square_);
     context_.pressure_amplitude = std::sqrt(2.0 * pressure_square_);
   }

@@ -39,6 +39,9 @@ struct LoopContext {
   // Amplitudes of sinusoids with the signals' mean square over the last 20 ms or so.
   double rate_amplitude = 0.0;
   double pressure_amplitude = 0.0;
+  // Mean squares over the block before; at the start, over the past.
+  double rate_square = 0.0;
+  double pressure_square = 0.0;
   const DelayLine* delay_line = nullptr;
   std::span<const double> tau_s;  // delay at each sample, once Delay has been called
 };

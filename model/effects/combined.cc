@@ -74,6 +74,15 @@ class Combined final : public NamedEffect {
   double DelayPerAmplitude(EffectValues x) const override {
     return first_->DelayPerAmplitude(First(x)) + second_->DelayPerAmplitude(Second(x));
   }
+  // Of two that look at an amplitude, the first's.
+  std::optional<AmplitudeSense> DelaySense(EffectValues x) const override {
+    const auto first = first_->DelaySense(First(x));
+    return first ? first : second_->DelaySense(Second(x));
+  }
+  std::optional<AmplitudeSense> AcousticSense(EffectValues x) const override {
+    const auto first = first_->AcousticSense(First(x));
+    return first ? first : second_->AcousticSense(Second(x));
+  }
   void ModulateAcoustics(double position, double amplitude, EffectValues x, double* omega_factor,
                          double* xi_add) const override {
     first_->ModulateAcoustics(position, amplitude, First(x), omega_factor, xi_add);

@@ -19,6 +19,7 @@
 
 #include <complex>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -71,6 +72,16 @@ struct EffectContext {
   // Amplitude of q over that of p at the cycle, in the mean of all experiments.
   double heat_release_over_pressure = 1.0;
   double own_heat_release_over_pressure = 1.0;  // of this experiment
+  double relative_rate_amplitude = 1.0;         // of p' at the cycle, 1 in the mean of all
+};
+
+// The slow amplitude that an effect feels: the root of twice the mean square of p, or of p', over
+// the recent past. The mean is taken by `lags` equal first-order lags, 1 / (1 + s memory / lags).
+struct AmplitudeSense {
+  double memory_s = 0.02;
+  int lags = 1;
+  bool of_rate = false;
+  bool over_own = false;  // over the experiment's own cycle, not the mean of all
 };
 
 struct RigParameters;
@@ -81,6 +92,7 @@ struct SimulationScale {
   double pressure_amplitude = 1.0;      // of this experiment's cycle, without the effect
   double heat_release_amplitude = 1.0;  // of this experiment's cycle, without the effect
   double mean_pressure_amplitude = 1.0;
+  double mean_rate_amplitude = 1.0;  // of p'
   double duration_s = 1.0;
 };
 
@@ -147,6 +159,9 @@ class Effect {
   virtual double DelayFactor(const EffectContext& /*at*/, EffectValues /*x*/) const { return 1.0; }
   // d tau / d(amplitude relative to the mean of all experiments), as a fraction of tau.
   virtual double DelayPerAmplitude(EffectValues /*x*/) const { return 0.0; }
+  // The amplitude by which it moves the delay, or the acoustics; none if it does not look at one.
+  virtual std::optional<AmplitudeSense> DelaySense(EffectValues /*x*/) const { return {}; }
+  virtual std::optional<AmplitudeSense> AcousticSense(EffectValues /*x*/) const { return {}; }
   // Slow changes: position in the record -1/2 ... 1/2; amplitude relative to the mean of all
   // experiments' cycles. The frequencies are multiplied, the damping is added.
   virtual void ModulateAcoustics(double /*position*/, double /*amplitude*/, EffectValues /*x*/,

@@ -242,7 +242,7 @@ double Amplitude(const std::vector<double>& x) {
 TEST(EffectsInTime, DampingThatGrowsWithAmplitude) {
   RigParameters rig = CycleRig();
   const double free = LimitCycles(rig.model, 400.0).at(0).pressure_amplitude();
-  ASSERT_NO_FATAL_FAILURE(Put("nonlinear_damping", {0.03}, &rig));
+  ASSERT_NO_FATAL_FAILURE(Put("nonlinear_damping", {0.03, 0.02}, &rig));
   const double amplitude = Amplitude(Simulated(rig, 1.0, 2.0).true_pressure);
   EXPECT_LT(amplitude, 0.97 * free);
   ClosedLoop damped = rig.model;
@@ -253,7 +253,7 @@ TEST(EffectsInTime, DampingThatGrowsWithAmplitude) {
 TEST(EffectsInTime, DelayThatFollowsTheAmplitude) {
   for (const double rel : {-0.05, 0.05}) {
     RigParameters rig = CycleRig();
-    ASSERT_NO_FATAL_FAILURE(Put("amplitude_dependent_delay", {rel}, &rig));
+    ASSERT_NO_FATAL_FAILURE(Put("amplitude_dependent_delay", {rel, 0.02}, &rig));
     const SimulatedRecord record = Simulated(rig, 1.0, 2.0);
     const double amplitude = Amplitude(record.true_pressure);
     ClosedLoop moved = rig.model;
