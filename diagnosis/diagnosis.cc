@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "diagnosis/advice.h"
+#include "diagnosis/calibration.h"
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/gap.h"
 #include "diagnosis/gap_map.h"
@@ -130,7 +131,9 @@ class Search {
       }
     }
     out.advice = Advice(out);
+    const bool seen = !attempts_.empty() && (attempts_[0].seen || attempts_[0].without_lines);
     for (Attempt& attempt : attempts_) out.candidates.push_back(std::move(attempt.candidate));
+    Calibrate(seen, &out);
     return out;
   }
 

@@ -16,6 +16,7 @@ constexpr int kFirstRoundIterations = 7;
 constexpr int kLaterRoundIterations = 8;
 constexpr int kRounds = 3;
 constexpr std::size_t kStartsKept = 2;
+constexpr std::size_t kScannedStarts = 3;
 constexpr Eigen::Index kSlopeStride = 7;
 
 class NoEffect final : public NamedEffect {
@@ -116,6 +117,47 @@ std::vector<std::vector<double>> StartValues(const Effect& effect,
   return starts;
 }
 
+// Where a weak effect would take off most: of the scanned values the best few that are no
+// neighbours, with the next parameter at its best.
+std::vector<std::vector<double>> ScannedStarts(const EffectPointer& effect, const EffectFit& base,
+                                               Fitter* fitter) {
+  const std::vector<EffectParameter>& parameters = effect->parameters();
+  const auto scanned = std::find_if(parameters.begin(), parameters.end(),
+                                    [](const EffectParameter& p) { return !p.scan.empty(); });
+  if (scanned == parameters.end()) return {};
+  const auto at = static_cast<std::size_t>(scanned - parameters.begin());
+  struct Found {
+    std::vector<double> values;
+    double gain;
+  };
+  std::vector<Found> all;
+  fitter->SetNoise(base);
+  for (const double value : scanned->scan) {
+    EffectFit fit = base;
+    fit.effect = effect;
+    fit.values.clear();
+    for (const EffectParameter& p : parameters) fit.values.push_back(p.starts.front());
+    fit.values[at] = value;
+    fit.values[at + 1] = parameters[at + 1].null_value;
+    const Fitter::Score score = fitter->ScoreOf(&fit, at + 1);
+    fit.values[at + 1] = std::clamp(score.value, parameters[at + 1].low, parameters[at + 1].high);
+    all.push_back({fit.values, score.gain});
+  }
+  std::vector<Found> peaks;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool over_last = i == 0 || all[i].gain >= all[i - 1].gain;
+    const bool over_next = i + 1 == all.size() || all[i].gain > all[i + 1].gain;
+    if (over_last && over_next) peaks.push_back(all[i]);
+  }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Found& a, const Found& b) { return a.gain > b.gain; });
+  std::vector<std::vector<double>> starts;
+  for (std::size_t i = 0; i < std::min(peaks.size(), kScannedStarts); ++i) {
+    starts.push_back(peaks[i].values);
+  }
+  return starts;
+}
+
 }  // namespace
 
 EffectPointer BaseEffect() {
@@ -149,19 +191,27 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
 namespace {
 
 EffectFit FitFrom(const std::vector<CutRecord>& records, const EffectPointer& effect,
-                  const EffectFit& base, const std::vector<std::vector<double>>& starts) {
+                  const EffectFit& base, std::vector<std::vector<double>> starts, bool scan) {
   const std::vector<FlameColumns> columns =
       effect->ChangesFlameCut() ? BaseColumns(records) : std::vector<FlameColumns>(records.size());
   Fitter fitter(records, *effect, &columns);
+  // Found beside the base: nothing else needs to move first.
+  const std::size_t on_the_grid = starts.size();
+  if (scan) {
+    for (std::vector<double>& start : ScannedStarts(effect, base, &fitter)) {
+      starts.push_back(std::move(start));
+    }
+  }
   std::vector<EffectFit> candidates;
-  for (const std::vector<double>& values : starts) {
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const std::vector<double>& values = starts[i];
     EffectFit fit = base;
     fit.effect = effect;
     fit.values = values;
     if (effect->ChangesFlameCut()) {
       fit.tau_s = CorrectedDelay(records, *effect, values, base.tau_s);
     }
-    if (effect->ChangesAcousticCut()) {
+    if (effect->ChangesAcousticCut() && i < on_the_grid) {
       for (std::size_t e = 0; e < records.size(); ++e) {
         fit.experiments[e].acoustics = AcousticStarts(records[e], *effect, values, 1)[0];
       }
@@ -194,12 +244,12 @@ EffectFit FitFrom(const std::vector<CutRecord>& records, const EffectPointer& ef
 
 EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& effect,
                     const EffectFit& base) {
-  return FitFrom(records, effect, base, StartValues(*effect, {}));
+  return FitFrom(records, effect, base, StartValues(*effect, {}), true);
 }
 
 EffectFit FitFurther(const std::vector<CutRecord>& records, const EffectPointer& combined,
                      const EffectFit& base, const EffectFit& first) {
-  return FitFrom(records, combined, base, StartValues(*combined, first.values));
+  return FitFrom(records, combined, base, StartValues(*combined, first.values), false);
 }
 
 namespace {

@@ -40,6 +40,14 @@ class Fitter {
 
   void RefitNoise(EffectFit* fit);
 
+  // What a parameter would take off at most, to first order, the others but tau and the locals held
+  // where they are; and its value there.
+  struct Score {
+    double gain = 0.0;
+    double value = 0.0;
+  };
+  Score ScoreOf(EffectFit* fit, std::size_t parameter);
+
   // The reduced gradients and curvatures, and standard errors from them.
   void Finish(EffectFit* fit, const EffectFit* base);
 

@@ -112,6 +112,25 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
   return system;
 }
 
+Fitter::Score Fitter::ScoreOf(EffectFit* fit, std::size_t parameter) {
+  Evaluate(fit);
+  const System system = Linearise(*fit);
+  const auto j = static_cast<Eigen::Index>(parameter) + 1;
+  Eigen::Matrix2d h = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d g = Eigen::Vector2d::Zero();
+  for (const Reduced& part : system.experiments) {
+    const Eigen::MatrixXd& c = part.reduced_curvature;
+    h += (Eigen::Matrix2d() << c(j, j), c(j, 0), c(0, j), c(0, 0)).finished();
+    g += Eigen::Vector2d(part.reduced_gradient[j], part.reduced_gradient[0]);
+  }
+  if (!flame_) {
+    h(1, 1) = 1.0;
+    g[1] = 0.0;
+  }
+  const Eigen::Vector2d move = -SolveScaled(h, g, 1e-9);
+  return {-g.dot(move), fit->values[parameter] + move[0]};
+}
+
 void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
   const auto d = static_cast<Eigen::Index>(fit->values.size());
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(1 + d, 1 + d);

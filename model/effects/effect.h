@@ -62,6 +62,8 @@ struct EffectParameter {
   double high = 0.0;
   std::vector<double> starts;  // of the search
   ParameterScale scale = ParameterScale::kLinear;
+  // Values at which a weak effect is looked for, to first order in the parameter after this one.
+  std::vector<double> scan = {};
 };
 
 // What an effect may know of an experiment.

@@ -1,12 +1,21 @@
-// One more mode in G: c N s / (s^2 + 2 zeta w s + w^2), w = ratio omega.
+// One more mode in G: c N s / (s^2 + 2 zeta w s + w^2), w = ratio omega. What is broader than zeta
+// of 0.15 is no mode of its own: it would reshape the modes that are there.
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "model/effects/catalogue.h"
 #include "model/simulate.h"
 
 namespace howl {
 namespace {
+
+// Half a line's width apart.
+std::vector<double> Ratios() {
+  std::vector<double> ratios;
+  for (double ratio = 0.35; ratio < 8.0; ratio *= 1.05) ratios.push_back(ratio);
+  return ratios;
+}
 
 class Mode final : public NamedEffect {
  public:
@@ -18,9 +27,10 @@ class Mode final : public NamedEffect {
                       0.25,
                       12.0,
                       {0.6, 1.5, 2.0, 2.5, 3.6, 4.4, 5.0, 5.6, 6.4, 7.2},
-                      ParameterScale::kLogarithmic},
-                     {"coeff_over_N", "", 0.0, -5.0, 5.0, {0.05, 0.3}},
-                     {"zeta", "", 0.05, 0.002, 0.6, {0.05}, ParameterScale::kLogarithmic}}) {}
+                      ParameterScale::kLogarithmic,
+                      Ratios()},
+                     {"coeff_over_N", "", 0.0, -5.0, 5.0, {0.3}},
+                     {"zeta", "", 0.05, 0.002, 0.15, {0.05}, ParameterScale::kLogarithmic}}) {}
   bool ChangesAcousticCut() const override { return true; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
                      EffectValues x) const override {

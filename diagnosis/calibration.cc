@@ -1,0 +1,46 @@
+#include "diagnosis/calibration.h"
+
+#include <algorithm>
+
+namespace howl {
+namespace {
+
+// Wrong verdicts over all of their kind, on the rigs of the first two trials. Most of what `none`
+// misses is too small for the records.
+constexpr double kDoubtOfNone = 0.25;
+constexpr double kDoubtOfEffect = 0.08;
+constexpr double kDoubtOfSeen = 0.02;
+constexpr double kDoubtOfUnknown = 0.10;
+// Of the doubt, what goes to the other two kinds; the rest to all effects alike.
+constexpr double kToNone = 0.1;
+constexpr double kToUnknown = 0.35;
+
+double Doubt(const Diagnosis& diagnosis, bool seen) {
+  switch (diagnosis.kind) {
+    case VerdictKind::kNone:
+      return kDoubtOfNone;
+    case VerdictKind::kUnknown:
+      return kDoubtOfUnknown;
+    case VerdictKind::kEffect:
+      break;
+  }
+  return seen ? kDoubtOfSeen : kDoubtOfEffect;
+}
+
+}  // namespace
+
+void Calibrate(bool seen, Diagnosis* diagnosis) {
+  const double doubt = Doubt(*diagnosis, seen);
+  const double to_none = diagnosis->kind == VerdictKind::kNone ? 0.0 : kToNone;
+  const double to_unknown = diagnosis->kind == VerdictKind::kUnknown ? 0.0 : kToUnknown;
+  diagnosis->probability_none = (1.0 - doubt) * diagnosis->probability_none + doubt * to_none;
+  diagnosis->probability_unknown =
+      (1.0 - doubt) * diagnosis->probability_unknown + doubt * to_unknown;
+  const auto count = static_cast<double>(std::max<std::size_t>(diagnosis->candidates.size(), 1));
+  for (Candidate& candidate : diagnosis->candidates) {
+    candidate.probability =
+        (1.0 - doubt) * candidate.probability + doubt * (1.0 - to_none - to_unknown) / count;
+  }
+}
+
+}  // namespace howl
