@@ -1,0 +1,54 @@
+#include "diagnosis/calibration.h"
+
+#include <gtest/gtest.h>
+
+namespace howl {
+namespace {
+
+Diagnosis Sure(VerdictKind kind, double none, double unknown, std::vector<double> candidates) {
+  Diagnosis out;
+  out.kind = kind;
+  out.probability_none = none;
+  out.probability_unknown = unknown;
+  for (const double each : candidates) {
+    Candidate candidate;
+    candidate.probability = each;
+    out.candidates.push_back(candidate);
+  }
+  return out;
+}
+
+double Total(const Diagnosis& diagnosis) {
+  double sum = diagnosis.probability_none + diagnosis.probability_unknown;
+  for (const Candidate& candidate : diagnosis.candidates) sum += candidate.probability;
+  return sum;
+}
+
+TEST(Calibration, ProbabilitiesStayProbabilitiesAndTheOrderStays) {
+  for (const VerdictKind kind : {VerdictKind::kNone, VerdictKind::kEffect, VerdictKind::kUnknown}) {
+    for (const bool seen : {false, true}) {
+      Diagnosis diagnosis = Sure(kind, 0.2, 0.1, {0.4, 0.25, 0.05});
+      Calibrate(seen, &diagnosis);
+      EXPECT_NEAR(Total(diagnosis), 1.0, 1e-12);
+      EXPECT_GT(diagnosis.candidates[0].probability, diagnosis.candidates[1].probability);
+      EXPECT_GT(diagnosis.candidates[1].probability, diagnosis.candidates[2].probability);
+    }
+  }
+}
+
+TEST(Calibration, NoVerdictIsCertain) {
+  Diagnosis none = Sure(VerdictKind::kNone, 1.0, 0.0, {0.0, 0.0});
+  Calibrate(false, &none);
+  EXPECT_LT(none.probability_none, 0.9);
+  EXPECT_GT(none.candidates[0].probability, 0.0);
+  Diagnosis effect = Sure(VerdictKind::kEffect, 0.0, 0.0, {1.0, 0.0});
+  Calibrate(false, &effect);
+  EXPECT_LT(effect.candidates[0].probability, 0.97);
+  // What is seen in the samples is surer than what is fitted.
+  Diagnosis seen = Sure(VerdictKind::kEffect, 0.0, 0.0, {1.0, 0.0});
+  Calibrate(true, &seen);
+  EXPECT_GT(seen.candidates[0].probability, effect.candidates[0].probability);
+}
+
+}  // namespace
+}  // namespace howl
