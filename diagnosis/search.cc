@@ -1,0 +1,119 @@
+#include "diagnosis/search.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <string>
+
+#include "estimation/parallel.h"
+
+namespace howl {
+namespace {
+
+// One unit of work for each identifier, whatever its forms.
+std::vector<EffectForms> Units(const DiagnosisOptions& options) {
+  std::vector<EffectForms> units;
+  std::vector<EffectPointer> all = Catalogue();
+  all.insert(all.end(), options.further.begin(), options.further.end());
+  for (const EffectPointer& effect : all) {
+    const std::string id(effect->id());
+    if (std::find(options.withheld.begin(), options.withheld.end(), id) != options.withheld.end()) {
+      continue;
+    }
+    if (!units.empty() && units.back()[0]->id() == effect->id()) {
+      units.back().push_back(effect);
+    } else {
+      units.push_back({effect});
+    }
+  }
+  return units;
+}
+
+// Starts of the search over all forms.
+std::size_t WorkOf(const EffectForms& forms) {
+  std::size_t work = 0;
+  for (const EffectPointer& form : forms) {
+    std::size_t starts = 1;
+    for (const EffectParameter& p : form->parameters()) {
+      starts *= std::max<std::size_t>(p.starts.size(), 1);
+    }
+    work += starts;
+  }
+  return work;
+}
+
+}  // namespace
+
+Search::Search(const std::vector<DiagnosisExperiment>& experiments, const DiagnosisOptions& options)
+    : options_(options), units_(Units(options)), records_(MakeCutRecords(experiments)) {
+  lines_ = FindCoherentLines(records_);
+  MaskLines(lines_, &records_);
+  if (!options.reference.empty()) {
+    reference_ = AbsorbReference(options.reference, experiments, &records_);
+    lines_ = NewLines(lines_, reference_->lines);
+  }
+  base_ = FitBase(records_);
+  if (!reference_) TakeLinesLeftOver();
+  at_ = {&records_, &base_, &experiments, {}, options.memory, reference_ ? &*reference_ : nullptr};
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    at_.base_held_out.push_back(HeldOut(records_, base_, e));
+  }
+  slack_before_ = ComputeSlack(records_, base_);
+}
+
+void Search::TakeLinesLeftOver() {
+  const std::vector<CoherentLine> left = FindLinesLeftOver(records_, base_);
+  if (left.empty()) return;
+  MaskLines(left, &records_);
+  lines_.insert(lines_.end(), left.begin(), left.end());
+  base_ = FitBase(records_);
+}
+
+void Search::TryAll() {
+  origin_ = ExplainLines(records_, base_, lines_);
+  fluctuation_ = EstimateGainFluctuation(records_, base_);
+  if (reference_) {
+    fluctuation_.gain = std::max(0.0, fluctuation_.gain - reference_->fluctuation_gain);
+  }
+  attempts_.resize(units_.size());
+  std::size_t work = 0;
+  for (const EffectForms& unit : units_) work += WorkOf(unit);
+  std::atomic<std::size_t> done = 0;
+  std::mutex progress_lock;
+  RunUnits(units_.size(), options_.threads, [&](std::size_t i) {
+    if (Stopped()) return;
+    attempts_[i] = Try(units_[i]);
+    const std::size_t now = done += WorkOf(units_[i]);
+    if (options_.progress) {
+      const std::lock_guard<std::mutex> lock(progress_lock);
+      options_.progress(now, work);
+    }
+  });
+  for (Attempt& attempt : attempts_) {
+    attempt.candidate.p_value = PValue(attempt.candidate.gain, attempt.parameters, units_.size());
+    PayForParameters(&attempt);
+  }
+}
+
+Attempt Search::Try(const EffectForms& forms) const {
+  const Effect& effect = *forms[0];
+  switch (effect.kind()) {
+    case EffectKind::kTransfer:
+      return TryTransfer(at_, forms);
+    case EffectKind::kGain:
+      return TryGain(at_, effect, fluctuation_);
+    case EffectKind::kLine:
+      return TryLines(at_, effect, lines_, origin_);
+    case EffectKind::kClipping:
+      return TryClipping(at_, effect);
+    case EffectKind::kDeclaredMap:
+      return TryDeclaredMap(at_, dynamic_cast<const DeclaredEffect&>(effect));
+    case EffectKind::kDeclaredLine:
+      return TryDeclaredLine(at_, dynamic_cast<const DeclaredEffect&>(effect), lines_);
+    case EffectKind::kQuantisation:
+      break;
+  }
+  return TryQuantisation(at_, effect);
+}
+
+}  // namespace howl
