@@ -42,6 +42,14 @@ std::string Table(const std::string& caption, const std::vector<std::string>& he
   return out + "</tbody></table></div>\n";
 }
 
+// Beyond the sizes that a trial has there is only a direction (trial_sheet.cc).
+std::string TriedSize(const nlohmann::json& severity, const nlohmann::json& size) {
+  if (!severity.is_number() || !size.is_number()) return "?";
+  if (severity.get<double>() > 1.0) return "beyond large";
+  if (severity.get<double>() < 0.1) return "below small";
+  return Text(size.get<double>(), 3);
+}
+
 }  // namespace
 
 std::string MeasuredTable(const ReportInput& input) {
@@ -206,11 +214,14 @@ std::string TrialSummary(const ReportInput& input) {
                rows);
   rows.clear();
   for (const auto& each : ListAt(input.trial, "power")) {
-    const nlohmann::json& interval = ListAt(each, "size_interval");
-    std::string size = Text(NumberAt(each, "size_found_with_90_percent"), 3);
-    if (interval.size() == 2 && interval[0].is_number() && interval[1].is_number()) {
-      size += " (" + Text(interval[0].get<double>(), 3) + " to " +
-              Text(interval[1].get<double>(), 3) + ")";
+    const nlohmann::json& sizes = ListAt(each, "size_interval");
+    const nlohmann::json& severities = ListAt(each, "severity_interval");
+    std::string size = each.value("resolved", false)
+                           ? Text(NumberAt(each, "size_found_with_90_percent"), 3)
+                           : "not resolved";
+    if (sizes.size() == 2 && severities.size() == 2 && sizes[0].is_number()) {
+      size += " (" + TriedSize(severities[0], sizes[0]) + " to " +
+              TriedSize(severities[1], sizes[1]) + ")";
     }
     rows.push_back({each.value("effect", ""), each.value("parameter", ""), size,
                     Text(NumberAt(each, "found"), 5) + " of " + Text(NumberAt(each, "cases"), 5)});
