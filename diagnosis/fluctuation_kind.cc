@@ -15,6 +15,8 @@ namespace {
 constexpr int kTerms = 3;  // 1, u, u^2
 constexpr double kColouredParameters = 2.0;
 constexpr double kSwitchingParameters = 4.0;
+constexpr double kLeastStd = 0.005;  // of the grid, up to 1.5
+constexpr int kStds = 20;
 constexpr int kExpectations = 60;
 // Beside the noise; with more the levels are no levels.
 constexpr double kMostExcess = 0.04;
@@ -222,7 +224,11 @@ ColouredFluctuation FitColoured(const std::vector<GainSeries>& experiments) {
     if (cost < best.cost) best = {cost, std, a};
   };
   for (const double a : {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.88, 0.94, 0.97, 0.99}) {
-    for (double std = 0.005; std < 1.5; std *= 1.35) attempt(a, std);
+    double std = kLeastStd;
+    for (int i = 0; i < kStds; ++i) {
+      attempt(a, std);
+      std *= 1.35;
+    }
   }
   for (double part : {0.5, 0.25, 0.12}) {
     const ColouredFluctuation at = best;

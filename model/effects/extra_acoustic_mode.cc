@@ -10,10 +10,16 @@
 namespace howl {
 namespace {
 
+constexpr int kRatios = 65;  // up to 8
+
 // Half a line's width apart.
 std::vector<double> Ratios() {
   std::vector<double> ratios;
-  for (double ratio = 0.35; ratio < 8.0; ratio *= 1.05) ratios.push_back(ratio);
+  double ratio = 0.35;
+  for (int i = 0; i < kRatios; ++i) {
+    ratios.push_back(ratio);
+    ratio *= 1.05;
+  }
   return ratios;
 }
 
