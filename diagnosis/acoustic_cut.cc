@@ -62,7 +62,7 @@ Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect,
                                   const AcousticLocals& locals) {
   const Acoustics<double> acoustics = ToAcoustics(locals);
   const auto path = [&](double f) {
-    return effect.Acoustics(acoustics, f, x) * effect.PressureInstrument(f, x) /
+    return effect.Acoustics(acoustics, f, record.at, x) * effect.PressureInstrument(f, x) /
            effect.HeatReleaseInstrument(f, x);
   };
   if (record.reference.acoustic.size() > 0) {

@@ -14,7 +14,10 @@
 namespace howl {
 namespace {
 
-constexpr double kClassProbability = 0.05;
+constexpr double kClassProbability = 0.02;
+// Of an unknown: where a second transfer function is needed, it may be that none of the catalogue
+// is the cause.
+constexpr double kTwoTransferFunctions = 0.9;
 
 bool Better(const Attempt& a, const Attempt& b) {
   return a.seen != b.seen ? a.seen : a.candidate.gain > b.candidate.gain;
@@ -44,6 +47,13 @@ Diagnosis Search::Run() {
       belief = Weigh(evidence);
     }
   }
+  std::optional<Attempt> together;
+  const bool left_over = after.acoustic_excess > 0.0 || after.flame_excess > 0.0;
+  if (belief.none < 0.5 && !attempts_.empty() && Detected() &&
+      (belief.unknown > 0.5 || (left_over && !attempts_[0].seen && !attempts_[0].also))) {
+    together = TryTransferPair(at_, attempts_[0], units_, options_.threads);
+    if (together) belief.unknown = std::max(belief.unknown, kTwoTransferFunctions);
+  }
   Diagnosis out = Conclude(evidence, belief);
   out.slack_acoustic_before = slack_before_.acoustic_excess;
   out.slack_flame_before = slack_before_.flame_excess;
@@ -62,14 +72,11 @@ Diagnosis Search::Run() {
   if (out.kind != VerdictKind::kNone && !attempts_.empty()) {
     out.shrinkage_no_meaning = ShrinkageByNoMeaning(attempts_[0]);
   }
-  if (out.kind == VerdictKind::kUnknown && !attempts_.empty() && Detected()) {
-    if (std::optional<Attempt> pair =
-            TryTransferPair(at_, attempts_[0], units_, options_.threads)) {
-      MeasureGap(&*pair);
-      pair->candidate.probability = 0.0;
-      out.together = pair->candidate.effect;
-      attempts_.insert(attempts_.begin() + 1, std::move(*pair));
-    }
+  if (together) {
+    MeasureGap(&*together);
+    together->candidate.probability = 0.0;
+    out.together = together->candidate.effect;
+    attempts_.insert(attempts_.begin() + 1, std::move(*together));
   }
   out.advice = Advice(out);
   const bool seen = !attempts_.empty() && (attempts_[0].seen || attempts_[0].without_lines);

@@ -82,7 +82,7 @@ double CorrectedDelay(const std::vector<CutRecord>& records, const Effect& effec
   }
   const EffectContext& at = records[0].at;
   const double f0 = at.cycle_frequency_hz;
-  const Response added = effect.HeatReleaseInstrument(f0, x) * effect.FlameOut(f0, x) *
+  const Response added = effect.HeatReleaseInstrument(f0, x) * effect.FlameOut(f0, at, x) *
                          effect.FlameIn(f0, at, x) / effect.PressureInstrument(f0, x);
   return std::max((tau_s + std::arg(added) / (kRadPerSPerHz * f0)) / factor, 0.0);
 }

@@ -85,7 +85,7 @@ Eigen::VectorXcd FlameMultiplier(const CutRecord& record, const Effect& effect, 
   Eigen::VectorXcd out(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const double f = record.frequency_hz[k];
-    out[k] = effect.HeatReleaseInstrument(f, x) * effect.FlameOut(f, x) *
+    out[k] = effect.HeatReleaseInstrument(f, x) * effect.FlameOut(f, record.at, x) *
              std::polar(1.0, -kRadPerSPerHz * f * tau);
   }
   if (record.reference.flame.size() > 0) out = out.cwiseProduct(record.reference.flame).eval();

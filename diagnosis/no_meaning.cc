@@ -20,15 +20,21 @@ constexpr double kStart = 0.02;
 constexpr double kShortestPeriod_hz = 150.0;
 constexpr double kLongestPeriod_hz = 700.0;
 
+// Over the whole range of operating points: no experiment tells of the next.
+constexpr double kFewestTurns = 3.0;
+constexpr double kMostTurns = 12.0;
+
 struct Ripple {
   std::array<double, 3> per_hz{};
+  std::array<double, 3> per_position{};
   std::array<double, 3> phase{};
   double offset = 0.0;
 
-  Response At(double frequency_hz) const {
+  Response At(double frequency_hz, double phi_position) const {
     double psi = offset;
     for (std::size_t i = 0; i < per_hz.size(); ++i) {
-      psi += std::numbers::pi * std::sin(per_hz[i] * frequency_hz + phase[i]);
+      psi += std::numbers::pi *
+             std::sin(per_hz[i] * frequency_hz + per_position[i] * phi_position + phase[i]);
     }
     return std::polar(1.0, psi);
   }
@@ -41,6 +47,7 @@ Ripple DrawRipple(RandomStream* random) {
     const double period =
         kShortestPeriod_hz + (kLongestPeriod_hz - kShortestPeriod_hz) * random->Uniform();
     out.per_hz[i] = kTurn / period;
+    out.per_position[i] = kTurn * (kFewestTurns + (kMostTurns - kFewestTurns) * random->Uniform());
     out.phase[i] = kTurn * random->Uniform();
   }
   out.offset = kTurn * random->Uniform();
@@ -68,18 +75,20 @@ class Ripples final : public NamedEffect {
   bool ChangesAcousticCut() const override { return acoustic_cut_; }
   bool ChangesFlameCut() const override { return flame_cut_; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                     EffectValues x) const override {
-    const Response base = Effect::Acoustics(acoustics, frequency_hz, x);
-    return acoustic_cut_ ? base * Factor(frequency_hz, x) : base;
+                     const EffectContext& at, EffectValues x) const override {
+    const Response base = Effect::Acoustics(acoustics, frequency_hz, at, x);
+    return acoustic_cut_ ? base * Factor(frequency_hz, at, x) : base;
   }
-  Response FlameOut(double frequency_hz, EffectValues x) const override {
-    return flame_cut_ ? Factor(frequency_hz, x) : 1.0;
+  Response FlameOut(double frequency_hz, const EffectContext& at, EffectValues x) const override {
+    return flame_cut_ ? Factor(frequency_hz, at, x) : 1.0;
   }
 
  private:
-  Response Factor(double frequency_hz, EffectValues x) const {
+  Response Factor(double frequency_hz, const EffectContext& at, EffectValues x) const {
     Response out = 1.0;
-    for (std::size_t i = 0; i < ripples_.size(); ++i) out += x[i] * ripples_[i].At(frequency_hz);
+    for (std::size_t i = 0; i < ripples_.size(); ++i) {
+      out += x[i] * ripples_[i].At(frequency_hz, at.phi_position);
+    }
     return out;
   }
 

@@ -1,9 +1,11 @@
 // An effect that means nothing: ripples of fixed, arbitrary phase on the transfer functions,
 //
-//   H(f) = 1 + sum over j of x_j exp(i psi_j(f)),    psi_j: smooth, drawn once from a seed
+//   H(f, phi) = 1 + sum over j of x_j exp(i psi_j(f, phi)),    psi_j: smooth, drawn from a seed
 //
-// in the cuts that another effect reaches, with as many free parameters. What it takes off the gap
-// is what freedom alone takes off: the shrinkage by an effect counts only beyond it.
+// in the cuts that another effect reaches, with as many free parameters. From one operating point
+// to the next psi_j turns by more than a wave: what an experiment tells of x_j is of no use for
+// another. What it takes off the held-out gap is what freedom alone takes off: the shrinkage by an
+// effect counts only beyond it.
 #ifndef HOWL_DIAGNOSIS_NO_MEANING_H_
 #define HOWL_DIAGNOSIS_NO_MEANING_H_
 

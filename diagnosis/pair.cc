@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "diagnosis/slack.h"
 #include "diagnosis/verdict.h"
 #include "estimation/parallel.h"
 #include "model/effects/combined.h"
@@ -11,12 +12,17 @@
 namespace howl {
 namespace {
 
-// What a second effect must bring beyond the least for a first: the first's form is never exact.
-constexpr double kSecondGain = 60.0;
-constexpr double kSecondShare = 0.02;            // of what the first brought
-constexpr double kAfterRepairShare = 0.25;       // a repair is rough
-constexpr double kBesideFluctuationShare = 0.3;  // a fluctuating gain disturbs every other fit
+// What a second effect must bring. After a true first effect others bring 5 at most, while the
+// first's form fits (results/trial); it is never exact, so a share of what it brought counts too.
+constexpr double kSecondGain = 12.0;
+constexpr double kSecondShare = 0.003;
+// A fluctuating gain spreads the cycle's line: effects that smooth the flame's answer fit that.
+constexpr double kBesideFluctuationShare = 0.45;
 constexpr double kBesideFluctuationGain = 100.0;
+// Clipped samples are put back roughly, those of q more so: p tells of them through cut A alone.
+constexpr double kAfterRepairGain = 60.0;
+constexpr double kAfterPressureRepairShare = 0.016;
+constexpr double kAfterHeatReleaseRepairShare = 0.4;
 
 bool IsGain(const Attempt& attempt) { return attempt.kind == EffectKind::kGain; }
 bool IsLine(const Attempt& attempt) { return attempt.kind == EffectKind::kLine; }
@@ -67,7 +73,25 @@ std::optional<Attempt> Best(std::vector<std::optional<Attempt>>* tried) {
   return best;
 }
 
-// The best transfer function once the first effect was taken out of the samples.
+double LeastSecond(const Attempt& first) {
+  return std::max(kSecondGain, kSecondShare * first.candidate.gain);
+}
+
+bool ChangesAcousticCut(const Attempt& attempt) {
+  return attempt.fit && attempt.fit->effect->ChangesAcousticCut();
+}
+
+std::optional<Attempt> BestGain(const Setting& at, const EffectFit& fit,
+                                const std::vector<EffectForms>& units) {
+  const GainFluctuation fluctuation = EstimateGainFluctuation(*at.records, fit);
+  std::vector<std::optional<Attempt>> tried;
+  for (const EffectForms& forms : units) {
+    if (forms[0]->kind() == EffectKind::kGain) tried.push_back(TryGain(at, *forms[0], fluctuation));
+  }
+  return Best(&tried);
+}
+
+// Once the first effect, clipping, was taken out of the samples.
 std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
                                    const std::vector<EffectForms>& units,
                                    const std::vector<CoherentLine>& lines, int threads) {
@@ -79,17 +103,52 @@ std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
   for (std::size_t e = 0; e < records.size(); ++e) {
     at.base_held_out.push_back(HeldOut(records, base, e));
   }
+  const bool pressure = first.candidate.block == LoopBlock::kPressureInstrument;
+  if (pressure) {
+    std::optional<Attempt> gain = BestGain(at, base, units);
+    if (gain && gain->candidate.gain > LeastSecond(first)) return Join(first, std::move(*gain));
+  }
   std::vector<std::optional<Attempt>> tried(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const Effect& effect = *units[i][0];
-    // The repair shows in the flame's answer too; in cut A it was fitted.
-    if (effect.kind() != EffectKind::kTransfer || !effect.ChangesAcousticCut()) return;
-    tried[i] = TryTransfer(at, units[i]);
+    if (effect.kind() != EffectKind::kTransfer) return;
+    if (pressure || effect.ChangesAcousticCut()) tried[i] = TryTransfer(at, units[i]);
   });
   std::optional<Attempt> best = Best(&tried);
-  const double least = std::max(kSecondGain, kAfterRepairShare * first.candidate.gain);
+  const double share = pressure ? kAfterPressureRepairShare : kAfterHeatReleaseRepairShare;
+  // Slack that is left in cut A tells how rough the repair is.
+  const double least = std::max({kAfterRepairGain, share * first.candidate.gain,
+                                 ComputeSlack(records, base).acoustic_excess});
   if (!best || best->candidate.gain < least) return std::nullopt;
   return Join(first, std::move(*best));
+}
+
+// What fluctuates once the transfer function is right.
+std::optional<Attempt> WithFluctuation(const Setting& at, const Attempt& transfer,
+                                       const std::vector<EffectForms>& units) {
+  std::optional<Attempt> best = BestGain(at, *transfer.fit, units);
+  if (!best || best->candidate.gain < LeastSecond(transfer)) return std::nullopt;
+  for (std::size_t e = 0; e < best->held_out.size(); ++e) {
+    best->held_out[e].acoustic_residual = transfer.held_out[e].acoustic_residual;
+  }
+  Attempt joined = Join(transfer, std::move(*best));
+  joined.fit = transfer.fit;
+  return joined;
+}
+
+// A clipped q is no wrong input to the flame, and Phi takes its flat top for saturation: cut B is
+// right as it is, and tells of the flame and the delay.
+std::optional<Attempt> BesideClippedHeatRelease(const Attempt& first,
+                                                const std::vector<Attempt>& attempts) {
+  const Attempt* other = BestOf(attempts, [](const Attempt& attempt) {
+    return (IsGain(attempt) || IsTransfer(attempt)) && !ChangesAcousticCut(attempt);
+  });
+  if (!other || other->candidate.gain < DetectionGain(true)) return std::nullopt;
+  Attempt joined = Join(first, *other);
+  for (std::size_t e = 0; e < joined.held_out.size(); ++e) {
+    joined.held_out[e].acoustic_residual = first.held_out[e].acoustic_residual;
+  }
+  return joined;
 }
 
 }  // namespace
@@ -106,36 +165,26 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
     return std::nullopt;
   }
   if (top.seen) {
-    if (!top.repaired.empty()) return AfterRepair(at, top, units, lines, threads);
+    if (!top.repaired.empty()) {
+      if (top.candidate.block == LoopBlock::kHeatReleaseInstrument) {
+        std::optional<Attempt> pair = BesideClippedHeatRelease(top, attempts);
+        if (pair) return pair;
+      }
+      return AfterRepair(at, top, units, lines, threads);
+    }
     // Steps in p disturb every fit: nothing but a line stands beside them.
     return std::nullopt;
   }
   if (IsGain(top)) {
-    const Attempt* other = BestOf(attempts, IsTransfer);
-    const double least =
+    const double beside =
         std::max(kBesideFluctuationGain, kBesideFluctuationShare * top.candidate.gain);
-    if (!other || other->candidate.gain < least) return std::nullopt;
-    Attempt joined = Join(top, *other);
-    return joined;
+    const Attempt* other = BestOf(attempts, [&](const Attempt& attempt) {
+      return IsTransfer(attempt) &&
+             attempt.candidate.gain >= (ChangesAcousticCut(attempt) ? LeastSecond(top) : beside);
+    });
+    return other ? WithFluctuation(at, *other, units) : std::nullopt;
   }
-  if (!IsTransfer(top)) return std::nullopt;
-  // What fluctuates once the transfer function is right.
-  const GainFluctuation fluctuation = EstimateGainFluctuation(*at.records, *top.fit);
-  std::vector<std::optional<Attempt>> tried;
-  for (const EffectForms& forms : units) {
-    if (forms[0]->kind() == EffectKind::kGain) tried.push_back(TryGain(at, *forms[0], fluctuation));
-  }
-  std::optional<Attempt> best = Best(&tried);
-  if (!best) return std::nullopt;
-  if (best->candidate.gain < std::max(kSecondGain, kSecondShare * top.candidate.gain)) {
-    return std::nullopt;
-  }
-  for (std::size_t e = 0; e < best->held_out.size(); ++e) {
-    best->held_out[e].acoustic_residual = top.held_out[e].acoustic_residual;
-  }
-  Attempt joined = Join(top, std::move(*best));
-  joined.fit = top.fit;
-  return joined;
+  return IsTransfer(top) ? WithFluctuation(at, top, units) : std::nullopt;
 }
 
 std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
@@ -152,8 +201,9 @@ std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
     tried[i] = TryTransfer(at, combined, &*first.fit);
   });
   std::optional<Attempt> best = Best(&tried);
-  const double least = std::max(kSecondGain, kSecondShare * first.candidate.gain);
-  if (!best || best->candidate.gain - first.candidate.gain < least) return std::nullopt;
+  if (!best || best->candidate.gain - first.candidate.gain < LeastSecond(first)) {
+    return std::nullopt;
+  }
   return best;
 }
 

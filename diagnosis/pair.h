@@ -3,7 +3,8 @@
 // each beyond what noise gives, are two effects.
 //
 // Two transfer functions do compete: together they have freedom enough to imitate an effect that
-// is not in the catalogue. Such a pair is reported, never a verdict.
+// is not in the catalogue. Where the best needs such a second the verdict is unknown, and the pair
+// is reported beside it.
 #ifndef HOWL_DIAGNOSIS_PAIR_H_
 #define HOWL_DIAGNOSIS_PAIR_H_
 

@@ -3,6 +3,7 @@
 
 #include "diagnosis/no_meaning.h"
 #include "diagnosis/search.h"
+#include "diagnosis/static_map.h"
 #include "estimation/parallel.h"
 #include "model/random_stream.h"
 
@@ -57,6 +58,14 @@ double Search::ShrinkageByNoMeaning(const Attempt& best) const {
   return mean;
 }
 
+bool Search::ShowsLimits() const {
+  const bool p = reference_ && reference_->pressure_sharp_edge;
+  const bool q = reference_ && reference_->heat_release_sharp_edge;
+  const bool levels = reference_ && reference_->quantisation_levels > 0.0;
+  return (!p && HasSharpEdge(records_, true)) || (!q && HasSharpEdge(records_, false)) ||
+         (!levels && FindQuantisation(records_).found);
+}
+
 Evidence Search::Look(const Attempt* top, Slack* after) const {
   EffectFit best = base_;
   if (top) {
@@ -80,6 +89,11 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
       !lines_.empty() &&
       std::none_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
         return attempt.without_lines && attempt.candidate.gain > DetectionGain(false);
+      });
+  out.unexplained_samples =
+      ShowsLimits() && std::none_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
+        return attempt.seen || (attempt.kind == EffectKind::kDeclaredMap &&
+                                attempt.candidate.gain > DetectionGain(false));
       });
   if (!top) return out;
   out.gain = std::max(0.0, top->candidate.gain);

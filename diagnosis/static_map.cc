@@ -13,8 +13,9 @@ namespace howl {
 namespace {
 
 constexpr double kTopQuantile = 0.995;
-constexpr double kDepth = 0.06;  // of the plateau's threshold below the top, over the amplitude
-constexpr Eigen::Index kBumps = 4;
+constexpr double kDepth = 0.06;      // of the plateau's threshold below the top, over the amplitude
+constexpr Eigen::Index kShapes = 3;  // of a plateau's bump: 1, x_1, x_1^2
+constexpr Eigen::Index kBumps = 2 * kShapes;
 constexpr int kIterations = 5;
 constexpr int kRounds = 3;
 constexpr double kEdgeWidth = 0.02;
@@ -105,19 +106,17 @@ Bumps MakeBumps(const CutRecord& record, bool pressure) {
   for (const int sign : {1, -1}) {
     const double threshold = Quantile(sign * x, kTopQuantile) - kDepth * amplitude;
     const Eigen::ArrayXd on = (sign * x.array() > threshold).cast<double>();
-    const Eigen::Index first = sign > 0 ? 0 : 2;
-    const Eigen::ArrayXd flat = sign * amplitude * on;
-    const Eigen::ArrayXd round = on * cycle.array();
     const double count = std::max(on.sum(), 1.0);
-    out.spectrum.col(first) =
-        ForwardFft(flat.matrix()).segment(record.first - kTapReach, record.extended());
-    out.spectrum.col(first + 1) =
-        ForwardFft(round.matrix()).segment(record.first - kTapReach, record.extended());
-    out.signal.col(first) = flat;
-    out.signal.col(first + 1) = round;
+    const Eigen::ArrayXd x_1 = cycle.array() / amplitude;
+    Eigen::ArrayXd shape = sign * amplitude * on;
+    for (Eigen::Index j = sign > 0 ? 0 : kShapes; j < (sign > 0 ? kShapes : kBumps); ++j) {
+      out.spectrum.col(j) =
+          ForwardFft(shape.matrix()).segment(record.first - kTapReach, record.extended());
+      out.signal.col(j) = shape;
+      out.mean[j] = sign * shape.sum() / count;
+      shape *= x_1;
+    }
     out.on += on;
-    out.mean[first] = amplitude;
-    out.mean[first + 1] = sign * round.sum() / count;
   }
   return out;
 }

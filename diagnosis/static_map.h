@@ -1,5 +1,6 @@
 // A recorded signal that saturates (cut A): on its plateaus the record falls short of the true
-// signal by a bump, taken as c + d x_1(t) there, x_1 being the signal's part near the cycle,
+// signal by a bump, taken as c + d x_1(t) + e x_1(t)^2 there, x_1 being the signal's part near the
+// cycle,
 //
 //   q clipped:  E_A = P - R (Q + sum c H)      p clipped:  E_A = P + sum c H - R Q
 //

@@ -27,9 +27,9 @@ constexpr double kConfirmedUnknownShare = 0.35;
 constexpr double kUnknownWidth = 0.02;
 constexpr double kUnknownGapShare = 0.016;  // of the squared gap
 constexpr double kUnknownGapWidth = 0.004;
-constexpr double kUnexplainedLines = 0.9;
-constexpr double kTemperature = 3.0;
-constexpr double kTemperatureShare = 0.02;
+constexpr double kUnexplainedFact = 0.9;
+constexpr double kTemperature = 2.0;
+constexpr double kTemperatureShare = 0.005;
 constexpr double kTemperatureMostGain = 1e4;
 
 double Logistic(double x) { return 1.0 / (1.0 + std::exp(-std::clamp(x, -50.0, 50.0))); }
@@ -60,9 +60,9 @@ Belief Weigh(const Evidence& at) {
     const double left = std::max(0.0, above) / std::max(std::pow(at.gap_before, 2), 1e-300);
     out.unknown = std::max(out.unknown, Logistic((left - kUnknownGapShare) / kUnknownGapWidth));
   }
-  if (at.unexplained_lines) {
+  if (at.unexplained_lines || at.unexplained_samples) {
     out.none = 0.0;
-    out.unknown = std::max(out.unknown, kUnexplainedLines);
+    out.unknown = std::max(out.unknown, kUnexplainedFact);
   }
   return out;
 }

@@ -13,10 +13,11 @@ struct Evidence {
   double gap_before = 0.0;
   double gap_after = 0.0;
   double gap_floor = 0.0;
-  bool seen = false;               // in the samples themselves: clipping's edge, few levels
-  bool confirmed = false;          // by something beside the likelihood
-  bool flame_alone = false;        // the candidate shows in cut B only
-  bool unexplained_lines = false;  // coherent lines that no candidate accounts for
+  bool seen = false;                 // in the samples themselves: clipping's edge, few levels
+  bool confirmed = false;            // by something beside the likelihood
+  bool flame_alone = false;          // the candidate shows in cut B only
+  bool unexplained_lines = false;    // coherent lines that no candidate accounts for
+  bool unexplained_samples = false;  // an edge or few levels: the same
 };
 
 struct Belief {

@@ -46,8 +46,8 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
       out.held_out[e] = HeldOut(records, fit, e);
     }
   }
-  // Four bumps in each experiment.
-  out.parameters = 4.0 * static_cast<double>(out.held_out.size());
+  // The bumps of each experiment.
+  out.parameters = 6.0 * static_cast<double>(out.held_out.size());
   return out;
 }
 

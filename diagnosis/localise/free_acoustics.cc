@@ -18,8 +18,8 @@ class Factor final : public NamedEffect {
         centre_hz_(centre_hz) {}
   bool ChangesAcousticCut() const override { return true; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                     EffectValues x) const override {
-    return Effect::Acoustics(acoustics, frequency_hz, x) *
+                     const EffectContext& at, EffectValues x) const override {
+    return Effect::Acoustics(acoustics, frequency_hz, at, x) *
            FreeFactor(frequency_hz, centre_hz_, x.first(kCausal), x.subspan(kCausal));
   }
 
@@ -44,7 +44,7 @@ class Modes final : public NamedEffect {
                      {"zeta", "", 0.05, 0.002, 0.6, {0.05}, ParameterScale::kLogarithmic}}) {}
   bool ChangesAcousticCut() const override { return true; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                     EffectValues x) const override {
+                     const EffectContext& /*at*/, EffectValues x) const override {
     const double w = kRadPerSPerHz * frequency_hz;
     const double omega = kRadPerSPerHz * acoustics.omega_hz;
     const Complex<double> upper = UnitModeResponse(x[0] * omega, x[1] * acoustics.xi, w);

@@ -14,7 +14,8 @@ class Factor final : public NamedEffect {
       : NamedEffect("slack_flame_factor", LoopBlock::kFlame, FactorParameters(kFactorTerms)),
         centre_hz_(centre_hz) {}
   bool ChangesFlameCut() const override { return true; }
-  Response FlameOut(double frequency_hz, EffectValues x) const override {
+  Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
+                    EffectValues x) const override {
     return FreeFactor(frequency_hz, centre_hz_, x, {});
   }
 
@@ -27,7 +28,8 @@ class Section final : public NamedEffect {
   explicit Section(double cycle_hz)
       : NamedEffect("slack_flame_section", LoopBlock::kFlame, SectionParameters(cycle_hz)) {}
   bool ChangesFlameCut() const override { return true; }
-  Response FlameOut(double frequency_hz, EffectValues x) const override {
+  Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
+                    EffectValues x) const override {
     return FreeSection(frequency_hz, x);
   }
 };
@@ -46,7 +48,8 @@ class Spread final : public NamedEffect {
                       {0.2 * tau_s, 0.4 * tau_s, 0.8 * tau_s},
                       ParameterScale::kLogarithmic}}) {}
   bool ChangesFlameCut() const override { return true; }
-  Response FlameOut(double frequency_hz, EffectValues x) const override {
+  Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
+                    EffectValues x) const override {
     const double w = kRadPerSPerHz * frequency_hz;
     return std::exp(-0.5 * std::pow(w * x[0], 2)) *
            (1.0 - x[1] + x[1] * std::polar(1.0, -w * x[2]));

@@ -43,10 +43,10 @@ class Combined final : public NamedEffect {
     return first_->ModulatesDelay() || second_->ModulatesDelay();
   }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                     EffectValues x) const override {
-    return first_->Acoustics(acoustics, frequency_hz, First(x)) +
-           second_->Acoustics(acoustics, frequency_hz, Second(x)) -
-           Effect::Acoustics(acoustics, frequency_hz, x);
+                     const EffectContext& at, EffectValues x) const override {
+    return first_->Acoustics(acoustics, frequency_hz, at, First(x)) +
+           second_->Acoustics(acoustics, frequency_hz, at, Second(x)) -
+           Effect::Acoustics(acoustics, frequency_hz, at, x);
   }
   Response PressureInstrument(double frequency_hz, EffectValues x) const override {
     return first_->PressureInstrument(frequency_hz, First(x)) *
@@ -65,8 +65,9 @@ class Combined final : public NamedEffect {
     return first_->FlameIn(frequency_hz, at, First(x)) *
            second_->FlameIn(frequency_hz, at, Second(x));
   }
-  Response FlameOut(double frequency_hz, EffectValues x) const override {
-    return first_->FlameOut(frequency_hz, First(x)) * second_->FlameOut(frequency_hz, Second(x));
+  Response FlameOut(double frequency_hz, const EffectContext& at, EffectValues x) const override {
+    return first_->FlameOut(frequency_hz, at, First(x)) *
+           second_->FlameOut(frequency_hz, at, Second(x));
   }
   double DelayFactor(const EffectContext& at, EffectValues x) const override {
     return first_->DelayFactor(at, First(x)) * second_->DelayFactor(at, Second(x));

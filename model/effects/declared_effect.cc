@@ -107,8 +107,8 @@ Response DeclaredEffect::Formula(double frequency_hz, const howl::Acoustics<doub
 }
 
 Response DeclaredEffect::Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                                   EffectValues x) const {
-  const Response base = Effect::Acoustics(acoustics, frequency_hz, x);
+                                   const EffectContext& at, EffectValues x) const {
+  const Response base = Effect::Acoustics(acoustics, frequency_hz, at, x);
   if (!IsAt(LoopPlace::kAcoustics) || IsNull(x)) return base;
   return base * Formula(frequency_hz, &acoustics, base, nullptr, x);
 }
@@ -129,7 +129,8 @@ Response DeclaredEffect::FlameIn(double frequency_hz, const EffectContext& at,
   return Formula(frequency_hz, nullptr, 1.0, &at, x);
 }
 
-Response DeclaredEffect::FlameOut(double frequency_hz, EffectValues x) const {
+Response DeclaredEffect::FlameOut(double frequency_hz, const EffectContext& /*at*/,
+                                  EffectValues x) const {
   if (!IsAt(LoopPlace::kFlameOut) || IsNull(x)) return 1.0;
   return Formula(frequency_hz, nullptr, 1.0, nullptr, x);
 }
@@ -164,7 +165,7 @@ DeclaredEffect::Distance DeclaredEffect::FromBase(EffectValues x) const {
   for (const double f : {1.0, 10.0, 33.3, 100.0, 213.7, 400.0, 700.0, 1500.0, 5000.0, 2e4}) {
     for (const EffectContext& at :
          {EffectContext{-0.5, 110.0, 0.6, 0.1}, EffectContext{0.31, 207.0, 1.2, 0.08}}) {
-      const Response base = Effect::Acoustics(acoustics, f, x);
+      const Response base = Effect::Acoustics(acoustics, f, at, x);
       const bool acoustic = IsAt(LoopPlace::kAcoustics);
       keep(std::abs(Formula(f, acoustic ? &acoustics : nullptr, base, context ? &at : nullptr, x) -
                     1.0),

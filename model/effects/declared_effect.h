@@ -87,11 +87,12 @@ class DeclaredEffect final : public NamedEffect {
   bool ChangesFlameCut() const override;
   bool ChangesFlameInput() const override;
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                     EffectValues x) const override;
+                     const EffectContext& /*at*/, EffectValues x) const override;
   Response PressureInstrument(double frequency_hz, EffectValues x) const override;
   Response HeatReleaseInstrument(double frequency_hz, EffectValues x) const override;
   Response FlameIn(double frequency_hz, const EffectContext& at, EffectValues x) const override;
-  Response FlameOut(double frequency_hz, EffectValues x) const override;
+  Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
+                    EffectValues x) const override;
   double DelayFactor(const EffectContext& at, EffectValues x) const override;
 
   const EffectDeclaration& declaration() const { return declaration_; }

@@ -73,7 +73,8 @@ class Dispersion final : public NamedEffect {
                    EffectValues x) const override {
     return before_ ? Factor(frequency_hz, x) : 1.0;
   }
-  Response FlameOut(double frequency_hz, EffectValues x) const override {
+  Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
+                    EffectValues x) const override {
     return before_ ? 1.0 : Factor(frequency_hz, x);
   }
   EffectForm form() const override { return {"side", before_ ? "before_flame" : "after_flame"}; }

@@ -138,7 +138,7 @@ class Effect {
   }
 
   virtual Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                             EffectValues /*x*/) const {
+                             const EffectContext& /*at*/, EffectValues /*x*/) const {
     const Complex<double> g = AcousticResponse(acoustics, frequency_hz);
     return {g.re, g.im};
   }
@@ -156,7 +156,10 @@ class Effect {
                            EffectValues /*x*/) const {
     return 1.0;
   }
-  virtual Response FlameOut(double /*frequency_hz*/, EffectValues /*x*/) const { return 1.0; }
+  virtual Response FlameOut(double /*frequency_hz*/, const EffectContext& /*at*/,
+                            EffectValues /*x*/) const {
+    return 1.0;
+  }
   // tau of the experiment over the shared tau.
   virtual double DelayFactor(const EffectContext& /*at*/, EffectValues /*x*/) const { return 1.0; }
   // d tau / d(amplitude relative to the mean of all experiments), as a fraction of tau.

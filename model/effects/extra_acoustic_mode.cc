@@ -39,8 +39,8 @@ class Mode final : public NamedEffect {
                      {"zeta", "", 0.05, 0.002, 0.15, {0.05}, ParameterScale::kLogarithmic}}) {}
   bool ChangesAcousticCut() const override { return true; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                     EffectValues x) const override {
-    const Response base = Effect::Acoustics(acoustics, frequency_hz, x);
+                     const EffectContext& at, EffectValues x) const override {
+    const Response base = Effect::Acoustics(acoustics, frequency_hz, at, x);
     if (x[1] == 0.0) return base;
     const Complex<double> mode = UnitModeResponse(kRadPerSPerHz * x[0] * acoustics.omega_hz, x[2],
                                                   kRadPerSPerHz * frequency_hz);

@@ -37,7 +37,8 @@ class Lag final : public NamedEffect {
                       {250.0, 700.0, 2000.0},
                       ParameterScale::kLogarithmic}}) {}
   bool ChangesFlameCut() const override { return true; }
-  Response FlameOut(double frequency_hz, EffectValues x) const override {
+  Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
+                    EffectValues x) const override {
     return 1.0 / (1.0 + Response(0.0, frequency_hz / x[0]));
   }
   bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {

@@ -21,10 +21,10 @@ class Detuning final : public NamedEffect {
                       ParameterScale::kLogarithmic}}) {}
   bool ChangesAcousticCut() const override { return true; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
-                     EffectValues x) const override {
+                     const EffectContext& at, EffectValues x) const override {
     howl::Acoustics<double> moved = acoustics;
     moved.harmonic_ratio = x[0];
-    return Effect::Acoustics(moved, frequency_hz, x);
+    return Effect::Acoustics(moved, frequency_hz, at, x);
   }
   bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
     rig->model.loop.acoustics.harmonic_ratio = x[0];

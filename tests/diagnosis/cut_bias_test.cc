@@ -16,26 +16,13 @@ namespace howl {
 namespace {
 
 std::vector<DiagnosisExperiment> NoisyRig(std::uint64_t seed) {
-  std::vector<SimulationCase> cases;
-  for (int point = 0; point < 4; ++point) {
-    SimulationCase one;
-    one.rig = TestRig(point);
-    one.rig.noise.combustion_density = 2.5e-6;  // a tenth of the flame's range, and more
-    one.rig.noise.combustion_corner_hz = 1600.0;
-    one.rig.past = {{0.1, 205.0, 0.0, 0.0}};
-    one.seed = seed + static_cast<std::uint64_t>(point);
-    cases.push_back(std::move(one));
-  }
-  SimulationOptions options;
-  options.duration_s = 3.2;
-  options.settle_s = 0.5;
-  std::vector<DiagnosisExperiment> out;
-  for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
-    out.push_back({"exp" + std::to_string(out.size() + 1),
-                   0.55 - 0.03 * static_cast<double>(out.size()),
-                   {record.sampling_hz, record.pressure, record.heat_release}});
-  }
-  return out;
+  return SimulatePoints(
+      4,
+      [](RigParameters* rig) {
+        rig->noise.combustion_density = 2.5e-6;  // a tenth of the flame's range, and more
+        rig->noise.combustion_corner_hz = 1600.0;
+      },
+      seed);
 }
 
 // Combustion noise comes back to the flame through the acoustics. Least squares over a band that

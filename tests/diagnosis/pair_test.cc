@@ -75,9 +75,9 @@ TEST(Combined, AcousticsAddTheirChanges) {
   const EffectValues all(x);
   for (const double f : {150.0, 500.0, 1200.0}) {
     const Complex<double> g = AcousticResponse(base, f);
-    const Response truth = mode->Acoustics(base, f, all.first(n)) +
-                           detuned->Acoustics(base, f, all.subspan(n)) - Response(g.re, g.im);
-    EXPECT_LT(std::abs(both->Acoustics(base, f, x) - truth), 1e-12 * std::abs(truth));
+    const Response truth = mode->Acoustics(base, f, {}, all.first(n)) +
+                           detuned->Acoustics(base, f, {}, all.subspan(n)) - Response(g.re, g.im);
+    EXPECT_LT(std::abs(both->Acoustics(base, f, {}, x) - truth), 1e-12 * std::abs(truth));
   }
 }
 
@@ -101,6 +101,88 @@ TEST(Diagnose, HumAloneIsOneEffect) {
   const Diagnosis diagnosis = Diagnose(rig, options);
   ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "mains_hum");
+}
+
+void CutOff(double quantile, std::vector<double> Record::*channel,
+            std::vector<DiagnosisExperiment>* rig) {
+  for (DiagnosisExperiment& experiment : *rig) {
+    std::vector<double>& signal = experiment.record.*channel;
+    std::vector<double> sorted = signal;
+    std::sort(sorted.begin(), sorted.end());
+    const auto last = static_cast<double>(sorted.size() - 1);
+    const double high = sorted[static_cast<std::size_t>(quantile * last)];
+    const double low = sorted[static_cast<std::size_t>((1.0 - quantile) * last)];
+    for (double& x : signal) x = std::clamp(x, low, high);
+  }
+}
+
+void AddDropouts(RigParameters* rig) {
+  EXPECT_TRUE(Find("intermittency")->AddTo({}, std::vector<double>{0.35, 0.2}, rig));
+}
+
+TEST(Diagnose, AFluctuatingGainIsSeenBesideALowPass) {
+  DiagnosisOptions options;
+  options.withheld = AllBut({"intermittency", "q_sensor_lowpass", "channel_skew"});
+  const Diagnosis diagnosis = Diagnose(
+      SimulatePoints(
+          3,
+          [](RigParameters* rig) {
+            AddDropouts(rig);
+            rig->instruments = {std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)};
+          },
+          41),
+      options);
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass+intermittency");
+}
+
+TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
+  std::vector<DiagnosisExperiment> rig = SimulatePoints(3, AddDropouts, 43);
+  CutOff(0.85, &Record::heat_release, &rig);
+  DiagnosisOptions options;
+  options.withheld = AllBut({"intermittency", "q_clipping", "channel_skew"});
+  const Diagnosis diagnosis = Diagnose(rig, options);
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "q_clipping+intermittency");
+}
+
+TEST(Diagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {
+  DiagnosisOptions options;
+  options.withheld = AllBut({"extra_acoustic_mode", "q_sensor_lowpass", "crosstalk_p_to_q"});
+  const Diagnosis diagnosis = Diagnose(
+      SimulatePoints(
+          3,
+          [](RigParameters* rig) {
+            rig->extra_modes = {{2.2 * rig->model.loop.acoustics.omega_hz, 0.04,
+                                 0.05 * rig->model.loop.acoustics.N}};
+            rig->instruments = {std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)};
+          },
+          45),
+      options);
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kUnknown);
+  EXPECT_EQ(diagnosis.together, "q_sensor_lowpass+extra_acoustic_mode");
+}
+
+TEST(Diagnose, AnEdgeInTheSamplesThatNothingExplainsIsUnknown) {
+  std::vector<DiagnosisExperiment> rig = SimulateRig();
+  CutOff(0.8, &Record::pressure, &rig);
+  DiagnosisOptions options;
+  options.withheld = AllBut({"second_delay_path", "channel_skew", "q_clipping"});
+  const Diagnosis diagnosis = Diagnose(rig, options);
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kUnknown);
+  ASSERT_FALSE(diagnosis.where.empty());
+  EXPECT_EQ(diagnosis.where[0].block, LoopBlock::kPressureInstrument);
+}
+
+// It is as free as the low-pass, yet what it learns on two points is of no use on the third.
+TEST(Diagnose, AnEffectOfNoMeaningLeavesTheGap) {
+  DiagnosisOptions options;
+  options.withheld = AllBut({"q_sensor_lowpass", "channel_skew"});
+  const Diagnosis diagnosis = Diagnose(
+      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)}), options);
+  EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass");
+  EXPECT_GT(diagnosis.candidates[0].shrinkage, 0.8);
+  EXPECT_LT(diagnosis.shrinkage_no_meaning, 0.03);
 }
 
 TEST(Verdict, FollowsTheEvidence) {

@@ -2,6 +2,7 @@
 #ifndef HOWL_TESTS_DIAGNOSIS_SIMULATED_RIG_H_
 #define HOWL_TESTS_DIAGNOSIS_SIMULATED_RIG_H_
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,13 +25,14 @@ inline RigParameters TestRig(int point) {
   return rig;
 }
 
-inline std::vector<DiagnosisExperiment> SimulateRig(
-    std::vector<std::shared_ptr<const Instrument>> instruments = {}, std::uint64_t seed = 7) {
+// change: of each point's rig, before it is simulated.
+inline std::vector<DiagnosisExperiment> SimulatePoints(
+    int points, const std::function<void(RigParameters*)>& change, std::uint64_t seed) {
   std::vector<SimulationCase> cases;
-  for (int point = 0; point < 3; ++point) {
+  for (int point = 0; point < points; ++point) {
     SimulationCase one;
     one.rig = TestRig(point);
-    one.rig.instruments = instruments;
+    change(&one.rig);
     one.rig.past = {{0.1, 205.0, 0.0, 0.0}};
     one.seed = seed + static_cast<std::uint64_t>(point);
     cases.push_back(std::move(one));
@@ -38,15 +40,20 @@ inline std::vector<DiagnosisExperiment> SimulateRig(
   SimulationOptions options;
   options.duration_s = 3.2;
   options.settle_s = 0.5;
-  const std::vector<SimulatedRecord> records = SimulateBatch(cases, options);
   std::vector<DiagnosisExperiment> experiments;
-  for (int point = 0; point < 3; ++point) {
-    const SimulatedRecord& record = records[static_cast<std::size_t>(point)];
+  for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
+    const std::size_t point = experiments.size();
     experiments.push_back({"exp" + std::to_string(point + 1),
-                           0.55 - 0.03 * point,
+                           0.55 - 0.03 * static_cast<double>(point),
                            {record.sampling_hz, record.pressure, record.heat_release}});
   }
   return experiments;
+}
+
+inline std::vector<DiagnosisExperiment> SimulateRig(
+    std::vector<std::shared_ptr<const Instrument>> instruments = {}, std::uint64_t seed = 7) {
+  return SimulatePoints(
+      3, [&](RigParameters* rig) { rig->instruments = instruments; }, seed);
 }
 
 }  // namespace howl

@@ -13,26 +13,13 @@ namespace howl {
 namespace {
 
 std::vector<DiagnosisExperiment> WithMode(double ratio, double share, double xi) {
-  std::vector<SimulationCase> cases;
-  for (int point = 0; point < 3; ++point) {
-    SimulationCase one;
-    one.rig = TestRig(point);
-    const auto& acoustics = one.rig.model.loop.acoustics;
-    one.rig.extra_modes = {{ratio * acoustics.omega_hz, xi, share * acoustics.N}};
-    one.rig.past = {{0.1, 205.0, 0.0, 0.0}};
-    one.seed = 31 + static_cast<std::uint64_t>(point);
-    cases.push_back(std::move(one));
-  }
-  SimulationOptions options;
-  options.duration_s = 3.2;
-  options.settle_s = 0.5;
-  std::vector<DiagnosisExperiment> out;
-  for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
-    out.push_back({"exp" + std::to_string(out.size() + 1),
-                   0.55 - 0.03 * static_cast<double>(out.size()),
-                   {record.sampling_hz, record.pressure, record.heat_release}});
-  }
-  return out;
+  return SimulatePoints(
+      3,
+      [&](RigParameters* rig) {
+        const auto& acoustics = rig->model.loop.acoustics;
+        rig->extra_modes = {{ratio * acoustics.omega_hz, xi, share * acoustics.N}};
+      },
+      31);
 }
 
 TEST(Starts, AWeakNarrowModeIsFoundWhereverItLies) {

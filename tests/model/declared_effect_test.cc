@@ -65,7 +65,7 @@ TEST(DeclaredEffect, PolynomialsAreTheFormula) {
   const DeclaredEffect effect(declaration);
   const std::vector<double> x = {300.0};
   const Response s = LaplaceVariable(70.0);
-  EXPECT_LT(std::abs(effect.FlameOut(70.0, x) - 300.0 / (s + 300.0)), 1e-15);
+  EXPECT_LT(std::abs(effect.FlameOut(70.0, {}, x) - 300.0 / (s + 300.0)), 1e-15);
 }
 
 TEST(DeclaredEffect, AddedDelayIsAPhase) {
@@ -94,7 +94,7 @@ TEST(DeclaredEffect, AnotherModeThroughG) {
   const Response mode = 0.2 * 6609.0 * s / (s * s + 0.1 * s * 2500.0 + 2500.0 * 2500.0);
   const Response expected = Response(g.re, g.im) + mode;
   EXPECT_LT(
-      std::abs(effect.Acoustics(acoustics, 330.0, std::vector<double>{0.2, 2500.0}) - expected),
+      std::abs(effect.Acoustics(acoustics, 330.0, {}, std::vector<double>{0.2, 2500.0}) - expected),
       1e-12 * std::abs(expected));
 }
 
@@ -104,7 +104,7 @@ TEST(DeclaredEffect, NullIsTheBaseBitForBit) {
                                       "a / 3 + a * 2 / 3 + s * 0", {Parameter("a", 1.0)}));
   const Acoustics<double> acoustics{213.7, 0.17, 6609.0, 1900.0, 3.0};
   const Complex<double> g = AcousticResponse(acoustics, 77.7);
-  EXPECT_EQ(effect.Acoustics(acoustics, 77.7, NullValues(effect)), Response(g.re, g.im));
+  EXPECT_EQ(effect.Acoustics(acoustics, 77.7, {}, NullValues(effect)), Response(g.re, g.im));
 }
 
 TEST(DeclaredEffect, DistanceTellsAWrongNull) {

@@ -30,10 +30,10 @@ TEST(Effects, NullIsTheBaseBitForBit) {
     for (const double f : {3.1, 33.3, 207.0, 750.1, 1655.5}) {
       const Complex<double> g = AcousticResponse(kAcoustics, f);
       const Response q(0.731, -2.17);
-      EXPECT_TRUE(SameBits(effect->Acoustics(kAcoustics, f, x), {g.re, g.im})) << effect->id();
+      EXPECT_TRUE(SameBits(effect->Acoustics(kAcoustics, f, kContext, x), {g.re, g.im})) << effect->id();
       for (const Response factor :
            {effect->PressureInstrument(f, x), effect->HeatReleaseInstrument(f, x),
-            effect->FlameIn(f, kContext, x), effect->FlameOut(f, x)}) {
+            effect->FlameIn(f, kContext, x), effect->FlameOut(f, kContext, x)}) {
         EXPECT_TRUE(SameBits(q * factor, q)) << effect->id();
         EXPECT_TRUE(SameBits(q / factor, q)) << effect->id();
       }
@@ -69,7 +69,7 @@ TEST(Effects, FirstOrderFiltersAtTheirCutOff) {
   for (const char* id : {"q_sensor_lowpass", "flame_lowpass"}) {
     const EffectPointer effect = Find(id);
     const std::vector<double> x = {300.0};
-    const Response at = effect->HeatReleaseInstrument(300.0, x) * effect->FlameOut(300.0, x);
+    const Response at = effect->HeatReleaseInstrument(300.0, x) * effect->FlameOut(300.0, kContext, x);
     EXPECT_NEAR(std::abs(at), std::sqrt(0.5), 1e-14) << id;
     EXPECT_NEAR(std::arg(at), -std::atan(1.0), 1e-14) << id;
   }
@@ -100,7 +100,7 @@ TEST(Effects, DetunedToThreeIsTheBase) {
   Acoustics<double> moved = kAcoustics;
   moved.harmonic_ratio = 2.6;
   const Complex<double> g = AcousticResponse(moved, 420.0);
-  EXPECT_TRUE(SameBits(Find("mode_detuning")->Acoustics(kAcoustics, 420.0, x), {g.re, g.im}));
+  EXPECT_TRUE(SameBits(Find("mode_detuning")->Acoustics(kAcoustics, 420.0, kContext, x), {g.re, g.im}));
 }
 
 TEST(Effects, TwoPathsCancelWhereTheyAreOpposed) {
@@ -114,7 +114,7 @@ TEST(Effects, ModePeaksWhereItIsPut) {
   const std::vector<double> x = {5.0, 0.2, 0.02};
   const double f = 5.0 * kAcoustics.omega_hz;
   const Complex<double> base = AcousticResponse(kAcoustics, f);
-  const Response added = mode->Acoustics(kAcoustics, f, x) - Response(base.re, base.im);
+  const Response added = mode->Acoustics(kAcoustics, f, kContext, x) - Response(base.re, base.im);
   // c N / (2 zeta w), real.
   EXPECT_NEAR(added.real(), 0.2 * kAcoustics.N / (2.0 * 0.02 * 2.0 * M_PI * f), 1e-12);
   EXPECT_NEAR(added.imag(), 0.0, 1e-12);
