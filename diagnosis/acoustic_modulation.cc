@@ -3,23 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/real_fft.h"
+#include "diagnosis/band_signal.h"
 
 namespace howl {
 namespace {
 
 constexpr double kModulationStep = 1e-3;
 constexpr int kPasses = 2;
-
-Eigen::VectorXcd OnBand(const CutRecord& record, const Eigen::VectorXd& signal) {
-  return ForwardFft(signal).segment(record.first - kTapReach, record.extended());
-}
-
-Eigen::VectorXd InTime(const CutRecord& record, const Eigen::VectorXcd& band) {
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.pressure_spectrum.size());
-  spectrum.segment(record.first - kTapReach, band.size()) = band;
-  return InverseFft(spectrum, record.samples);
-}
 
 Eigen::VectorXcd HeatRelease(const CutRecord& record) {
   return record.heat_release_spectrum.segment(record.first - kTapReach, record.extended());
@@ -38,8 +28,10 @@ Eigen::VectorXcd MovedFrequency(const CutRecord& record, const Effect& effect, E
   const Eigen::VectorXcd down = transfer(-kModulationStep);
   const Eigen::VectorXcd slope = (up - down) / (2.0 * kModulationStep);
   const Eigen::VectorXcd bend = (up + down - 2.0 * r) / (kModulationStep * kModulationStep);
-  return OnBand(record, by * InTime(record, slope.cwiseProduct(q)).array() +
-                            0.5 * by.square() * InTime(record, bend.cwiseProduct(q)).array());
+  return BandSpectrum(record,
+                      by * InTime(record, slope.cwiseProduct(q)).array() +
+                          0.5 * by.square() * InTime(record, bend.cwiseProduct(q)).array(),
+                      record.acoustic_count);
 }
 
 // One mode: c s / (s^2 + 2 xi omega s + omega^2), omega in rad/s.
@@ -56,7 +48,8 @@ Eigen::VectorXcd MovedDamping(const CutRecord& record, double omega, double xi, 
   Eigen::VectorXcd moved = Eigen::VectorXcd::Zero(n);
   for (int pass = 0; pass < kPasses; ++pass) {
     const Eigen::VectorXd rate = InTime(record, s.cwiseProduct(still + moved));
-    moved = h.cwiseProduct(OnBand(record, -2.0 * omega * xi_add * rate.array()));
+    moved = h.cwiseProduct(
+        BandSpectrum(record, -2.0 * omega * xi_add * rate.array(), record.acoustic_count));
   }
   return moved;
 }

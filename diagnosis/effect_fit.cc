@@ -1,6 +1,5 @@
 #include "diagnosis/effect_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "diagnosis/fit_starts.h"
 #include "diagnosis/fitter.h"
+#include "diagnosis/scaled_solve.h"
 
 namespace howl {
 namespace {
@@ -144,11 +144,7 @@ ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fi
   for (std::size_t e = 0; e < records.size(); ++e) {
     if (e != experiment) rest += fit.experiments[e].curvature;
   }
-  const Eigen::VectorXd scale = rest.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd scaled = scale.asDiagonal() * rest * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-6;
-  Eigen::VectorXd shift = scale.cwiseProduct(
-      scaled.ldlt().solve(scale.cwiseProduct(fit.experiments[experiment].gradient)));
+  Eigen::VectorXd shift = SolveScaled(rest, fit.experiments[experiment].gradient, 1e-6);
   shift *= Contradiction(rest, fit.experiments[experiment].curvature, shift);
   moved.tau_s += shift[0];
   for (std::size_t j = 0; j < fit.values.size(); ++j) {

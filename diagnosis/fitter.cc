@@ -1,11 +1,11 @@
 #include "diagnosis/fitter.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "diagnosis/cut_noise.h"
+#include "diagnosis/scaled_solve.h"
 
 namespace howl {
 namespace {

@@ -77,11 +77,6 @@ class Fitter {
   // biased by what combustion noise sends to p at once.
   double LeakJacobian(EffectValues x, const AcousticLocals& locals, std::size_t e) const;
 
-  static Eigen::VectorXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& g,
-                                     double damping);
-  static Eigen::MatrixXd SolveScaledMany(const Eigen::MatrixXd& h, const Eigen::MatrixXd& g,
-                                         double damping);
-
   double AcousticSquares(EffectFit* fit, std::size_t e) const;
   double DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) const;
   System Linearise(const EffectFit& fit) const;

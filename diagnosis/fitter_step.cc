@@ -1,4 +1,3 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -6,6 +5,7 @@
 
 #include "diagnosis/fitter.h"
 #include "diagnosis/real_gram.h"
+#include "diagnosis/scaled_solve.h"
 
 namespace howl {
 namespace {
@@ -40,21 +40,6 @@ double Fitter::LeakJacobian(EffectValues x, const AcousticLocals& locals, std::s
   return sum / kBinCorrelation;
 }
 
-Eigen::VectorXd Fitter::SolveScaled(const Eigen::MatrixXd& h, const Eigen::VectorXd& g,
-                                    double damping) {
-  const Eigen::VectorXd scale = h.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd scaled = scale.asDiagonal() * h * scale.asDiagonal();
-  scaled.diagonal().array() += damping;
-  return scale.cwiseProduct(scaled.ldlt().solve(scale.cwiseProduct(g)));
-}
-
-Eigen::MatrixXd Fitter::SolveScaledMany(const Eigen::MatrixXd& h, const Eigen::MatrixXd& g,
-                                        double damping) {
-  Eigen::MatrixXd out(g.rows(), g.cols());
-  for (Eigen::Index j = 0; j < g.cols(); ++j) out.col(j) = SolveScaled(h, g.col(j), damping);
-  return out;
-}
-
 Fitter::System Fitter::Linearise(const EffectFit& fit) const {
   const auto d = static_cast<Eigen::Index>(fit.values.size());
   Eigen::VectorXd steps(d);
@@ -80,7 +65,7 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
       out.local_curvature = h.topLeftCorner(4, 4);
       out.local_gradient = g.head(4);
       out.mixed = h.topRightCorner(4, d);
-      const Eigen::MatrixXd inner = SolveScaledMany(out.local_curvature, out.mixed, 1e-10);
+      const Eigen::MatrixXd inner = SolveScaled(out.local_curvature, out.mixed, 1e-10);
       out.reduced_curvature.bottomRightCorner(d, d) +=
           h.bottomRightCorner(d, d) - out.mixed.transpose() * inner;
       out.reduced_gradient.tail(d) += g.tail(d) - inner.transpose() * out.local_gradient;
@@ -104,7 +89,7 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
       const Eigen::MatrixXcd& c = solutions_[e].columns;
       const Eigen::MatrixXd local = Gram(c, weights_b_[e], c);
       const Eigen::MatrixXd mixed = Gram(c, weights_b_[e], j);
-      out.reduced_curvature += h - mixed.transpose() * SolveScaledMany(local, mixed, 1e-10);
+      out.reduced_curvature += h - mixed.transpose() * SolveScaled(local, mixed, 1e-10);
       out.reduced_gradient += g;
     }
     system.experiments.push_back(std::move(out));

@@ -5,6 +5,7 @@
 #include <complex>
 #include <vector>
 
+#include "diagnosis/band_signal.h"
 #include "diagnosis/real_fft.h"
 #include "diagnosis/real_gram.h"
 
@@ -56,10 +57,6 @@ Eigen::VectorXd FlameInput(const CutRecord& record, const Effect& effect, Effect
   return v;
 }
 
-Eigen::VectorXcd OnExtendedBand(const CutRecord& record, const Eigen::VectorXd& signal) {
-  return ForwardFft(signal).segment(record.first - kTapReach, record.flame_count + 2 * kTapReach);
-}
-
 }  // namespace
 
 FlameColumns MakeFlameColumns(const CutRecord& record, const Effect& effect, EffectValues x,
@@ -73,7 +70,7 @@ FlameColumns MakeFlameColumns(const CutRecord& record, const Effect& effect, Eff
   const Eigen::MatrixXd columns = FlameBasis(out.range).Columns(out.v);
   out.spectrum.resize(record.flame_count + 2 * kTapReach, kFlameTerms);
   for (Eigen::Index j = 0; j < kFlameTerms; ++j) {
-    out.spectrum.col(j) = OnExtendedBand(record, columns.col(j));
+    out.spectrum.col(j) = BandSpectrum(record, columns.col(j), record.flame_count);
   }
   return out;
 }
@@ -134,7 +131,7 @@ Eigen::MatrixXcd FlameJacobian(const CutRecord& record, const Effect& effect, Ef
     Eigen::VectorXcd moved = phi;
     if (effect.ChangesFlameInput() || effect.ModulatesDelay()) {
       const Eigen::VectorXd v = FlameInput(record, effect, at, tau_s);
-      moved = OnExtendedBand(record, FlameBasis(columns.range).Value(v, solution.coefficients));
+      moved = BandSpectrum(record, FlameBasis(columns.range).Value(v, solution.coefficients), n);
     }
     moved = FlameMultiplier(record, effect, at, tau_s).cwiseProduct(moved);
     jacobian.col(1 + j) = ApplyWindow((now - moved) / steps[j], n);
@@ -152,9 +149,7 @@ Eigen::VectorXd PredictedHeatRelease(const CutRecord& record, const Effect& effe
                                      const Eigen::VectorXd& coefficients) {
   const Eigen::VectorXcd phi = columns.spectrum * coefficients;
   const Eigen::VectorXcd multiplier = FlameMultiplier(record, effect, x, tau_s);
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.pressure_spectrum.size());
-  spectrum.segment(record.first - kTapReach, phi.size()) = multiplier.cwiseProduct(phi);
-  return InverseFft(spectrum, record.samples);
+  return InTime(record, multiplier.cwiseProduct(phi));
 }
 
 }  // namespace howl

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "diagnosis/band_signal.h"
 #include "diagnosis/fluctuation_kind.h"
 #include "diagnosis/real_fft.h"
 
@@ -148,9 +149,7 @@ GainFluctuation EstimateGainFluctuation(const std::vector<CutRecord>& records,
     }
     out.corrected.push_back(
         fit.experiments[e].flame_residual -
-        ApplyWindow(ForwardFft(fluctuation)
-                        .segment(record.first - kTapReach, record.flame_count + 2 * kTapReach),
-                    record.flame_count));
+        ApplyWindow(BandSpectrum(record, fluctuation, record.flame_count), record.flame_count));
     double re = 0.0;
     double im = 0.0;
     std::complex<double> mean = 0.0;

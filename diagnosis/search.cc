@@ -66,6 +66,9 @@ void Search::TakeLinesLeftOver() {
   if (left.empty()) return;
   MaskLines(left, &records_);
   lines_.insert(lines_.end(), left.begin(), left.end());
+  std::sort(lines_.begin(), lines_.end(), [](const CoherentLine& a, const CoherentLine& b) {
+    return a.frequency_hz < b.frequency_hz;
+  });
   base_ = FitBase(records_);
 }
 

@@ -1,13 +1,14 @@
 #include "diagnosis/static_map.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "diagnosis/band_signal.h"
 #include "diagnosis/cut_noise.h"
 #include "diagnosis/real_fft.h"
 #include "diagnosis/real_gram.h"
+#include "diagnosis/scaled_solve.h"
 
 namespace howl {
 namespace {
@@ -110,8 +111,7 @@ Bumps MakeBumps(const CutRecord& record, bool pressure) {
     const Eigen::ArrayXd x_1 = cycle.array() / amplitude;
     Eigen::ArrayXd shape = sign * amplitude * on;
     for (Eigen::Index j = sign > 0 ? 0 : kShapes; j < (sign > 0 ? kShapes : kBumps); ++j) {
-      out.spectrum.col(j) =
-          ForwardFft(shape.matrix()).segment(record.first - kTapReach, record.extended());
+      out.spectrum.col(j) = BandSpectrum(record, shape, record.acoustic_count);
       out.signal.col(j) = shape;
       out.mean[j] = sign * shape.sum() / count;
       shape *= x_1;
@@ -125,11 +125,9 @@ Eigen::ArrayXd FlameResidualInTime(const CutRecord& record, const EffectFit& bas
   const FlameColumns columns = MakeFlameColumns(record, *base.effect, {}, base.tau_s);
   const Eigen::VectorXcd phi = FlameMultiplier(record, *base.effect, {}, base.tau_s)
                                    .cwiseProduct(columns.spectrum * base.experiments[e].flame);
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.heat_release_spectrum.size());
-  const Eigen::Index start = record.first - kTapReach;
-  spectrum.segment(start, phi.size()) =
-      record.heat_release_spectrum.segment(start, phi.size()) - phi;
-  Eigen::ArrayXd residual = InverseFft(spectrum, record.samples).array();
+  const Eigen::VectorXcd q =
+      record.heat_release_spectrum.segment(record.first - kTapReach, phi.size());
+  Eigen::ArrayXd residual = InTime(record, q - phi).array();
   const auto ends = static_cast<Eigen::Index>(0.02 * static_cast<double>(record.samples));
   residual.head(ends) = 0.0;
   residual.tail(ends) = 0.0;
@@ -152,12 +150,10 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
   double cost = 0.0;
   double expansion = 0.0;
   double plateau_noise = 0.0;
-  std::size_t edges = 0;
   const Effect& none = *base.effect;
   for (std::size_t e = 0; e < records.size(); ++e) {
     const CutRecord& record = records[e];
     ExperimentFit& at = out.fit.experiments[e];
-    if (SharpEdge(pressure ? record.pressure : record.heat_release)) ++edges;
     const Bumps bumps = MakeBumps(record, pressure);
     Eigen::VectorXd c = Eigen::VectorXd::Zero(kBumps);
     const auto columns = [&]() {
@@ -180,12 +176,8 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
         jacobian.leftCols(4) =
             AcousticJacobian(record, none, {}, at.acoustics, bare, Eigen::VectorXd());
         jacobian.rightCols(kBumps) = extra;
-        Eigen::MatrixXd gram = RealGram(weight, jacobian, jacobian);
-        const Eigen::VectorXd right = RealGram(weight, jacobian, residual);
-        const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-        gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
-        gram.diagonal().array() += 1e-9;
-        Eigen::VectorXd step = -scale.cwiseProduct(gram.ldlt().solve(scale.cwiseProduct(right)));
+        Eigen::VectorXd step = -SolveScaled(RealGram(weight, jacobian, jacobian),
+                                            RealGram(weight, jacobian, residual), 1e-9);
         step[0] = std::clamp(step[0], -0.1, 0.1);
         step[1] = std::clamp(step[1], -0.5, 0.5);
         at.acoustics += step.head<4>();
@@ -213,7 +205,7 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
   // A bump's top is half as high again as its mean.
   out.fraction = 1.0 / (1.0 + 1.5 * std::max(expansion, 0.0));
   if (!pressure) out.plateau_noise = plateau_noise;
-  out.sharp_edge = 2 * edges > records.size();
+  out.sharp_edge = HasSharpEdge(records, pressure);
   return out;
 }
 

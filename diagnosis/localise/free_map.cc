@@ -1,13 +1,14 @@
 #include "diagnosis/localise/free_map.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "diagnosis/band_signal.h"
 #include "diagnosis/cut_noise.h"
 #include "diagnosis/real_fft.h"
 #include "diagnosis/real_gram.h"
+#include "diagnosis/scaled_solve.h"
 
 namespace howl {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 constexpr int kRounds = 3;
 constexpr int kIterations = 5;
 constexpr int kHalvings = 5;
+constexpr double kDamping = 1e-9;
 constexpr double kLeastGain = 25.0;  // what six coefficients cost, and a little
 
 const Eigen::VectorXd& Channel(const CutRecord& record, bool pressure) {
@@ -32,17 +34,14 @@ Eigen::MatrixXcd MapSpectra(const CutRecord& record, const Eigen::VectorXd& sign
     const Eigen::ArrayXd next = 2.0 * x * now - before;
     before = now;
     now = next;
-    out.col(j) = largest * ForwardFft(now.matrix()).segment(record.first - kTapReach, out.rows());
+    out.col(j) = largest * BandSpectrum(record, now, record.acoustic_count);
   }
   return out;
 }
 
 Eigen::VectorXd PredictedPressure(const CutRecord& record, const Eigen::VectorXcd& transfer) {
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.pressure_spectrum.size());
-  const Eigen::Index start = record.first - kTapReach;
-  spectrum.segment(start, transfer.size()) =
-      transfer.cwiseProduct(record.heat_release_spectrum.segment(start, transfer.size()));
-  return InverseFft(spectrum, record.samples);
+  return InTime(record, transfer.cwiseProduct(record.heat_release_spectrum.segment(
+                            record.first - kTapReach, transfer.size())));
 }
 
 Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, double largest,
@@ -58,14 +57,6 @@ Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, double largest,
                           : ApplyWindow(-r.cwiseProduct(spectra.col(j)), record.acoustic_count);
   }
   return out;
-}
-
-// Scaled and a little damped.
-Eigen::MatrixXd Solve(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& right) {
-  const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-9;
-  return scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * right);
 }
 
 // Cut B's fit with p as the duct makes it from recorded q in the place of the bent one.
@@ -125,13 +116,13 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
             AcousticJacobian(records[e], none, {}, at.acoustics, error, Eigen::VectorXd());
         Eigen::MatrixXd both(4, 1 + kMapTerms);
         both << RealGram(weight, jacobian, error), RealGram(weight, jacobian, columns);
-        local[e] = Solve(RealGram(weight, jacobian, jacobian), both);
+        local[e] = SolveScaled(RealGram(weight, jacobian, jacobian), both, kDamping);
         const Eigen::MatrixXd mixed = both.rightCols(kMapTerms);
         gram +=
             RealGram(weight, columns, columns) - mixed.transpose() * local[e].rightCols(kMapTerms);
         right += RealGram(weight, columns, error) - mixed.transpose() * local[e].col(0);
       }
-      const Eigen::VectorXd step = -Solve(gram, right);
+      const Eigen::VectorXd step = -SolveScaled(gram, right, kDamping);
       const EffectFit was = fit;
       const Eigen::VectorXd c_was = c;
       // Halved until the squares fall: far from the truth the locals overshoot.
