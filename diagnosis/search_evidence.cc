@@ -10,7 +10,7 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kNoMeaningDraws = 3;
+constexpr std::size_t kNoMeaningDraws = 5;
 constexpr std::uint64_t kNoMeaningSeed = 20;
 
 }  // namespace
@@ -53,9 +53,8 @@ double Search::ShrinkageByNoMeaning(const Attempt& best) const {
     MeasureGap(&attempt);
     shrinkage[i] = attempt.candidate.shrinkage;
   });
-  double mean = 0.0;
-  for (const double each : shrinkage) mean += each / static_cast<double>(kNoMeaningDraws);
-  return mean;
+  std::nth_element(shrinkage.begin(), shrinkage.begin() + kNoMeaningDraws / 2, shrinkage.end());
+  return shrinkage[kNoMeaningDraws / 2];
 }
 
 bool Search::ShowsLimits() const {
