@@ -68,8 +68,8 @@ struct Diagnosis {
   double gap_before = 0.0;
   double gap_after = 0.0;
   double gap_floor = 0.0;
-  // By effects that mean nothing, as free as the best (no_meaning.h): the median. NaN where the best
-  // is no transfer function.
+  // By effects that mean nothing, as free as the best (no_meaning.h): the median. NaN where the
+  // best is no transfer function.
   double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
   std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first

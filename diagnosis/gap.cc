@@ -2,26 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/noise_fit.h"
 
 namespace howl {
 namespace {
-
-// share: what a bin counts for; empty: one.
-double MeanExcess(const CutRecord& record, const Eigen::VectorXcd& residual,
-                  const Eigen::VectorXd& variance, const Eigen::VectorXd& share,
-                  bool without_masked) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (Eigen::Index k = 0; k < residual.size(); ++k) {
-    if (without_masked && record.masked[static_cast<std::size_t>(k)]) continue;
-    const double counts = share.size() > 0 ? share[k] : 1.0;
-    sum += counts * std::norm(residual[k]) / variance[k];
-    count += counts;
-  }
-  return sum / count - 1.0;
-}
 
 double Gap(const GapParts& parts, std::size_t without) {
   double sum = 0.0;
@@ -38,15 +24,31 @@ double Gap(const GapParts& parts, std::size_t without) {
 
 }  // namespace
 
+double MeanExcess(const CutRecord& record, const BinRange& bins, const Eigen::VectorXcd& residual,
+                  const Eigen::VectorXd& variance, const Eigen::VectorXd& share,
+                  bool without_masked) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (Eigen::Index k = bins.first; k < std::min(bins.last, residual.size()); ++k) {
+    if (without_masked && record.masked[static_cast<std::size_t>(k)]) continue;
+    const double counts = share.size() > 0 ? share[k] : 1.0;
+    sum += counts * std::norm(residual[k]) / variance[k];
+    count += counts;
+  }
+  return count > 0.0 ? sum / count - 1.0 : std::numeric_limits<double>::quiet_NaN();
+}
+
 GapParts ComputeGapParts(const std::vector<CutRecord>& records,
                          const std::vector<ExperimentFit>& residuals,
                          const std::vector<Eigen::VectorXd>& flame_noise, bool without_masked) {
   GapParts parts;
   for (std::size_t e = 0; e < records.size(); ++e) {
-    parts.acoustic.push_back(MeanExcess(records[e], residuals[e].acoustic_residual,
-                                        records[e].sensor_noise, {}, without_masked));
-    parts.flame.push_back(MeanExcess(records[e], residuals[e].flame_residual, flame_noise[e],
-                                     records[e].flame_share, without_masked));
+    const CutRecord& record = records[e];
+    parts.acoustic.push_back(MeanExcess(record, {0, record.acoustic_count},
+                                        residuals[e].acoustic_residual, record.sensor_noise, {},
+                                        without_masked));
+    parts.flame.push_back(MeanExcess(record, {0, record.flame_count}, residuals[e].flame_residual,
+                                     flame_noise[e], record.flame_share, without_masked));
   }
   return parts;
 }

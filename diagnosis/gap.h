@@ -13,6 +13,17 @@ struct GapParts {
   std::vector<double> flame;
 };
 
+struct BinRange {
+  Eigen::Index first = 0;
+  Eigen::Index last = 0;  // one beyond
+};
+
+// Mean of |E|^2 / V less one over some bins; NaN where none counts. share: what a bin counts for;
+// empty: one. `without_masked`: lines are not counted.
+double MeanExcess(const CutRecord& record, const BinRange& bins, const Eigen::VectorXcd& residual,
+                  const Eigen::VectorXd& variance, const Eigen::VectorXd& share,
+                  bool without_masked);
+
 // flame_noise: V_B of each experiment. `without_masked`: lines are not counted.
 GapParts ComputeGapParts(const std::vector<CutRecord>& records,
                          const std::vector<ExperimentFit>& residuals,

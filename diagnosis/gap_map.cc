@@ -4,14 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/gap.h"
+
 namespace howl {
 namespace {
 
 constexpr int kBands = 16;
 
 struct Band {
-  Eigen::Index first = 0;
-  Eigen::Index last = 0;  // one beyond
+  BinRange bins;
   double low_hz = 0.0;
   double high_hz = 0.0;
 };
@@ -25,26 +26,12 @@ std::vector<Band> Bands(const CutRecord& record, Eigen::Index count) {
     Band band;
     band.low_hz = low * std::pow(high / low, static_cast<double>(k) / kBands);
     band.high_hz = low * std::pow(high / low, static_cast<double>(k + 1) / kBands);
-    band.first = next;
+    band.bins.first = next;
     while (next < count && record.frequency(next) < band.high_hz) ++next;
-    band.last = k + 1 == kBands ? count : next;
-    if (band.last > band.first) bands.push_back(band);
+    band.bins.last = k + 1 == kBands ? count : next;
+    if (band.bins.last > band.bins.first) bands.push_back(band);
   }
   return bands;
-}
-
-double BandGap(const CutRecord& record, const Band& band, const Eigen::VectorXcd& residual,
-               const Eigen::VectorXd& variance, const Eigen::VectorXd* share, bool without_masked) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (Eigen::Index k = band.first; k < std::min(band.last, residual.size()); ++k) {
-    if (without_masked && record.masked[static_cast<std::size_t>(k)]) continue;
-    const double counts = share ? (*share)[k] : 1.0;
-    sum += counts * std::norm(residual[k]) / variance[k];
-    count += counts;
-  }
-  if (count == 0.0) return std::numeric_limits<double>::quiet_NaN();
-  return std::sqrt(std::max(0.0, sum / count - 1.0));
 }
 
 }  // namespace
@@ -63,8 +50,10 @@ std::vector<GapCell> GapMap(const std::vector<CutRecord>& records,
       };
       for (const Band& band : Bands(record, flame ? record.flame_count : record.acoustic_count)) {
         const auto gap = [&](const std::vector<ExperimentFit>& fits) {
-          return BandGap(record, band, residual(fits[e]), variance,
-                         flame ? &record.flame_share : nullptr, without_masked);
+          const double excess =
+              MeanExcess(record, band.bins, residual(fits[e]), variance,
+                         flame ? record.flame_share : Eigen::VectorXd(), without_masked);
+          return std::isnan(excess) ? excess : std::sqrt(std::max(0.0, excess));
         };
         const double nothing = std::numeric_limits<double>::quiet_NaN();
         cells.push_back({flame ? "q" : "p", record.name, band.low_hz, band.high_hz, gap(before),

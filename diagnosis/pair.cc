@@ -16,6 +16,9 @@ namespace {
 // first's form fits (results/trial); it is never exact, so a share of what it brought counts too.
 constexpr double kSecondGain = 12.0;
 constexpr double kSecondShare = 0.003;
+// Two transfer functions compete: the second mends what is inexact in the first, as a low-pass that
+// a rig's recorder has in discrete time.
+constexpr double kCompetingShare = 0.03;
 // A fluctuating gain spreads the cycle's line: effects that smooth the flame's answer fit that.
 constexpr double kBesideFluctuationShare = 0.45;
 constexpr double kBesideFluctuationGain = 100.0;
@@ -201,9 +204,8 @@ std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
     tried[i] = TryTransfer(at, combined, &*first.fit);
   });
   std::optional<Attempt> best = Best(&tried);
-  if (!best || best->candidate.gain - first.candidate.gain < LeastSecond(first)) {
-    return std::nullopt;
-  }
+  const double least = std::max(kSecondGain, kCompetingShare * first.candidate.gain);
+  if (!best || best->candidate.gain - first.candidate.gain < least) return std::nullopt;
   return best;
 }
 

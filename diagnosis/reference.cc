@@ -6,6 +6,7 @@
 
 #include "diagnosis/gain_fluctuation.h"
 #include "diagnosis/gap.h"
+#include "diagnosis/sample_limits.h"
 #include "diagnosis/static_map.h"
 
 namespace howl {

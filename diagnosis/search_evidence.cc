@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "diagnosis/no_meaning.h"
+#include "diagnosis/sample_limits.h"
 #include "diagnosis/search.h"
-#include "diagnosis/static_map.h"
 #include "estimation/parallel.h"
 #include "model/random_stream.h"
 

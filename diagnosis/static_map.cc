@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "diagnosis/band_signal.h"
 #include "diagnosis/cut_noise.h"
 #include "diagnosis/real_fft.h"
 #include "diagnosis/real_gram.h"
+#include "diagnosis/sample_limits.h"
 #include "diagnosis/scaled_solve.h"
 
 namespace howl {
@@ -19,66 +19,6 @@ constexpr Eigen::Index kShapes = 3;  // of a plateau's bump: 1, x_1, x_1^2
 constexpr Eigen::Index kBumps = 2 * kShapes;
 constexpr int kIterations = 5;
 constexpr int kRounds = 3;
-constexpr double kEdgeWidth = 0.02;
-constexpr double kEdgeRatio = 5.0;
-constexpr double kEdgeShare = 0.03;
-constexpr double kSameValue = 1e-6;  // of the range
-constexpr double kRepeatedShare = 0.01;
-constexpr double kRepeatedRatio = 5.0;  // over any other value: coarse levels repeat them all
-constexpr std::size_t kMostLevels = 300;
-
-double Quantile(const Eigen::VectorXd& x, double share) {
-  std::vector<double> values(x.data(), x.data() + x.size());
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
-
-std::vector<double> Levels(const Eigen::VectorXd& x) {
-  std::vector<double> values(x.data(), x.data() + x.size());
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
-
-// Many samples just below the extreme, few a little further down.
-bool EdgeAt(const Eigen::VectorXd& x, double range) {
-  const double top = Quantile(x, 0.9995);
-  const double width = kEdgeWidth * 0.5 * range;
-  const double near = static_cast<double>((x.array() > top - width).count());
-  const double below = static_cast<double>(
-      (x.array() > top - 3.0 * width && x.array() <= top - 2.0 * width).count());
-  return near > kEdgeRatio * std::max(below, 1.0) &&
-         near > kEdgeShare * static_cast<double>(x.size());
-}
-
-// A saturated sample repeats the extreme value exactly. Distributions that are smooth there have
-// one sample at it; where the levels are coarse, their neighbours have as many.
-bool RepeatedExtreme(const Eigen::VectorXd& x, double range) {
-  std::vector<double> values(x.data(), x.data() + x.size());
-  std::sort(values.begin(), values.end(), std::greater<>());
-  const double same = kSameValue * range;
-  std::size_t at_top = 0;
-  while (at_top < values.size() && values[at_top] > values[0] - same) ++at_top;
-  std::size_t most = 1;
-  std::size_t run = 1;
-  for (std::size_t i = at_top + 1; i < values.size(); ++i) {
-    // The other rail is no level of the converter.
-    if (values[i] < values[0] - 0.5 * range) break;
-    run = values[i] == values[i - 1] ? run + 1 : 1;
-    most = std::max(most, run);
-  }
-  return static_cast<double>(at_top) > kRepeatedShare * static_cast<double>(x.size()) &&
-         static_cast<double>(at_top) > kRepeatedRatio * static_cast<double>(most);
-}
-
-bool SharpEdge(const Eigen::VectorXd& x) {
-  const double range = Quantile(x, 0.9995) - Quantile(x, 0.0005);
-  if (RepeatedExtreme(x, range) || RepeatedExtreme(-x, range)) return true;
-  // Between coarse levels any density has edges.
-  if (Levels(x).size() <= kMostLevels) return false;
-  return EdgeAt(x, range) && EdgeAt(-x, range);
-}
 
 struct Bumps {
   Eigen::MatrixXcd spectrum;  // extended band x kBumps
@@ -97,7 +37,8 @@ Bumps MakeBumps(const CutRecord& record, bool pressure) {
       near[k] = 0.0;
   }
   const Eigen::VectorXd cycle = InverseFft(near, record.samples);
-  const double amplitude = 0.5 * (Quantile(x, kTopQuantile) - Quantile(x, 1.0 - kTopQuantile));
+  const double amplitude =
+      0.5 * (SampleQuantile(x, kTopQuantile) - SampleQuantile(x, 1.0 - kTopQuantile));
   Bumps out;
   out.plateau = amplitude;
   out.spectrum.resize(record.extended(), kBumps);
@@ -105,7 +46,7 @@ Bumps MakeBumps(const CutRecord& record, bool pressure) {
   out.signal.resize(record.samples, kBumps);
   out.on.setZero(record.samples);
   for (const int sign : {1, -1}) {
-    const double threshold = Quantile(sign * x, kTopQuantile) - kDepth * amplitude;
+    const double threshold = SampleQuantile(sign * x, kTopQuantile) - kDepth * amplitude;
     const Eigen::ArrayXd on = (sign * x.array() > threshold).cast<double>();
     const double count = std::max(on.sum(), 1.0);
     const Eigen::ArrayXd x_1 = cycle.array() / amplitude;
@@ -135,13 +76,6 @@ Eigen::ArrayXd FlameResidualInTime(const CutRecord& record, const EffectFit& bas
 }
 
 }  // namespace
-
-bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure) {
-  const auto edges = std::count_if(records.begin(), records.end(), [&](const CutRecord& record) {
-    return SharpEdge(pressure ? record.pressure : record.heat_release);
-  });
-  return 2 * static_cast<std::size_t>(edges) > records.size();
-}
 
 ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
                         const EffectFit& base) {
@@ -206,24 +140,6 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
   out.fraction = 1.0 / (1.0 + 1.5 * std::max(expansion, 0.0));
   if (!pressure) out.plateau_noise = plateau_noise;
   out.sharp_edge = HasSharpEdge(records, pressure);
-  return out;
-}
-
-FewLevels FindQuantisation(const std::vector<CutRecord>& records) {
-  FewLevels out;
-  std::size_t found = 0;
-  for (const CutRecord& record : records) {
-    const std::vector<double> values = Levels(record.pressure);
-    if (values.size() > kMostLevels || values.size() < 2) continue;
-    ++found;
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                     steps.end());
-    out.levels += (values.back() - values.front()) / steps[steps.size() / 2] + 1.0;
-  }
-  out.found = 2 * found > records.size();
-  if (found > 0) out.levels /= static_cast<double>(found);
   return out;
 }
 

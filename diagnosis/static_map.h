@@ -29,16 +29,6 @@ struct ClippingFit {
 ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
                         const EffectFit& base);
 
-// In the samples of most records: the density of the signal's values ends in an edge.
-bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure);
-
-struct FewLevels {
-  bool found = false;
-  double levels = 0.0;  // mean over the experiments
-};
-
-FewLevels FindQuantisation(const std::vector<CutRecord>& records);
-
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_STATIC_MAP_H_

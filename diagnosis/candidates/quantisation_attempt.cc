@@ -1,5 +1,5 @@
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/static_map.h"
+#include "diagnosis/sample_limits.h"
 
 namespace howl {
 

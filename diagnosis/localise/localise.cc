@@ -8,7 +8,7 @@
 #include "diagnosis/localise/free_additive.h"
 #include "diagnosis/localise/free_map.h"
 #include "diagnosis/localise/free_slack.h"
-#include "diagnosis/static_map.h"
+#include "diagnosis/sample_limits.h"
 #include "estimation/parallel.h"
 
 namespace howl {

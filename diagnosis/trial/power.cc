@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kLapse = 0.01;
 constexpr double kWanted = 0.9;
+constexpr double kSmallest = 0.1;  // severities of a trial
+constexpr double kLargest = 1.0;
 constexpr double kResolvedWidth = 0.3;  // from small to medium
 constexpr int kThresholds = 301;
 constexpr double kLowestThreshold = -0.75;
@@ -112,6 +114,11 @@ std::vector<EffectPower> ComputePower(std::span<const CaseOutcome> cases,
     power.size_high = SizeAtSeverity(effect, power.severity_high);
   }
   return out;
+}
+
+std::string_view BeyondTried(double severity) {
+  if (severity > kLargest) return "beyond large";
+  return severity < kSmallest ? "below small" : "";
 }
 
 }  // namespace howl

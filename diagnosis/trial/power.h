@@ -9,6 +9,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/trial/outcome.h"
@@ -31,6 +32,10 @@ struct EffectPower {
   // False where the cases do not tell: the interval is wider than from small to medium.
   bool resolved = false;
 };
+
+// Beyond the sizes that a trial has there is only a direction: "below small", "beyond large". Empty
+// among them.
+std::string_view BeyondTried(double severity);
 
 // Found: named, or in a class of at most three. Cases with one effect of the catalogue alone count.
 std::vector<EffectPower> ComputePower(std::span<const CaseOutcome> cases,

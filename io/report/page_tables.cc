@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "diagnosis/trial/power.h"
 #include "io/report/figures/curves.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
@@ -42,12 +43,10 @@ std::string Table(const std::string& caption, const std::vector<std::string>& he
   return out + "</tbody></table></div>\n";
 }
 
-// Beyond the sizes that a trial has there is only a direction (trial_sheet.cc).
 std::string TriedSize(const nlohmann::json& severity, const nlohmann::json& size) {
   if (!severity.is_number() || !size.is_number()) return "?";
-  if (severity.get<double>() > 1.0) return "beyond large";
-  if (severity.get<double>() < 0.1) return "below small";
-  return Text(size.get<double>(), 3);
+  const std::string_view beyond = BeyondTried(severity.get<double>());
+  return beyond.empty() ? Text(size.get<double>(), 3) : std::string(beyond);
 }
 
 }  // namespace

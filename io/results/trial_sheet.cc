@@ -126,10 +126,8 @@ std::string Reliability(const MethodScore& score) {
 }
 
 std::string Size(double severity, double size) {
-  // Beyond the sizes that were tried there is only a direction.
-  if (severity > 1.0) return "beyond large";
-  if (severity < 0.1) return "below small";
-  return Format("%.3g", size);
+  const std::string_view beyond = BeyondTried(severity);
+  return beyond.empty() ? Format("%.3g", size) : std::string(beyond);
 }
 
 std::string Power(const ScoreSheet& sheet) {

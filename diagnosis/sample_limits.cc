@@ -1,0 +1,97 @@
+#include "diagnosis/sample_limits.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace howl {
+namespace {
+
+constexpr double kEdgeWidth = 0.02;
+constexpr double kEdgeRatio = 5.0;
+constexpr double kEdgeShare = 0.03;
+constexpr double kSameValue = 1e-6;  // of the range
+constexpr double kRepeatedShare = 0.01;
+constexpr double kRepeatedRatio = 5.0;  // over any other value: coarse levels repeat them all
+constexpr std::size_t kMostLevels = 300;
+
+std::vector<double> Levels(const Eigen::VectorXd& x) {
+  std::vector<double> values(x.data(), x.data() + x.size());
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+// Many samples just below the extreme, few a little further down.
+bool EdgeAt(const Eigen::VectorXd& x, double range) {
+  const double top = SampleQuantile(x, 0.9995);
+  const double width = kEdgeWidth * 0.5 * range;
+  const double near = static_cast<double>((x.array() > top - width).count());
+  const double below = static_cast<double>(
+      (x.array() > top - 3.0 * width && x.array() <= top - 2.0 * width).count());
+  return near > kEdgeRatio * std::max(below, 1.0) &&
+         near > kEdgeShare * static_cast<double>(x.size());
+}
+
+// A saturated sample repeats the extreme value exactly. Distributions that are smooth there have
+// one sample at it; where the levels are coarse, their neighbours have as many.
+bool RepeatedExtreme(const Eigen::VectorXd& x, double range) {
+  std::vector<double> values(x.data(), x.data() + x.size());
+  std::sort(values.begin(), values.end(), std::greater<>());
+  const double same = kSameValue * range;
+  std::size_t at_top = 0;
+  while (at_top < values.size() && values[at_top] > values[0] - same) ++at_top;
+  std::size_t most = 1;
+  std::size_t run = 1;
+  for (std::size_t i = at_top + 1; i < values.size(); ++i) {
+    // The other rail is no level of the converter.
+    if (values[i] < values[0] - 0.5 * range) break;
+    run = values[i] == values[i - 1] ? run + 1 : 1;
+    most = std::max(most, run);
+  }
+  return static_cast<double>(at_top) > kRepeatedShare * static_cast<double>(x.size()) &&
+         static_cast<double>(at_top) > kRepeatedRatio * static_cast<double>(most);
+}
+
+bool SharpEdge(const Eigen::VectorXd& x) {
+  const double range = SampleQuantile(x, 0.9995) - SampleQuantile(x, 0.0005);
+  if (RepeatedExtreme(x, range) || RepeatedExtreme(-x, range)) return true;
+  // Between coarse levels any density has edges.
+  if (Levels(x).size() <= kMostLevels) return false;
+  return EdgeAt(x, range) && EdgeAt(-x, range);
+}
+
+}  // namespace
+
+double SampleQuantile(const Eigen::VectorXd& x, double share) {
+  std::vector<double> values(x.data(), x.data() + x.size());
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure) {
+  const auto edges = std::count_if(records.begin(), records.end(), [&](const CutRecord& record) {
+    return SharpEdge(pressure ? record.pressure : record.heat_release);
+  });
+  return 2 * static_cast<std::size_t>(edges) > records.size();
+}
+
+FewLevels FindQuantisation(const std::vector<CutRecord>& records) {
+  FewLevels out;
+  std::size_t found = 0;
+  for (const CutRecord& record : records) {
+    const std::vector<double> values = Levels(record.pressure);
+    if (values.size() > kMostLevels || values.size() < 2) continue;
+    ++found;
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                     steps.end());
+    out.levels += (values.back() - values.front()) / steps[steps.size() / 2] + 1.0;
+  }
+  out.found = 2 * found > records.size();
+  if (found > 0) out.levels /= static_cast<double>(found);
+  return out;
+}
+
+}  // namespace howl
