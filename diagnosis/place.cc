@@ -5,10 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "diagnosis/verdict.h"
+
 namespace howl {
 namespace {
 
-constexpr double kFlameAllowance = 120.0;
 constexpr double kTemperature = 3.0;
 constexpr double kTemperatureShare = 0.02;
 

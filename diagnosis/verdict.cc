@@ -16,10 +16,7 @@ constexpr double kFlameDetectionGain = 16.0;
 constexpr double kGapOverFloor = 2.2;
 constexpr double kGapOverFloorWidth = 0.15;
 constexpr double kDetectionWidth = 2.0;
-// Slack that is left on rigs without an effect: none in cut A, and up to 70 in cut B where p's
-// noise is strong.
-constexpr double kAcousticAllowance = 8.0;
-constexpr double kFlameAllowance = 80.0;
+constexpr double kAcousticAllowance = 8.0;  // on rigs without an effect there is none
 constexpr double kUnexplainedDetection = 15.0;
 constexpr double kUnexplainedWidth = 3.0;
 constexpr double kUnknownShare = 0.10;

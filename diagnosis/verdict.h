@@ -6,6 +6,9 @@
 
 namespace howl {
 
+// Slack in cut B (slack.h) on rigs without an effect, where p's noise is strong: at most.
+inline constexpr double kFlameAllowance = 80.0;
+
 struct Evidence {
   double gain = 0.0;            // of log-likelihood, by the best candidate, parameters paid for
   double acoustic_slack = 0.0;  // left after it (slack.h)

@@ -1,0 +1,47 @@
+// What the search for a second effect (pair.h) is made of.
+#ifndef HOWL_DIAGNOSIS_PAIR_PARTS_H_
+#define HOWL_DIAGNOSIS_PAIR_PARTS_H_
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "diagnosis/candidates/attempt.h"
+#include "diagnosis/pair.h"
+
+namespace howl {
+
+inline bool IsGain(const Attempt& attempt) { return attempt.kind == EffectKind::kGain; }
+inline bool IsTransfer(const Attempt& attempt) { return attempt.fit.has_value(); }
+inline bool ChangesAcousticCut(const Attempt& attempt) {
+  return attempt.fit && attempt.fit->effect->ChangesAcousticCut();
+}
+
+// The least that a second must bring beside this first.
+double LeastSecond(const Attempt& first);
+
+// The first that fits; attempts: the best first. Null if none does.
+template <typename Predicate>
+const Attempt* BestOf(const std::vector<Attempt>& attempts, Predicate&& is) {
+  const auto found = std::find_if(attempts.begin(), attempts.end(), is);
+  return found == attempts.end() ? nullptr : &*found;
+}
+
+// `second` as it is, with the first's name and parameters before its own.
+Attempt Join(const Attempt& first, Attempt second);
+
+// Parameters paid for; nothing if none was tried. Takes it out of `tried`.
+std::optional<Attempt> BestPaid(std::vector<std::optional<Attempt>>* tried);
+
+// How the flame's gain fluctuates under this fit.
+std::optional<Attempt> BestGain(const Setting& at, const EffectFit& fit,
+                                const std::vector<EffectForms>& units);
+
+// The second beside a clipped signal, the best of `attempts` (pair_clipping.cc).
+std::optional<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
+                                      const std::vector<EffectForms>& units,
+                                      const std::vector<CoherentLine>& lines, int threads);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_PAIR_PARTS_H_
