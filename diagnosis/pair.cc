@@ -1,6 +1,7 @@
 #include "diagnosis/pair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "diagnosis/pair_parts.h"
@@ -17,6 +18,7 @@ constexpr double kCompetingShare = 0.03;
 // A fluctuating gain spreads the cycle's line: effects that smooth the flame's answer fit that.
 constexpr double kBesideFluctuationShare = 0.45;
 constexpr double kBesideFluctuationGain = 100.0;
+constexpr double kBiasGainAtThirtyLevels = 300.0;
 
 bool IsLine(const Attempt& attempt) { return attempt.kind == EffectKind::kLine; }
 
@@ -38,6 +40,21 @@ std::optional<Attempt> WithFluctuation(const Setting& at, const Attempt& transfe
   return joined;
 }
 
+// Steps in p are noise of p: nothing to cut A, but in cut B p drives the flame, and errors there
+// bias what is fitted by their variance. Effects that are fitted to cut B gain by the bias squared:
+// as the step's fourth power.
+std::optional<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
+  const double levels = attempts[0].candidate.parameters[0].value;
+  const double bias_gain = kBiasGainAtThirtyLevels * std::pow(30.0 / levels, 4);
+  const Attempt* other = BestOf(attempts, [&](const Attempt& attempt) {
+    if (!IsTransfer(attempt)) return false;
+    const double by_bias = attempt.fit->effect->ChangesFlameCut() ? bias_gain : 0.0;
+    return attempt.candidate.gain > std::max(DetectionGain(true), by_bias);
+  });
+  if (!other) return std::nullopt;
+  return Join(attempts[0], *other);
+}
+
 }  // namespace
 
 std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Attempt>& attempts,
@@ -52,9 +69,8 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
     return std::nullopt;
   }
   if (top.seen) {
-    if (!top.repaired.empty()) return BesideClipping(at, attempts, units, lines, threads);
-    // Steps in p disturb every fit: nothing but a line stands beside them.
-    return std::nullopt;
+    return top.repaired.empty() ? BesideQuantisation(attempts)
+                                : BesideClipping(at, attempts, units, lines, threads);
   }
   if (IsGain(top)) {
     const double beside =
