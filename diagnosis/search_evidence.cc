@@ -98,6 +98,7 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
   out.gain = std::max(0.0, top->candidate.gain);
   out.gap_after = top->candidate.gap_after;
   out.seen = top->seen;
+  out.form_is_wrong = top->fit && !top->fit->effect->IsOwnCause(top->fit->values);
   out.confirmed = top->confirmed;
   out.flame_alone = top->fit && !top->fit->effect->ChangesAcousticCut();
   return out;

@@ -57,6 +57,7 @@ Belief Weigh(const Evidence& at) {
     const double left = std::max(0.0, above) / std::max(std::pow(at.gap_before, 2), 1e-300);
     out.unknown = std::max(out.unknown, Logistic((left - kUnknownGapShare) / kUnknownGapWidth));
   }
+  if (at.form_is_wrong) out.unknown = std::max(out.unknown, kUnexplainedFact);
   if (at.unexplained_lines || at.unexplained_samples) {
     out.none = 0.0;
     out.unknown = std::max(out.unknown, kUnexplainedFact);

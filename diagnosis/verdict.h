@@ -20,6 +20,7 @@ struct Evidence {
   bool confirmed = false;            // by something beside the likelihood
   bool flame_alone = false;          // the candidate shows in cut B only
   bool unexplained_lines = false;    // coherent lines that no candidate accounts for
+  bool form_is_wrong = false;        // the candidate is no cause of its own (Effect::IsOwnCause)
   bool unexplained_samples = false;  // an edge or few levels: the same
 };
 

@@ -65,6 +65,9 @@ class Combined final : public NamedEffect {
     return first_->FlameIn(frequency_hz, at, First(x)) *
            second_->FlameIn(frequency_hz, at, Second(x));
   }
+  bool IsOwnCause(EffectValues x) const override {
+    return first_->IsOwnCause(First(x)) && second_->IsOwnCause(Second(x));
+  }
   Response FlameOut(double frequency_hz, const EffectContext& at, EffectValues x) const override {
     return first_->FlameOut(frequency_hz, at, First(x)) *
            second_->FlameOut(frequency_hz, at, Second(x));

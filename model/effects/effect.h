@@ -126,6 +126,9 @@ class Effect {
 
   virtual EffectForm form() const { return {}; }
 
+  // False where these values are no cause of their own, but a sign that the base's form is wrong.
+  virtual bool IsOwnCause(EffectValues /*x*/) const { return true; }
+
   // Puts the effect into a rig that is to be simulated. False: it has no form in time. At the null
   // the record keeps every bit.
   virtual bool AddTo(const SimulationScale& /*scale*/, EffectValues /*x*/,

@@ -10,7 +10,8 @@
 namespace howl {
 namespace {
 
-constexpr int kRatios = 65;  // up to 8
+constexpr int kRatios = 65;         // up to 8
+constexpr double kSameMode = 0.02;  // of log frequency
 
 // Half a line's width apart.
 std::vector<double> Ratios() {
@@ -38,6 +39,11 @@ class Mode final : public NamedEffect {
                      {"coeff_over_N", "", 0.0, -5.0, 5.0, {0.3}},
                      {"zeta", "", 0.05, 0.002, 0.15, {0.05}, ParameterScale::kLogarithmic}}) {}
   bool ChangesAcousticCut() const override { return true; }
+  // A second mode at the frequency of one that is there says that this one is no simple mode.
+  bool IsOwnCause(EffectValues x) const override {
+    return std::abs(std::log(x[0])) > kSameMode &&
+           std::abs(std::log(x[0] / kSeedHarmonicRatio)) > kSameMode;
+  }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
                      const EffectContext& at, EffectValues x) const override {
     const Response base = Effect::Acoustics(acoustics, frequency_hz, at, x);

@@ -45,7 +45,7 @@ class Path final : public NamedEffect {
  public:
   explicit Path(bool before)
       : NamedEffect("second_delay_path", LoopBlock::kDelay,
-                    {{"share", "", 0.0, -0.6, 0.6, {0.1, 0.3}},
+                    {{"share", "", 0.0, 0.0, 0.6, {0.1, 0.3}},
                      {"extra_s",
                       "s",
                       1e-3,

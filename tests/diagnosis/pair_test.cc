@@ -146,6 +146,26 @@ TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
   EXPECT_EQ(diagnosis.effect, "q_clipping+intermittency");
 }
 
+TEST(Diagnose, AnExtraModeIsSeenBesideFewLevels) {
+  std::vector<DiagnosisExperiment> rig = SimulatePoints(
+      3,
+      [](RigParameters* one) {
+        one->extra_modes = {
+            {2.2 * one->model.loop.acoustics.omega_hz, 0.04, 0.05 * one->model.loop.acoustics.N}};
+      },
+      47);
+  for (DiagnosisExperiment& experiment : rig) {
+    std::vector<double>& p = experiment.record.pressure;
+    const double step = (*std::max_element(p.begin(), p.end())) / 50.0;
+    for (double& x : p) x = step * std::round(x / step);
+  }
+  DiagnosisOptions options;
+  options.withheld = AllBut({"extra_acoustic_mode", "quantisation", "channel_skew"});
+  const Diagnosis diagnosis = Diagnose(rig, options);
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "quantisation+extra_acoustic_mode");
+}
+
 TEST(Diagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {
   DiagnosisOptions options;
   options.withheld = AllBut({"extra_acoustic_mode", "q_sensor_lowpass", "crosstalk_p_to_q"});
@@ -161,6 +181,23 @@ TEST(Diagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {
       options);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kUnknown);
   EXPECT_EQ(diagnosis.together, "q_sensor_lowpass+extra_acoustic_mode");
+}
+
+TEST(Diagnose, AModeOnTopOfAModeIsNoCauseOfItsOwn) {
+  DiagnosisOptions options;
+  options.withheld = AllBut({"extra_acoustic_mode", "channel_skew"});
+  const Diagnosis diagnosis =
+      Diagnose(SimulatePoints(
+                   3,
+                   [](RigParameters* rig) {
+                     const auto& acoustics = rig->model.loop.acoustics;
+                     rig->extra_modes = {{3.0 * acoustics.omega_hz, 0.05, 0.1 * acoustics.N}};
+                   },
+                   49),
+               options);
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kUnknown);
+  ASSERT_FALSE(diagnosis.where.empty());
+  EXPECT_EQ(diagnosis.where[0].block, LoopBlock::kAcoustics);
 }
 
 TEST(Diagnose, AnEdgeInTheSamplesThatNothingExplainsIsUnknown) {
@@ -209,6 +246,9 @@ TEST(Verdict, FollowsTheEvidence) {
   steps.seen = true;
   EXPECT_EQ(Weigh(steps).none, 0.0);
   EXPECT_EQ(Weigh(steps).unknown, 0.0);
+  Evidence misfit = found;
+  misfit.form_is_wrong = true;
+  EXPECT_GT(Weigh(misfit).unknown, 0.85);
   Evidence line = nothing;
   line.unexplained_lines = true;
   EXPECT_GT((1.0 - Weigh(line).none) * Weigh(line).unknown, 0.85);
