@@ -19,6 +19,7 @@ constexpr double kCompetingShare = 0.03;
 constexpr double kBesideFluctuationShare = 0.45;
 constexpr double kBesideFluctuationGain = 100.0;
 constexpr double kBiasGainAtThirtyLevels = 300.0;
+constexpr double kBiasInAcoustics = 0.02;  // of that
 
 bool IsLine(const Attempt& attempt) { return attempt.kind == EffectKind::kLine; }
 
@@ -40,7 +41,7 @@ std::optional<Attempt> WithFluctuation(const Setting& at, const Attempt& transfe
   return joined;
 }
 
-// Steps in p are noise of p: nothing to cut A, but in cut B p drives the flame, and errors there
+// Steps in p are noise of p: little to cut A, but in cut B p drives the flame, and errors there
 // bias what is fitted by their variance. Effects that are fitted to cut B gain by the bias squared:
 // as the step's fourth power.
 std::optional<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
@@ -48,7 +49,8 @@ std::optional<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) 
   const double bias_gain = kBiasGainAtThirtyLevels * std::pow(30.0 / levels, 4);
   const Attempt* other = BestOf(attempts, [&](const Attempt& attempt) {
     if (!IsTransfer(attempt)) return false;
-    const double by_bias = attempt.fit->effect->ChangesFlameCut() ? bias_gain : 0.0;
+    const bool flame = attempt.fit->effect->ChangesFlameCut();
+    const double by_bias = flame ? bias_gain : kBiasInAcoustics * bias_gain;
     return attempt.candidate.gain > std::max(DetectionGain(true), by_bias);
   });
   if (!other) return std::nullopt;
@@ -69,6 +71,9 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
     return std::nullopt;
   }
   if (top.seen) {
+    const Attempt* other =
+        BestOf(attempts, [&](const Attempt& attempt) { return attempt.seen && &attempt != &top; });
+    if (other) return Join(top, *other);
     return top.repaired.empty() ? BesideQuantisation(attempts)
                                 : BesideClipping(at, attempts, units, lines, threads);
   }

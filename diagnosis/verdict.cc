@@ -25,8 +25,8 @@ constexpr double kUnknownWidth = 0.02;
 constexpr double kUnknownGapShare = 0.016;  // of the squared gap
 constexpr double kUnknownGapWidth = 0.004;
 constexpr double kUnexplainedFact = 0.9;
-constexpr double kTemperature = 2.0;
-constexpr double kTemperatureShare = 0.005;
+constexpr double kTemperature = 1.5;
+constexpr double kTemperatureShare = 0.001;
 constexpr double kTemperatureMostGain = 1e4;
 
 double Logistic(double x) { return 1.0 / (1.0 + std::exp(-std::clamp(x, -50.0, 50.0))); }
