@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "diagnosis/effect_fit.h"
-#include "diagnosis/slack.h"
 #include "diagnosis/sample_limits.h"
+#include "diagnosis/slack.h"
 #include "diagnosis/static_map.h"
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"

@@ -30,7 +30,8 @@ TEST(Effects, NullIsTheBaseBitForBit) {
     for (const double f : {3.1, 33.3, 207.0, 750.1, 1655.5}) {
       const Complex<double> g = AcousticResponse(kAcoustics, f);
       const Response q(0.731, -2.17);
-      EXPECT_TRUE(SameBits(effect->Acoustics(kAcoustics, f, kContext, x), {g.re, g.im})) << effect->id();
+      EXPECT_TRUE(SameBits(effect->Acoustics(kAcoustics, f, kContext, x), {g.re, g.im}))
+          << effect->id();
       for (const Response factor :
            {effect->PressureInstrument(f, x), effect->HeatReleaseInstrument(f, x),
             effect->FlameIn(f, kContext, x), effect->FlameOut(f, kContext, x)}) {
@@ -69,7 +70,8 @@ TEST(Effects, FirstOrderFiltersAtTheirCutOff) {
   for (const char* id : {"q_sensor_lowpass", "flame_lowpass"}) {
     const EffectPointer effect = Find(id);
     const std::vector<double> x = {300.0};
-    const Response at = effect->HeatReleaseInstrument(300.0, x) * effect->FlameOut(300.0, kContext, x);
+    const Response at =
+        effect->HeatReleaseInstrument(300.0, x) * effect->FlameOut(300.0, kContext, x);
     EXPECT_NEAR(std::abs(at), std::sqrt(0.5), 1e-14) << id;
     EXPECT_NEAR(std::arg(at), -std::atan(1.0), 1e-14) << id;
   }
@@ -100,7 +102,8 @@ TEST(Effects, DetunedToThreeIsTheBase) {
   Acoustics<double> moved = kAcoustics;
   moved.harmonic_ratio = 2.6;
   const Complex<double> g = AcousticResponse(moved, 420.0);
-  EXPECT_TRUE(SameBits(Find("mode_detuning")->Acoustics(kAcoustics, 420.0, kContext, x), {g.re, g.im}));
+  EXPECT_TRUE(
+      SameBits(Find("mode_detuning")->Acoustics(kAcoustics, 420.0, kContext, x), {g.re, g.im}));
 }
 
 TEST(Effects, TwoPathsCancelWhereTheyAreOpposed) {
