@@ -8,6 +8,7 @@
 #include "diagnosis/calibration.h"
 #include "diagnosis/gap_map.h"
 #include "diagnosis/localise/localise.h"
+#include "diagnosis/pair.h"
 #include "diagnosis/place.h"
 #include "diagnosis/search.h"
 
@@ -18,6 +19,15 @@ constexpr double kClassProbability = 0.02;
 // Of an unknown: where a second transfer function is needed, it may be that none of the catalogue
 // is the cause.
 constexpr double kTwoTransferFunctions = 0.9;
+
+// A second transfer function that brings as much as it must was seen to leave at least this share
+// of it as slack beside the first (results/trial): less is not worth the search.
+constexpr double kSlackOfASecond = 0.1;
+
+bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
+  return !first.seen && !first.also &&
+         after.acoustic_excess + after.flame_excess > kSlackOfASecond * LeastCompeting(first);
+}
 
 bool Better(const Attempt& a, const Attempt& b) {
   return a.seen != b.seen ? a.seen : a.candidate.gain > b.candidate.gain;
@@ -48,9 +58,8 @@ Diagnosis Search::Run() {
     }
   }
   std::optional<Attempt> together;
-  const bool left_over = after.acoustic_excess > 0.0 || after.flame_excess > 0.0;
   if (belief.none < 0.5 && !attempts_.empty() && Detected() &&
-      (belief.unknown > 0.5 || (left_over && !attempts_[0].seen && !attempts_[0].also))) {
+      (belief.unknown > 0.5 || LeavesRoomForASecond(attempts_[0], after))) {
     together = TryTransferPair(at_, attempts_[0], units_, options_.threads);
     if (together) belief.unknown = std::max(belief.unknown, kTwoTransferFunctions);
   }
@@ -87,8 +96,7 @@ Diagnosis Search::Run() {
 
 bool Search::Detected() const {
   const Attempt& top = attempts_[0];
-  const bool flame_alone = top.fit && !top.fit->effect->ChangesAcousticCut();
-  return top.candidate.gain > DetectionGain(flame_alone);
+  return top.candidate.gain > DetectionGain(ShowsInFlameAlone(top));
 }
 
 Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {

@@ -16,6 +16,7 @@ constexpr int kFirstRoundIterations = 7;
 constexpr int kLaterRoundIterations = 8;
 constexpr int kRounds = 3;
 constexpr std::size_t kStartsKept = 2;
+constexpr int kApproachIterations = 4;
 
 class NoEffect final : public NamedEffect {
  public:
@@ -56,53 +57,48 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
 
 namespace {
 
-EffectFit FitFrom(const std::vector<CutRecord>& records, const EffectPointer& effect,
-                  const EffectFit& base, StartList starts, bool scan) {
-  const std::vector<FlameColumns> columns =
-      effect->ChangesFlameCut() ? BaseColumns(records) : std::vector<FlameColumns>(records.size());
-  Fitter fitter(records, *effect, &columns);
-  // Found beside the base: nothing else needs to move first.
-  const std::size_t on_the_grid = starts.size();
-  if (scan) {
-    for (std::vector<double>& start : ScannedStarts(effect, base, &fitter)) {
-      starts.push_back(std::move(start));
+using EffectFits = std::vector<EffectFit>;
+
+std::vector<FlameColumns> ColumnsFor(const std::vector<CutRecord>& records, const Effect& effect) {
+  return effect.ChangesFlameCut() ? BaseColumns(records)
+                                  : std::vector<FlameColumns>(records.size());
+}
+
+EffectFit StartOf(const std::vector<CutRecord>& records, const EffectPointer& effect,
+                  const EffectFit& base, const std::vector<double>& values, bool own_locals) {
+  EffectFit fit = base;
+  fit.effect = effect;
+  fit.values = values;
+  if (effect->ChangesFlameCut()) {
+    fit.tau_s = CorrectedDelay(records, *effect, values, base.tau_s);
+  }
+  if (effect->ChangesAcousticCut() && own_locals) {
+    for (std::size_t e = 0; e < records.size(); ++e) {
+      fit.experiments[e].acoustics = AcousticStarts(records[e], *effect, values, 1)[0];
     }
   }
-  std::vector<EffectFit> candidates;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    const std::vector<double>& values = starts[i];
-    EffectFit fit = base;
-    fit.effect = effect;
-    fit.values = values;
-    if (effect->ChangesFlameCut()) {
-      fit.tau_s = CorrectedDelay(records, *effect, values, base.tau_s);
-    }
-    if (effect->ChangesAcousticCut() && i < on_the_grid) {
-      for (std::size_t e = 0; e < records.size(); ++e) {
-        fit.experiments[e].acoustics = AcousticStarts(records[e], *effect, values, 1)[0];
-      }
-    }
-    fitter.SetNoise(fit);
-    fitter.Descend(&fit, kFirstRoundIterations);
-    fitter.RefitNoise(&fit);
-    candidates.push_back(std::move(fit));
-    std::sort(candidates.begin(), candidates.end(),
-              [](const EffectFit& a, const EffectFit& b) { return a.cost() < b.cost(); });
-    if (candidates.size() > kStartsKept) candidates.pop_back();
-  }
-  for (EffectFit& fit : candidates) {
-    fitter.SetNoise(fit);
-    if (fitter.RestartLocals(&fit)) fitter.RefitNoise(&fit);
+  return fit;
+}
+
+bool Cheaper(const EffectFit& a, const EffectFit& b) { return a.cost() < b.cost(); }
+
+void KeepBest(std::size_t count, EffectFits* fits) {
+  std::sort(fits->begin(), fits->end(), Cheaper);
+  if (fits->size() > count) fits->pop_back();
+}
+
+EffectFit SettleBest(EffectFits fits, const EffectFit& base, Fitter* fitter) {
+  for (EffectFit& fit : fits) {
+    fitter->SetNoise(fit);
+    if (fitter->RestartLocals(&fit)) fitter->RefitNoise(&fit);
     for (int round = 1; round < kRounds; ++round) {
-      fitter.Descend(&fit, kLaterRoundIterations);
-      fitter.RefitNoise(&fit);
+      fitter->Descend(&fit, kLaterRoundIterations);
+      fitter->RefitNoise(&fit);
     }
   }
-  EffectFit best =
-      *std::min_element(candidates.begin(), candidates.end(),
-                        [](const EffectFit& a, const EffectFit& b) { return a.cost() < b.cost(); });
-  fitter.SetNoise(best);
-  fitter.Finish(&best, &base);
+  EffectFit best = *std::min_element(fits.begin(), fits.end(), Cheaper);
+  fitter->SetNoise(best);
+  fitter->Finish(&best, &base);
   return best;
 }
 
@@ -110,12 +106,52 @@ EffectFit FitFrom(const std::vector<CutRecord>& records, const EffectPointer& ef
 
 EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& effect,
                     const EffectFit& base) {
-  return FitFrom(records, effect, base, StartValues(*effect, {}), true);
+  const std::vector<FlameColumns> columns = ColumnsFor(records, *effect);
+  Fitter fitter(records, *effect, &columns);
+  EffectFits starts;
+  for (const std::vector<double>& values : StartValues(*effect, {})) {
+    starts.push_back(StartOf(records, effect, base, values, true));
+  }
+  // Found beside the base: nothing else needs to move first.
+  for (const std::vector<double>& values : ScannedStarts(effect, base, &fitter)) {
+    starts.push_back(StartOf(records, effect, base, values, false));
+  }
+  EffectFits kept;
+  for (EffectFit& fit : starts) {
+    fitter.SetNoise(base);
+    fitter.Descend(&fit, kFirstRoundIterations);
+    fitter.RefitNoise(&fit);
+    kept.push_back(std::move(fit));
+    KeepBest(kStartsKept, &kept);
+  }
+  return SettleBest(std::move(kept), base, &fitter);
 }
 
-EffectFit FitFurther(const std::vector<CutRecord>& records, const EffectPointer& combined,
-                     const EffectFit& base, const EffectFit& first) {
-  return FitFrom(records, combined, base, StartValues(*combined, first.values), false);
+EffectFit Approach(const std::vector<CutRecord>& records, const EffectPointer& combined,
+                   const EffectFit& base, const EffectFit& first) {
+  const std::vector<FlameColumns> columns = ColumnsFor(records, *combined);
+  Fitter fitter(records, *combined, &columns);
+  EffectFits kept;
+  for (const std::vector<double>& values : StartValues(*combined, first.values)) {
+    fitter.SetNoise(first);
+    EffectFit fit = StartOf(records, combined, base, values, true);
+    // Where the second changes little, the first's own parameters are nearer.
+    EffectFit near = fit;
+    near.experiments = first.experiments;
+    if (fitter.Evaluate(&near) < fitter.Evaluate(&fit)) fit = std::move(near);
+    fitter.Descend(&fit, kApproachIterations);
+    fitter.RefitNoise(&fit);
+    kept.push_back(std::move(fit));
+    KeepBest(1, &kept);
+  }
+  return std::move(kept[0]);
+}
+
+EffectFit Settle(const std::vector<CutRecord>& records, const EffectFit& base,
+                 const EffectFit& approached) {
+  const std::vector<FlameColumns> columns = ColumnsFor(records, *approached.effect);
+  Fitter fitter(records, *approached.effect, &columns);
+  return SettleBest({approached}, base, &fitter);
 }
 
 namespace {

@@ -51,9 +51,15 @@ EffectFit FitBase(const std::vector<CutRecord>& records);
 EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& effect,
                     const EffectFit& base);
 
-// A combination whose first part was fitted already: from there, and the starts of its second.
-EffectFit FitFurther(const std::vector<CutRecord>& records, const EffectPointer& combined,
-                     const EffectFit& base, const EffectFit& first);
+// A combination whose first part was fitted already, in two parts, so that many combinations can be
+// compared before the best are followed to the end.
+//
+// A few steps from each start of the second's parameters, at the noise that the first left over;
+// the best of where they lead.
+EffectFit Approach(const std::vector<CutRecord>& records, const EffectPointer& combined,
+                   const EffectFit& base, const EffectFit& first);
+EffectFit Settle(const std::vector<CutRecord>& records, const EffectFit& base,
+                 const EffectFit& approached);
 
 // The experiment's residuals with tau and the effect's parameters as the other experiments have
 // them, as far as these determine them; its own parameters refitted.

@@ -123,13 +123,11 @@ void Fitter::Finish(EffectFit* fit, const EffectFit* base) {
   }
   // The cost is a sum of |E|^2 / V, twice the log-likelihood less a constant: its curvature over
   // two is the information.
-  const Eigen::VectorXd scale = total.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd scaled = scale.asDiagonal() * total * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-9;
-  const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(d, d));
+  const Eigen::MatrixXd covariance =
+      0.5 * SolveScaled(total, Eigen::MatrixXd::Identity(d, d), 1e-9);
   fit->standard_errors.assign(static_cast<std::size_t>(d), 0.0);
   for (Eigen::Index i = 0; i < d; ++i) {
-    const double in_u = scale[i] * std::sqrt(0.5 * std::max(inverse(i, i), 0.0));
+    const double in_u = std::sqrt(std::max(covariance(i, i), 0.0));
     const double to_x = i == 0 ? 1.0
                                : ScaleOf(effect_.parameters()[static_cast<std::size_t>(i - 1)],
                                          fit->values[static_cast<std::size_t>(i - 1)]);

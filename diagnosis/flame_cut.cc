@@ -1,6 +1,5 @@
 #include "diagnosis/flame_cut.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <complex>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "diagnosis/band_signal.h"
 #include "diagnosis/real_fft.h"
 #include "diagnosis/real_gram.h"
+#include "diagnosis/scaled_solve.h"
 
 namespace howl {
 namespace {
@@ -101,12 +101,8 @@ FlameSolution SolveFlame(const CutRecord& record, const Effect& effect, EffectVa
   Eigen::VectorXcd target = record.windowed_heat_release.head(n);
   const Response leak = effect.PressureLeak(record.at.cycle_frequency_hz, record.at, x);
   if (leak != 0.0) target -= leak * record.windowed_pressure.head(n);
-  Eigen::MatrixXd gram = RealGram(weight, out.columns, out.columns);
-  const Eigen::VectorXd right = RealGram(weight, out.columns, target);
-  const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
-  gram = (scale.asDiagonal() * gram * scale.asDiagonal()).eval();
-  gram.diagonal().array() += kRidge;
-  out.coefficients = scale.cwiseProduct(gram.ldlt().solve(scale.cwiseProduct(right)));
+  out.coefficients = SolveScaled(RealGram(weight, out.columns, out.columns),
+                                 RealGram(weight, out.columns, target), kRidge);
   out.residual = target - out.columns * out.coefficients;
   return out;
 }

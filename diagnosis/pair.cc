@@ -15,6 +15,7 @@ namespace {
 // Two transfer functions compete: the second mends what is inexact in the first, as a low-pass that
 // a rig's recorder has in discrete time.
 constexpr double kCompetingShare = 0.03;
+constexpr std::size_t kFollowed = 3;  // of the seconds, to the end
 // A fluctuating gain spreads the cycle's line: effects that smooth the flame's answer fit that.
 constexpr double kBesideFluctuationShare = 0.45;
 constexpr double kBesideFluctuationGain = 100.0;
@@ -24,8 +25,7 @@ constexpr double kBiasInAcoustics = 0.02;  // of that
 bool IsLine(const Attempt& attempt) { return attempt.kind == EffectKind::kLine; }
 
 bool Detected(const Attempt& attempt) {
-  const bool flame_alone = attempt.fit && !attempt.fit->effect->ChangesAcousticCut();
-  return attempt.seen || attempt.candidate.gain > DetectionGain(flame_alone);
+  return attempt.seen || attempt.candidate.gain > DetectionGain(ShowsInFlameAlone(attempt));
 }
 
 // What fluctuates once the transfer function is right.
@@ -41,10 +41,12 @@ std::optional<Attempt> WithFluctuation(const Setting& at, const Attempt& transfe
   return joined;
 }
 
-// Steps in p are noise of p: little to cut A, but in cut B p drives the flame, and errors there
-// bias what is fitted by their variance. Effects that are fitted to cut B gain by the bias squared:
-// as the step's fourth power.
+// Steps in p feign no fluctuating gain (results/trial). They are noise of p: little to cut A, but
+// in cut B p drives the flame, and errors there bias what is fitted by their variance. Effects that
+// are fitted to cut B gain by the bias squared: as the step's fourth power.
 std::optional<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
+  const Attempt* gain = BestOf(attempts, IsGain);
+  if (gain && gain->candidate.gain > DetectionGain(true)) return Join(attempts[0], *gain);
   const double levels = attempts[0].candidate.parameters[0].value;
   const double bias_gain = kBiasGainAtThirtyLevels * std::pow(30.0 / levels, 4);
   const Attempt* other = BestOf(attempts, [&](const Attempt& attempt) {
@@ -89,22 +91,36 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
   return IsTransfer(top) ? WithFluctuation(at, top, units) : std::nullopt;
 }
 
+double LeastCompeting(const Attempt& first) {
+  return std::max(LeastSecond(first), kCompetingShare * first.candidate.gain);
+}
+
 std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
                                        const std::vector<EffectForms>& units, int threads) {
   if (!IsTransfer(first)) return std::nullopt;
-  std::vector<std::optional<Attempt>> tried(units.size());
+  std::vector<std::optional<EffectFit>> seconds(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const EffectForms& forms = units[i];
     if (forms[0]->kind() != EffectKind::kTransfer || forms[0]->id() == first.fit->effect->id()) {
       return;
     }
-    EffectForms combined;
-    for (const EffectPointer& form : forms) combined.push_back(Combine(first.fit->effect, form));
-    tried[i] = TryTransfer(at, combined, &*first.fit);
+    for (const EffectPointer& form : forms) {
+      EffectFit fit = Approach(*at.records, Combine(first.fit->effect, form), *at.base, *first.fit);
+      if (!seconds[i] || fit.cost() < seconds[i]->cost()) seconds[i] = std::move(fit);
+    }
+  });
+  const auto empty = std::remove(seconds.begin(), seconds.end(), std::nullopt);
+  seconds.erase(empty, seconds.end());
+  std::stable_sort(seconds.begin(), seconds.end(),
+                   [](const auto& a, const auto& b) { return a->cost() < b->cost(); });
+  std::vector<std::optional<Attempt>> tried(std::min(seconds.size(), kFollowed));
+  RunUnits(tried.size(), threads, [&](std::size_t i) {
+    tried[i] = FromFit(at, Settle(*at.records, *at.base, *seconds[i]));
   });
   std::optional<Attempt> best = BestPaid(&tried);
-  const double least = std::max(LeastSecond(first), kCompetingShare * first.candidate.gain);
-  if (!best || best->candidate.gain - first.candidate.gain < least) return std::nullopt;
+  if (!best || best->candidate.gain - first.candidate.gain < LeastCompeting(first)) {
+    return std::nullopt;
+  }
   return best;
 }
 

@@ -23,6 +23,9 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
                                        const std::vector<EffectForms>& units,
                                        const std::vector<CoherentLine>& lines, int threads);
 
+// What a second transfer function must bring to compete with the first.
+double LeastCompeting(const Attempt& first);
+
 // The best second transfer function beside the best; nothing if it brings no more than noise.
 std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
                                        const std::vector<EffectForms>& units, int threads);

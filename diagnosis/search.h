@@ -31,9 +31,6 @@ class Search {
   void MeasureGaps();
   void MeasureGap(Attempt* attempt) const;
   double ShrinkageByNoMeaning(const Attempt& best) const;
-  // An edge of the density or few levels, in the samples themselves and not in the reference's.
-  bool ShowsLimits() const;
-
   // With the best attempt, if there is any; `after`: the slack that it leaves.
   Evidence Look(const Attempt* top, Slack* after) const;
 

@@ -2,7 +2,6 @@
 #include <limits>
 
 #include "diagnosis/no_meaning.h"
-#include "diagnosis/sample_limits.h"
 #include "diagnosis/search.h"
 #include "estimation/parallel.h"
 #include "model/random_stream.h"
@@ -57,14 +56,6 @@ double Search::ShrinkageByNoMeaning(const Attempt& best) const {
   return shrinkage[kNoMeaningDraws / 2];
 }
 
-bool Search::ShowsLimits() const {
-  const bool p = reference_ && reference_->pressure_sharp_edge;
-  const bool q = reference_ && reference_->heat_release_sharp_edge;
-  const bool levels = reference_ && reference_->quantisation_levels > 0.0;
-  return (!p && HasSharpEdge(records_, true)) || (!q && HasSharpEdge(records_, false)) ||
-         (!levels && FindQuantisation(records_).found);
-}
-
 Evidence Search::Look(const Attempt* top, Slack* after) const {
   EffectFit best = base_;
   if (top) {
@@ -90,7 +81,8 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
         return attempt.without_lines && attempt.candidate.gain > DetectionGain(false);
       });
   out.unexplained_samples =
-      ShowsLimits() && std::none_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
+      (ShowsLimits(at_, true) || ShowsLimits(at_, false)) &&
+      std::none_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
         return attempt.seen || (attempt.kind == EffectKind::kDeclaredMap &&
                                 attempt.candidate.gain > DetectionGain(false));
       });
@@ -100,7 +92,7 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
   out.seen = top->seen;
   out.form_is_wrong = top->fit && !top->fit->effect->IsOwnCause(top->fit->values);
   out.confirmed = top->confirmed;
-  out.flame_alone = top->fit && !top->fit->effect->ChangesAcousticCut();
+  out.flame_alone = ShowsInFlameAlone(*top);
   return out;
 }
 

@@ -1,11 +1,11 @@
 #include "diagnosis/slack.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "diagnosis/local_power.h"
 #include "diagnosis/real_gram.h"
+#include "diagnosis/scaled_solve.h"
 
 namespace howl {
 namespace {
@@ -84,13 +84,7 @@ struct Normal {
 };
 
 // What least squares takes off the cost.
-double Gain(const Normal& at) {
-  const Eigen::VectorXd scale = at.gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd scaled = scale.asDiagonal() * at.gram * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-6;
-  const Eigen::VectorXd right = scale.cwiseProduct(at.right);
-  return right.dot(scaled.ldlt().solve(right));
-}
+double Gain(const Normal& at) { return at.right.dot(SolveScaled(at.gram, at.right, 1e-6).col(0)); }
 
 }  // namespace
 

@@ -14,9 +14,9 @@ namespace howl {
 namespace {
 
 constexpr double kTopQuantile = 0.995;
-constexpr double kDepth = 0.06;      // of the plateau's threshold below the top, over the amplitude
-constexpr Eigen::Index kShapes = 3;  // of a plateau's bump: 1, x_1, x_1^2
-constexpr Eigen::Index kBumps = 2 * kShapes;
+constexpr double kDepth = 0.06;  // of the plateau's threshold below the top, over the amplitude
+constexpr Eigen::Index kBumps = kClippingShapes;
+constexpr Eigen::Index kShapes = kBumps / 2;  // of a plateau
 constexpr int kIterations = 5;
 constexpr int kRounds = 3;
 

@@ -15,6 +15,8 @@
 
 namespace howl {
 
+inline constexpr int kClippingShapes = 6;  // of the bumps: 1, x_1 and x_1^2 on either plateau
+
 struct ClippingFit {
   EffectFit fit;          // base parameters, and residuals with the excess given back
   double gain = 0.0;      // log-likelihood over the base; 0 if the signal would have to shrink

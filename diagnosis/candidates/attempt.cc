@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/sample_limits.h"
+
 namespace howl {
 namespace {
 
@@ -21,6 +23,19 @@ Attempt Named(const Setting& at, const Effect& effect) {
   out.held_out = at.base_held_out;
   out.parameters = static_cast<double>(effect.parameters().size());
   return out;
+}
+
+bool ShowsInFlameAlone(const Attempt& attempt) {
+  return attempt.fit && !attempt.fit->effect->ChangesAcousticCut();
+}
+
+bool ShowsLimits(const Setting& at, bool pressure) {
+  const ReferenceModel* known = at.reference;
+  const bool known_edge =
+      known && (pressure ? known->pressure_sharp_edge : known->heat_release_sharp_edge);
+  const bool known_levels = known && known->quantisation_levels > 0.0;
+  return (!known_edge && HasSharpEdge(*at.records, pressure)) ||
+         (pressure && !known_levels && FindQuantisation(*at.records).found);
 }
 
 EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit) {

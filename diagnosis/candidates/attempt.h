@@ -44,9 +44,8 @@ struct Setting {
 };
 
 // An effect with several forms (orders of a filter, say): the best of them.
-// from: a fit of the effect's first part, where it is a combination; else nothing.
-Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms,
-                    const EffectFit* from = nullptr);
+Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms);
+Attempt FromFit(const Setting& at, EffectFit fit);
 Attempt TryGain(const Setting& at, const Effect& effect, const GainFluctuation& fluctuation);
 Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<CoherentLine>& lines,
                  const LineOrigin& origin);
@@ -58,6 +57,12 @@ Attempt TryDeclaredLine(const Setting& at, const DeclaredEffect& effect,
 
 // The start of an attempt whose residuals are the base's.
 Attempt Named(const Setting& at, const Effect& effect);
+
+// It shows in cut B only: a transfer function that changes no other.
+bool ShowsInFlameAlone(const Attempt& attempt);
+
+// In the channel's samples an edge of the density, or in p's few levels, that a reference has not.
+bool ShowsLimits(const Setting& at, bool pressure);
 
 // Half the logarithm of the data's size for each parameter, off the gain.
 void PayForParameters(Attempt* attempt);

@@ -46,8 +46,7 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
       out.held_out[e] = HeldOut(records, fit, e);
     }
   }
-  // The bumps of each experiment.
-  out.parameters = 6.0 * static_cast<double>(out.held_out.size());
+  out.parameters = kClippingShapes * static_cast<double>(out.held_out.size());
   return out;
 }
 

@@ -37,17 +37,8 @@ EstimatedParameter WithError(const EffectParameter& p, double value, double erro
 
 }  // namespace
 
-Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms,
-                    const EffectFit* from) {
+Attempt FromFit(const Setting& at, EffectFit fit) {
   Attempt out;
-  for (std::size_t i = 0; i < forms.size(); ++i) {
-    const EffectPointer& form = forms[i];
-    const std::string key = std::string(form->id()) + "#" + std::to_string(i);
-    EffectFit fit = from ? FitFurther(*at.records, form, *at.base, *from)
-                         : FitOrRecall(at.memory, key, *at.records, form, *at.base);
-    if (!out.fit || fit.cost() < out.fit->cost()) out.fit = std::move(fit);
-  }
-  const EffectFit& fit = *out.fit;
   out.candidate.effect = fit.effect->id();
   out.candidate.block = fit.effect->block();
   out.parameters = static_cast<double>(fit.values.size());
@@ -57,7 +48,18 @@ Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms,
         WithError(fit.effect->parameters()[j], fit.values[j], fit.standard_errors[j + 1]));
   }
   out.held_out = HoldOutAll(at, fit);
+  out.fit = std::move(fit);
   return out;
+}
+
+Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms) {
+  std::optional<EffectFit> best;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const std::string key = std::string(forms[i]->id()) + "#" + std::to_string(i);
+    EffectFit fit = FitOrRecall(at.memory, key, *at.records, forms[i], *at.base);
+    if (!best || fit.cost() < best->cost()) best = std::move(fit);
+  }
+  return FromFit(at, std::move(*best));
 }
 
 }  // namespace howl

@@ -8,7 +8,6 @@
 #include "diagnosis/localise/free_additive.h"
 #include "diagnosis/localise/free_map.h"
 #include "diagnosis/localise/free_slack.h"
-#include "diagnosis/sample_limits.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -73,13 +72,7 @@ BlockSlack TryMap(const Setting& at, bool pressure) {
   BlockSlack out =
       Paid(at, fit, pressure ? LoopBlock::kPressureInstrument : LoopBlock::kHeatReleaseInstrument,
            pressure ? "slack_p_map" : "slack_q_map", static_cast<double>(kMapTerms));
-  // What a reference shows too is no gap.
-  const ReferenceModel* known = at.reference;
-  const bool known_edge =
-      known && (pressure ? known->pressure_sharp_edge : known->heat_release_sharp_edge);
-  const bool known_levels = known && known->quantisation_levels > 0.0;
-  out.seen = (HasSharpEdge(*at.records, pressure) && !known_edge) ||
-             (pressure && FindQuantisation(*at.records).found && !known_levels);
+  out.seen = ShowsLimits(at, pressure);
   return out;
 }
 

@@ -148,12 +148,7 @@ TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
 
 TEST(Diagnose, AnExtraModeIsSeenBesideFewLevels) {
   std::vector<DiagnosisExperiment> rig = SimulatePoints(
-      3,
-      [](RigParameters* one) {
-        one->extra_modes = {
-            {2.2 * one->model.loop.acoustics.omega_hz, 0.04, 0.05 * one->model.loop.acoustics.N}};
-      },
-      47);
+      3, [](RigParameters* one) { AddMode(2.2, 0.04, 0.05, one); }, 47);
   for (DiagnosisExperiment& experiment : rig) {
     std::vector<double>& p = experiment.record.pressure;
     const double step = (*std::max_element(p.begin(), p.end())) / 50.0;
@@ -173,8 +168,7 @@ TEST(Diagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {
       SimulatePoints(
           3,
           [](RigParameters* rig) {
-            rig->extra_modes = {{2.2 * rig->model.loop.acoustics.omega_hz, 0.04,
-                                 0.05 * rig->model.loop.acoustics.N}};
+            AddMode(2.2, 0.04, 0.05, rig);
             rig->instruments = {std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)};
           },
           45),
@@ -188,12 +182,7 @@ TEST(Diagnose, AModeOnTopOfAModeIsNoCauseOfItsOwn) {
   options.withheld = AllBut({"extra_acoustic_mode", "channel_skew"});
   const Diagnosis diagnosis =
       Diagnose(SimulatePoints(
-                   3,
-                   [](RigParameters* rig) {
-                     const auto& acoustics = rig->model.loop.acoustics;
-                     rig->extra_modes = {{3.0 * acoustics.omega_hz, 0.05, 0.1 * acoustics.N}};
-                   },
-                   49),
+                   3, [](RigParameters* rig) { AddMode(3.0, 0.05, 0.1, rig); }, 49),
                options);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kUnknown);
   ASSERT_FALSE(diagnosis.where.empty());

@@ -25,6 +25,12 @@ inline RigParameters TestRig(int point) {
   return rig;
 }
 
+// ratio: to the first mode's frequency; share: of its coefficient.
+inline void AddMode(double ratio, double xi, double share, RigParameters* rig) {
+  const auto& acoustics = rig->model.loop.acoustics;
+  rig->extra_modes = {{ratio * acoustics.omega_hz, xi, share * acoustics.N}};
+}
+
 // change: of each point's rig, before it is simulated.
 inline std::vector<DiagnosisExperiment> SimulatePoints(
     int points, const std::function<void(RigParameters*)>& change, std::uint64_t seed) {

@@ -14,12 +14,7 @@ namespace {
 
 std::vector<DiagnosisExperiment> WithMode(double ratio, double share, double xi) {
   return SimulatePoints(
-      3,
-      [&](RigParameters* rig) {
-        const auto& acoustics = rig->model.loop.acoustics;
-        rig->extra_modes = {{ratio * acoustics.omega_hz, xi, share * acoustics.N}};
-      },
-      31);
+      3, [&](RigParameters* rig) { AddMode(ratio, xi, share, rig); }, 31);
 }
 
 TEST(Starts, AWeakNarrowModeIsFoundWhereverItLies) {
