@@ -126,6 +126,10 @@ void Print(const Diagnosis& diagnosis) {
     std::printf("an effect of no meaning, as free as the best, shrinks it by %.1f %%\n",
                 kPerCent * diagnosis.shrinkage_no_meaning);
   }
+  if (!diagnosis.bootstrap_gains.empty()) {
+    std::printf("noise alone, in %zu rigs simulated from the refitted base, gains at most %.1f\n",
+                diagnosis.bootstrap_gains.size(), diagnosis.bootstrap_gains.back());
+  }
   TextTable table({"candidate", "probability", "gain", "gap after", "shrinks %", "estimate"});
   for (std::size_t i = 0; i < std::min(kShownCandidates, diagnosis.candidates.size()); ++i) {
     const Candidate& candidate = diagnosis.candidates[i];
@@ -177,6 +181,17 @@ std::vector<std::string> Withheld(const Options& options) {
   return ids;
 }
 
+// Nineteen tell one in twenty.
+std::size_t Replicates(const Options& options) {
+  const std::optional<int> count = options.Count("--bootstrap", 19, 9999);
+  if (count && options.Has("--reference")) {
+    throw UsageError(
+        "--bootstrap simulates the model of the config, and --reference puts records in its "
+        "place: expected one or the other");
+  }
+  return static_cast<std::size_t>(count.value_or(0));
+}
+
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
   if (std::ranges::none_of(config.experiments,
@@ -187,12 +202,18 @@ int Run(const Options& options) {
   DiagnosisOptions how;
   how.threads = options.threads;
   how.withheld = Withheld(options);
+  how.seed = options.seed;
+  how.bootstrap = Replicates(options);
   for (const EffectDeclaration& declaration : config.effects) {
     how.further.push_back(std::make_shared<DeclaredEffect>(declaration));
   }
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
     how.progress = [](std::size_t done, std::size_t total) {
       static ProgressLine line("starts of the search", false);
+      line.Show(done, total);
+    };
+    how.bootstrap_progress = [](std::size_t done, std::size_t total) {
+      static ProgressLine line("replicates of the bootstrap", false);
       line.Show(done, total);
     };
   }
@@ -241,6 +262,9 @@ Command DiagnoseCommand() {
       {{"--reference", "SIM.yaml",
         "records of another simulator, or of the rig at another time, in the model's place: which "
         "effect turns them into the config's?"},
+       {"--bootstrap", "N",
+        "simulate N rigs from the refitted base and search each: what noise alone gains, for "
+        "p-values and the verdict none (19 or more)"},
        {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"}},
       Run,
       true};

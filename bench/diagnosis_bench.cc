@@ -1,6 +1,7 @@
 // Where the time of one diagnosis goes: six simulated operating points of 16 000 samples.
 #include <benchmark/benchmark.h>
 
+#include "diagnosis/bootstrap/fitted_rig.h"
 #include "diagnosis/coherent_lines.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/effect_fit.h"
@@ -62,6 +63,17 @@ void BM_FitEffect(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(FitEffect(records, effect, base));
 }
 BENCHMARK(BM_FitEffect)->DenseRange(0, 11)->Unit(benchmark::kMillisecond);
+
+// A replicate of the bootstrap is this for every operating point, and a search.
+void BM_SimulateFittedRig(benchmark::State& state) {
+  const std::vector<CutRecord> records = MakeCutRecords(Rig());
+  const EffectFit base = FitBase(records);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        Simulate(FittedRig(records[0], base, 0, 1), FittedRigOptions(records[0])));
+  }
+}
+BENCHMARK(BM_SimulateFittedRig)->Unit(benchmark::kMillisecond);
 
 void BM_Slack(benchmark::State& state) {
   const std::vector<CutRecord> records = MakeCutRecords(Rig());

@@ -1,106 +1,28 @@
-// False alarms of the diagnosis: rigs with no effect from the project's own simulator, with all its
-// flame shapes, offsets, and noise of many levels and colours. Prints a line for each rig that is
-// accused, and the rate with its 95 % interval (Wilson).
+// False alarms of the diagnosis on rigs with no effect (null_rig.h). Prints a line for each rig
+// that is accused, and the rate with its 95 % interval (Wilson).
 //
 //   false_alarm_study [RIGS] [SEED]
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.h"
+#include "bench/null_rig.h"
 #include "diagnosis/trial/tally.h"
 #include "estimation/parallel.h"
-#include "model/random_stream.h"
-#include "model/simulate.h"
-
-namespace {
-
-using namespace howl;
-
-constexpr int kPoints = 6;
-
-struct NullRig {
-  std::vector<SimulationCase> cases;
-  std::string text;
-};
-
-NullRig DrawRig(std::uint64_t seed) {
-  RandomStream random(seed);
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * random.Uniform();
-  };
-  constexpr FlameShape kShapes[] = {FlameShape::kTanh, FlameShape::kArctan, FlameShape::kCubic,
-                                    FlameShape::kPiecewiseLinear, FlameShape::kAlgebraic};
-  constexpr const char* kNames[] = {"tanh", "arctan", "cubic", "clipped", "algebraic"};
-  const auto shape = static_cast<std::size_t>(between(0.0, 4.999));
-  const double omega_hz = between(195.0, 215.0);
-  const double omega_step_hz = between(0.5, 3.0);
-  const double xi = between(0.1, 0.2);
-  const double xi_step = xi * between(0.03, 0.1);
-  const double second_over_first = between(0.1, 0.35);
-  const double tau_s = between(3.35e-3, 3.65e-3);
-  const double saturation = between(0.3, 0.8);
-  const double offset = between(-0.3, 0.3);
-  const double slope = -between(6e-5, 8e-5);
-  const double noise = between(0.03, 0.15) * saturation;  // rms of combustion noise
-  const double corner_hz = between(200.0, 2000.0);
-  const double pressure_noise = between(0.002, 0.01);
-  const double heat_release_noise = between(0.001, 0.005);
-  NullRig out;
-  for (int point = 0; point < kPoints; ++point) {
-    SimulationCase one;
-    RigParameters& rig = one.rig;
-    const double damping = xi - xi_step * point;
-    const double loop_gain = between(1.2, 1.5);
-    // At resonance s G = N w / (2 xi w).
-    const double first = loop_gain * 2.0 * damping / -slope;
-    rig.model = {
-        {{omega_hz - omega_step_hz * point, damping, first, second_over_first * first, 3.0}, tau_s},
-        {kShapes[shape], slope, saturation, offset * saturation / -slope}};
-    rig.noise.combustion_corner_hz = corner_hz;
-    rig.noise.combustion_density = noise * noise / (corner_hz * 1.5707963267948966);
-    // The cycle's p is about saturation times |G|.
-    const double pressure = saturation * first / (2.0 * damping * 6.283185307179586 * omega_hz);
-    rig.noise.pressure_sensor_std = pressure_noise * pressure;
-    rig.noise.heat_release_sensor_std = heat_release_noise * saturation;
-    rig.past = {{0.3 * pressure, omega_hz, 0.0, 0.0}};
-    one.seed = DeriveSeed(seed, static_cast<std::uint64_t>(point) + 1);
-    out.cases.push_back(std::move(one));
-  }
-  char text[160];
-  std::snprintf(text, sizeof text, "%s, offset %.2f, noise %.3f at %.0f Hz, p noise %.4f, M/N %.2f",
-                kNames[shape], offset, noise / saturation, corner_hz, pressure_noise,
-                second_over_first);
-  out.text = text;
-  return out;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
+  using namespace howl;
   const int rigs = argc > 1 ? std::atoi(argv[1]) : 20;
   const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
   std::vector<Diagnosis> found(static_cast<std::size_t>(rigs));
   std::vector<std::string> texts(static_cast<std::size_t>(rigs));
   RunUnits(static_cast<std::size_t>(rigs), 0, [&](std::size_t i) {
-    const NullRig rig = DrawRig(DeriveSeed(seed, i));
+    const NullRig rig = DrawNullRig(DeriveSeed(seed, i));
     texts[i] = rig.text;
-    SimulationOptions how;
-    how.duration_s = 3.2;
-    how.settle_s = 1.0;
-    const std::vector<SimulatedRecord> records = SimulateBatch(rig.cases, how);
-    std::vector<DiagnosisExperiment> experiments;
-    for (std::size_t e = 0; e < records.size(); ++e) {
-      experiments.push_back(
-          {"exp" + std::to_string(e + 1),
-           0.56 - 0.02 * static_cast<double>(e),
-           {records[e].sampling_hz, records[e].pressure, records[e].heat_release}});
-    }
     DiagnosisOptions options;
     options.threads = 1;
-    found[i] = Diagnose(experiments, options);
+    found[i] = Diagnose(Recorded(rig), options);
   });
   Tally accused;
   for (std::size_t i = 0; i < found.size(); ++i) {

@@ -4,8 +4,14 @@
 #include <string_view>
 
 namespace howl {
+namespace {
 
-std::string Advice(const Diagnosis& diagnosis) {
+// Of log-likelihood. Noise of p as strong as a hundredth of its amplitude was seen to reach 35.
+constexpr double kNearNoise = 60.0;
+
+}  // namespace
+
+std::string Advice(const Diagnosis& diagnosis, bool seen) {
   if (diagnosis.kind == VerdictKind::kNone) {
     return "nothing to separate; longer records would lower the floor";
   }
@@ -18,6 +24,9 @@ std::string Advice(const Diagnosis& diagnosis) {
            std::find(diagnosis.indistinguishable.begin(), diagnosis.indistinguishable.end(), id) !=
                diagnosis.indistinguishable.end();
   };
+  if (!seen && diagnosis.bootstrap_gains.empty() && diagnosis.candidates[0].gain < kNearNoise) {
+    return "--bootstrap 19 tells whether noise alone, on a rig like this, gains as much";
+  }
   if (diagnosis.indistinguishable.empty()) return "the effect stands alone: no further experiment";
   if (has("delay_dispersion") || has("second_delay_path") || has("flame_lowpass")) {
     return "a point with a stronger line near the second crossing, or a stable, noise-driven one: "

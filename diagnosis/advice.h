@@ -8,7 +8,8 @@
 
 namespace howl {
 
-std::string Advice(const Diagnosis& diagnosis);
+// seen: the effect is in the samples themselves, without a likelihood.
+std::string Advice(const Diagnosis& diagnosis, bool seen);
 
 }  // namespace howl
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "diagnosis/advice.h"
@@ -25,7 +26,7 @@ constexpr double kTwoTransferFunctions = 0.9;
 constexpr double kSlackOfASecond = 0.1;
 
 bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
-  return !first.seen && !first.also &&
+  return !first.seen && first.also.empty() &&
          after.acoustic_excess + after.flame_excess > kSlackOfASecond * LeastCompeting(first);
 }
 
@@ -37,6 +38,7 @@ bool Better(const Attempt& a, const Attempt& b) {
 
 Diagnosis Search::Run() {
   TryAll();
+  if (options_.bootstrap > 0 && !Stopped()) Bootstrap();
   if (Stopped()) {
     Diagnosis unfinished;
     unfinished.stopped = true;
@@ -48,11 +50,15 @@ Diagnosis Search::Run() {
   Evidence evidence = Look(attempts_.empty() ? nullptr : &attempts_[0], &after);
   Belief belief = Weigh(evidence);
   if (belief.none < 0.5) {
-    if (std::optional<Attempt> pair =
-            TryDistinctPair(at_, attempts_, units_, lines_, options_.threads)) {
-      pair->candidate.p_value = attempts_[0].candidate.p_value;
-      MeasureGap(&*pair);
-      attempts_.insert(attempts_.begin(), std::move(*pair));
+    std::vector<Attempt> combined =
+        TryDistinctEffects(at_, attempts_, units_, lines_, options_.threads);
+    if (!combined.empty()) {
+      for (Attempt& each : combined) {
+        each.candidate.p_value = attempts_[0].candidate.p_value;
+        MeasureGap(&each);
+      }
+      attempts_.insert(attempts_.begin(), std::make_move_iterator(combined.begin()),
+                       std::make_move_iterator(combined.end()));
       evidence = Look(&attempts_[0], &after);
       belief = Weigh(evidence);
     }
@@ -64,6 +70,7 @@ Diagnosis Search::Run() {
     if (together) belief.unknown = std::max(belief.unknown, kTwoTransferFunctions);
   }
   Diagnosis out = Conclude(evidence, belief);
+  out.bootstrap_gains = bootstrap_gains_;
   out.slack_acoustic_before = slack_before_.acoustic_excess;
   out.slack_flame_before = slack_before_.flame_excess;
   out.slack_acoustic_after = after.acoustic_excess;
@@ -87,9 +94,9 @@ Diagnosis Search::Run() {
     out.together = together->candidate.effect;
     attempts_.insert(attempts_.begin() + 1, std::move(*together));
   }
-  out.advice = Advice(out);
   const bool seen = !attempts_.empty() && (attempts_[0].seen || attempts_[0].without_lines);
   for (Attempt& attempt : attempts_) out.candidates.push_back(std::move(attempt.candidate));
+  out.advice = Advice(out, seen);
   Calibrate(seen, &out);
   return out;
 }
@@ -108,14 +115,14 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
   out.probability_unknown = (1.0 - belief.none) * belief.unknown;
   // Against the first of a pair alone, what counts is what the second brings.
   const double temperature = Temperature(
-      !attempts_.empty() && attempts_[0].also ? attempts_[0].second_gain : evidence.gain);
+      !attempts_.empty() && !attempts_[0].also.empty() ? attempts_[0].second_gain : evidence.gain);
   std::vector<double> weight;
   double total = 0.0;
   for (const Attempt& attempt : attempts_) {
     const double behind = attempts_[0].candidate.gain - attempt.candidate.gain;
-    // What is seen in the samples leaves no room for another.
-    weight.push_back(attempts_[0].seen ? (weight.empty() ? 1.0 : 0.0)
-                                       : std::exp(-behind / temperature));
+    // What is seen in the samples leaves no room for another alone.
+    const bool out_of_question = attempts_[0].seen && !weight.empty() && attempt.also.empty();
+    weight.push_back(out_of_question ? 0.0 : std::exp(-behind / temperature));
     total += weight.back();
   }
   for (std::size_t i = 0; i < attempts_.size(); ++i) {

@@ -43,7 +43,8 @@ struct Candidate {
   double shrinkage = 0.0;
   double shrinkage_low = 0.0;  // 95 %, over the experiments
   double shrinkage_high = 0.0;
-  double p_value = 1.0;  // for the largest of the catalogue
+  // For the largest of the catalogue: by the bootstrap; else by chi-square, roughly.
+  double p_value = 1.0;
   double probability = 0.0;
   std::vector<EstimatedParameter> parameters;
 };
@@ -78,23 +79,28 @@ struct Diagnosis {
   double slack_flame_before = 0.0;
   double slack_acoustic_after = 0.0;
   double slack_flame_after = 0.0;
+  // Ascending: the largest gain of each replicate of the bootstrap, if there was one.
+  std::vector<double> bootstrap_gains;
   std::string advice;
   bool stopped = false;  // before the end: the rest is empty
 };
 
 struct DiagnosisOptions {
   int threads = 0;                     // 0: as many as the machine has
+  std::uint64_t seed = 1;              // of the bootstrap's replicates
+  std::size_t bootstrap = 0;           // replicates (bootstrap/bootstrap.h)
   std::vector<std::string> withheld;   // identifiers of the catalogue that are not tried
   std::vector<EffectPointer> further;  // effects of the user's own
   // Records that take the model's place (reference.h); none: the base alone is the model.
   std::vector<DiagnosisExperiment> reference;
   // In starts of the search, of which an effect has a few or many.
   std::function<void(std::size_t done, std::size_t total)> progress;
+  std::function<void(std::size_t done, std::size_t total)> bootstrap_progress;
   FitMemory* memory = nullptr;    // of an interrupted run of the same inputs
   std::function<bool()> stopped;  // asked between effects
 };
 
-// The same for all numbers of threads; nothing in it is random.
+// The same for all numbers of threads; nothing in it is random but the bootstrap.
 Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
                    const DiagnosisOptions& options);
 

@@ -38,17 +38,19 @@ Eigen::MatrixXd FlameBasis::Columns(const Eigen::VectorXd& v) const {
   return columns;
 }
 
+double FlameBasis::At(double v, const Eigen::VectorXd& coefficients) const {
+  const Piece piece = Evaluate(v, range_);
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < 4 && piece.first + j < kFlameTerms; ++j) {
+    sum += piece.weight[static_cast<std::size_t>(j)] * coefficients[piece.first + j];
+  }
+  return sum;
+}
+
 Eigen::VectorXd FlameBasis::Value(const Eigen::VectorXd& v,
                                   const Eigen::VectorXd& coefficients) const {
   Eigen::VectorXd value(v.size());
-  for (Eigen::Index i = 0; i < v.size(); ++i) {
-    const Piece piece = Evaluate(v[i], range_);
-    double sum = 0.0;
-    for (Eigen::Index j = 0; j < 4 && piece.first + j < kFlameTerms; ++j) {
-      sum += piece.weight[static_cast<std::size_t>(j)] * coefficients[piece.first + j];
-    }
-    value[i] = sum;
-  }
+  for (Eigen::Index i = 0; i < v.size(); ++i) value[i] = At(v[i], coefficients);
   return value;
 }
 

@@ -15,7 +15,8 @@ class FlameBasis {
 
   // samples x kFlameTerms
   Eigen::MatrixXd Columns(const Eigen::VectorXd& v) const;
-  // sum of the columns times the coefficients.
+  // The sum of the columns times the coefficients.
+  double At(double v, const Eigen::VectorXd& coefficients) const;
   Eigen::VectorXd Value(const Eigen::VectorXd& v, const Eigen::VectorXd& coefficients) const;
 
  private:

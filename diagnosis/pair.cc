@@ -29,53 +29,60 @@ bool Detected(const Attempt& attempt) {
 }
 
 // What fluctuates once the transfer function is right.
-std::optional<Attempt> WithFluctuation(const Setting& at, const Attempt& transfer,
-                                       const std::vector<EffectForms>& units) {
-  std::optional<Attempt> best = BestGain(at, *transfer.fit, units);
-  if (!best || best->candidate.gain < LeastSecond(transfer)) return std::nullopt;
-  for (std::size_t e = 0; e < best->held_out.size(); ++e) {
-    best->held_out[e].acoustic_residual = transfer.held_out[e].acoustic_residual;
+std::vector<Attempt> WithFluctuation(const Setting& at, const Attempt& transfer,
+                                     const std::vector<EffectForms>& units) {
+  std::vector<Attempt> gains = FluctuationsBeside(at, *transfer.fit, units);
+  if (gains.empty() || gains[0].candidate.gain < LeastSecond(transfer)) return {};
+  for (Attempt& gain : gains) {
+    for (std::size_t e = 0; e < gain.held_out.size(); ++e) {
+      gain.held_out[e].acoustic_residual = transfer.held_out[e].acoustic_residual;
+    }
+    gain = Join(transfer, std::move(gain));
+    gain.fit = transfer.fit;
   }
-  Attempt joined = Join(transfer, std::move(*best));
-  joined.fit = transfer.fit;
-  return joined;
+  return gains;
 }
 
 // Steps in p feign no fluctuating gain (results/trial). They are noise of p: little to cut A, but
 // in cut B p drives the flame, and errors there bias what is fitted by their variance. Effects that
 // are fitted to cut B gain by the bias squared: as the step's fourth power.
-std::optional<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
-  const Attempt* gain = BestOf(attempts, IsGain);
-  if (gain && gain->candidate.gain > DetectionGain(true)) return Join(attempts[0], *gain);
+std::vector<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
+  std::vector<Attempt> gains = NearBestOf(attempts, IsGain);
+  if (!gains.empty() && gains[0].candidate.gain > DetectionGain(true)) {
+    return JoinAll(attempts[0], std::move(gains));
+  }
   const double levels = attempts[0].candidate.parameters[0].value;
   const double bias_gain = kBiasGainAtThirtyLevels * std::pow(30.0 / levels, 4);
-  const Attempt* other = BestOf(attempts, [&](const Attempt& attempt) {
-    if (!IsTransfer(attempt)) return false;
-    const bool flame = attempt.fit->effect->ChangesFlameCut();
-    const double by_bias = flame ? bias_gain : kBiasInAcoustics * bias_gain;
-    return attempt.candidate.gain > std::max(DetectionGain(true), by_bias);
-  });
-  if (!other) return std::nullopt;
-  return Join(attempts[0], *other);
+  return JoinAll(attempts[0], NearBestOf(attempts, [&](const Attempt& attempt) {
+                   if (!IsTransfer(attempt)) return false;
+                   const bool flame = attempt.fit->effect->ChangesFlameCut();
+                   const double by_bias = flame ? bias_gain : kBiasInAcoustics * bias_gain;
+                   return attempt.candidate.gain > std::max(DetectionGain(true), by_bias);
+                 }));
 }
 
 }  // namespace
 
-std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Attempt>& attempts,
-                                       const std::vector<EffectForms>& units,
-                                       const std::vector<CoherentLine>& lines, int threads) {
-  if (attempts.empty()) return std::nullopt;
+std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Attempt>& attempts,
+                                        const std::vector<EffectForms>& units,
+                                        const std::vector<CoherentLine>& lines, int threads) {
+  if (attempts.empty()) return {};
   const Attempt& top = attempts[0];
   const Attempt* line = BestOf(attempts, IsLine);
   if (line && line->candidate.gain > DetectionGain(false)) {
-    const Attempt* other = BestOf(attempts, [](const Attempt& a) { return !IsLine(a); });
-    if (other && Detected(*other)) return Join(*line, *other);
-    return std::nullopt;
+    std::vector<Attempt> rest = attempts;
+    rest.erase(std::remove_if(rest.begin(), rest.end(), IsLine), rest.end());
+    std::vector<Attempt> two = TryDistinctEffects(at, rest, units, lines, threads);
+    if (!two.empty()) return JoinAll(*line, std::move(two));
+    if (rest.empty() || !Detected(rest[0])) return {};
+    // What is seen in the samples has no twin.
+    rest.resize(rest[0].seen ? 1 : rest.size());
+    return JoinAll(*line, NearBest(std::move(rest)));
   }
   if (top.seen) {
     const Attempt* other =
         BestOf(attempts, [&](const Attempt& attempt) { return attempt.seen && &attempt != &top; });
-    if (other) return Join(top, *other);
+    if (other) return JoinAll(top, {*other});
     return top.repaired.empty() ? BesideQuantisation(attempts)
                                 : BesideClipping(at, attempts, units, lines, threads);
   }
@@ -86,9 +93,9 @@ std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Atte
       return IsTransfer(attempt) &&
              attempt.candidate.gain >= (ChangesAcousticCut(attempt) ? LeastSecond(top) : beside);
     });
-    return other ? WithFluctuation(at, *other, units) : std::nullopt;
+    return other ? WithFluctuation(at, *other, units) : std::vector<Attempt>();
   }
-  return IsTransfer(top) ? WithFluctuation(at, top, units) : std::nullopt;
+  return IsTransfer(top) ? WithFluctuation(at, top, units) : std::vector<Attempt>();
 }
 
 double LeastCompeting(const Attempt& first) {
@@ -117,11 +124,11 @@ std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
   RunUnits(tried.size(), threads, [&](std::size_t i) {
     tried[i] = FromFit(at, Settle(*at.records, *at.base, *seconds[i]));
   });
-  std::optional<Attempt> best = BestPaid(&tried);
-  if (!best || best->candidate.gain - first.candidate.gain < LeastCompeting(first)) {
+  std::vector<Attempt> best = NearBestPaid(std::move(tried));
+  if (best.empty() || best[0].candidate.gain - first.candidate.gain < LeastCompeting(first)) {
     return std::nullopt;
   }
-  return best;
+  return std::move(best[0]);
 }
 
 }  // namespace howl

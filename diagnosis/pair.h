@@ -1,6 +1,6 @@
-// Two effects at once. Evidence of different kinds adds up: a coherent line, clipping, few levels,
-// a fluctuating gain and a transfer function do not compete for the same misfit, so two of them,
-// each beyond what noise gives, are two effects.
+// Two effects at once, or a line and two others. Evidence of different kinds adds up: a coherent
+// line, clipping, few levels, a fluctuating gain and a transfer function do not compete for the
+// same misfit, so two of them, each beyond what noise gives, are two effects.
 //
 // Two transfer functions do compete: together they have freedom enough to imitate an effect that
 // is not in the catalogue. Where the best needs such a second the verdict is unknown, and the pair
@@ -18,10 +18,11 @@ namespace howl {
 // One for each identifier of the catalogue: its forms.
 using EffectForms = std::vector<EffectPointer>;
 
-// attempts: the best first.
-std::optional<Attempt> TryDistinctPair(const Setting& at, const std::vector<Attempt>& attempts,
-                                       const std::vector<EffectForms>& units,
-                                       const std::vector<CoherentLine>& lines, int threads);
+// The most probable combination, then those that the data can hardly tell from it; empty if there
+// is no more than one effect. attempts: the best first.
+std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Attempt>& attempts,
+                                        const std::vector<EffectForms>& units,
+                                        const std::vector<CoherentLine>& lines, int threads);
 
 // What a second transfer function must bring to compete with the first.
 double LeastCompeting(const Attempt& first);

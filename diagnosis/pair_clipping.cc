@@ -15,9 +15,9 @@ constexpr double kAfterPressureRepairShare = 0.016;
 constexpr double kAfterHeatReleaseRepairShare = 0.4;
 
 // Once the first effect, clipping, was taken out of the samples.
-std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
-                                   const std::vector<EffectForms>& units,
-                                   const std::vector<CoherentLine>& lines, int threads) {
+std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
+                                 const std::vector<EffectForms>& units,
+                                 const std::vector<CoherentLine>& lines, int threads) {
   std::vector<CutRecord> records = MakeCutRecords(first.repaired);
   KeepReference(*whole.records, &records);
   MaskLines(lines, &records);
@@ -28,8 +28,10 @@ std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
   }
   const bool pressure = first.candidate.block == LoopBlock::kPressureInstrument;
   if (pressure) {
-    std::optional<Attempt> gain = BestGain(at, base, units);
-    if (gain && gain->candidate.gain > LeastSecond(first)) return Join(first, std::move(*gain));
+    std::vector<Attempt> gains = FluctuationsBeside(at, base, units);
+    if (!gains.empty() && gains[0].candidate.gain > LeastSecond(first)) {
+      return JoinAll(first, std::move(gains));
+    }
   }
   std::vector<std::optional<Attempt>> tried(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
@@ -37,39 +39,42 @@ std::optional<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
     if (effect.kind() != EffectKind::kTransfer) return;
     if (pressure || effect.ChangesAcousticCut()) tried[i] = TryTransfer(at, units[i]);
   });
-  std::optional<Attempt> best = BestPaid(&tried);
+  std::vector<Attempt> best = NearBestPaid(std::move(tried));
   const double share = pressure ? kAfterPressureRepairShare : kAfterHeatReleaseRepairShare;
   // Slack that is left in cut A tells how rough the repair is.
   const double least = std::max({kAfterRepairGain, share * first.candidate.gain,
                                  ComputeSlack(records, base).acoustic_excess});
-  if (!best || best->candidate.gain < least) return std::nullopt;
-  return Join(first, std::move(*best));
+  if (best.empty() || best[0].candidate.gain < least) return {};
+  // A mode on top of a mode mends the repair.
+  if (!best[0].fit->effect->IsOwnCause(best[0].fit->values)) return {};
+  return JoinAll(first, std::move(best));
 }
 
 // A clipped q is no wrong input to the flame, and Phi takes its flat top for saturation: cut B is
 // right as it is, and tells of the flame and the delay.
-std::optional<Attempt> BesideClippedHeatRelease(const Attempt& first,
-                                                const std::vector<Attempt>& attempts) {
-  const Attempt* other = BestOf(attempts, [](const Attempt& attempt) {
+std::vector<Attempt> BesideClippedHeatRelease(const Attempt& first,
+                                              const std::vector<Attempt>& attempts) {
+  std::vector<Attempt> others = NearBestOf(attempts, [](const Attempt& attempt) {
     return (IsGain(attempt) || IsTransfer(attempt)) && !ChangesAcousticCut(attempt);
   });
-  if (!other || other->candidate.gain < DetectionGain(true)) return std::nullopt;
-  Attempt joined = Join(first, *other);
-  for (std::size_t e = 0; e < joined.held_out.size(); ++e) {
-    joined.held_out[e].acoustic_residual = first.held_out[e].acoustic_residual;
+  if (others.empty() || others[0].candidate.gain < DetectionGain(true)) return {};
+  for (Attempt& other : others) {
+    for (std::size_t e = 0; e < other.held_out.size(); ++e) {
+      other.held_out[e].acoustic_residual = first.held_out[e].acoustic_residual;
+    }
   }
-  return joined;
+  return JoinAll(first, std::move(others));
 }
 
 }  // namespace
 
-std::optional<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
-                                      const std::vector<EffectForms>& units,
-                                      const std::vector<CoherentLine>& lines, int threads) {
+std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
+                                    const std::vector<EffectForms>& units,
+                                    const std::vector<CoherentLine>& lines, int threads) {
   const Attempt& clipped = attempts[0];
   if (clipped.candidate.block == LoopBlock::kHeatReleaseInstrument) {
-    std::optional<Attempt> pair = BesideClippedHeatRelease(clipped, attempts);
-    if (pair) return pair;
+    std::vector<Attempt> pairs = BesideClippedHeatRelease(clipped, attempts);
+    if (!pairs.empty()) return pairs;
   }
   return AfterRepair(at, clipped, units, lines, threads);
 }

@@ -1,8 +1,10 @@
 #include "diagnosis/pair_parts.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
+#include "diagnosis/verdict.h"
 #include "model/effects/combined.h"
 
 namespace howl {
@@ -12,6 +14,7 @@ namespace {
 // first's form fits (results/trial); it is never exact, so a share of what it brought counts too.
 constexpr double kSecondGain = 12.0;
 constexpr double kSecondShare = 0.003;
+constexpr double kNear = 4.0;  // temperatures of the odds (verdict.h)
 
 }  // namespace
 
@@ -22,14 +25,15 @@ double LeastSecond(const Attempt& first) {
 Attempt Join(const Attempt& first, Attempt second) {
   std::vector<EstimatedParameter> parameters;
   for (const Candidate* one : {&first.candidate, &std::as_const(second.candidate)}) {
+    const bool named = one->effect.find('+') != std::string::npos;  // with their effects already
     for (EstimatedParameter parameter : one->parameters) {
-      parameter.name = one->effect + "." + parameter.name;
+      if (!named) parameter.name = one->effect + "." + parameter.name;
       parameters.push_back(std::move(parameter));
     }
   }
   Attempt out = std::move(second);
-  out.also = out.candidate.block;
-  out.second_gain = out.candidate.gain;
+  if (out.also.empty()) out.second_gain = out.candidate.gain;
+  out.also.insert(out.also.begin(), out.candidate.block);
   out.candidate.parameters = std::move(parameters);
   out.candidate.effect = CombinedId(first.candidate.effect, out.candidate.effect);
   out.candidate.block = first.candidate.block;
@@ -41,24 +45,41 @@ Attempt Join(const Attempt& first, Attempt second) {
   return out;
 }
 
-std::optional<Attempt> BestPaid(std::vector<std::optional<Attempt>>* tried) {
-  std::optional<Attempt> best;
-  for (std::optional<Attempt>& attempt : *tried) {
-    if (!attempt) continue;
-    PayForParameters(&*attempt);
-    if (!best || attempt->candidate.gain > best->candidate.gain) best = std::move(attempt);
-  }
-  return best;
+std::vector<Attempt> JoinAll(const Attempt& first, std::vector<Attempt> seconds) {
+  for (Attempt& second : seconds) second = Join(first, std::move(second));
+  return seconds;
 }
 
-std::optional<Attempt> BestGain(const Setting& at, const EffectFit& fit,
-                                const std::vector<EffectForms>& units) {
+std::vector<Attempt> NearBest(std::vector<Attempt> attempts) {
+  if (attempts.empty()) return attempts;
+  const double best = attempts[0].candidate.gain;
+  const double least = best - kNear * Temperature(best);
+  const auto far = [&](const Attempt& attempt) { return attempt.candidate.gain < least; };
+  attempts.erase(std::remove_if(attempts.begin(), attempts.end(), far), attempts.end());
+  return attempts;
+}
+
+std::vector<Attempt> NearBestPaid(std::vector<std::optional<Attempt>> tried) {
+  std::vector<Attempt> attempts;
+  for (std::optional<Attempt>& attempt : tried) {
+    if (!attempt) continue;
+    PayForParameters(&*attempt);
+    attempts.push_back(std::move(*attempt));
+  }
+  std::stable_sort(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
+    return a.candidate.gain > b.candidate.gain;
+  });
+  return NearBest(std::move(attempts));
+}
+
+std::vector<Attempt> FluctuationsBeside(const Setting& at, const EffectFit& fit,
+                                        const std::vector<EffectForms>& units) {
   const GainFluctuation fluctuation = EstimateGainFluctuation(*at.records, fit);
   std::vector<std::optional<Attempt>> tried;
   for (const EffectForms& forms : units) {
     if (forms[0]->kind() == EffectKind::kGain) tried.push_back(TryGain(at, *forms[0], fluctuation));
   }
-  return BestPaid(&tried);
+  return NearBestPaid(std::move(tried));
 }
 
 }  // namespace howl

@@ -3,7 +3,9 @@
 #define HOWL_DIAGNOSIS_PAIR_PARTS_H_
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/candidates/attempt.h"
@@ -30,17 +32,30 @@ const Attempt* BestOf(const std::vector<Attempt>& attempts, Predicate&& is) {
 // `second` as it is, with the first's name and parameters before its own.
 Attempt Join(const Attempt& first, Attempt second);
 
-// Parameters paid for; nothing if none was tried. Takes it out of `tried`.
-std::optional<Attempt> BestPaid(std::vector<std::optional<Attempt>>* tried);
+std::vector<Attempt> JoinAll(const Attempt& first, std::vector<Attempt> seconds);
 
-// How the flame's gain fluctuates under this fit.
-std::optional<Attempt> BestGain(const Setting& at, const EffectFit& fit,
-                                const std::vector<EffectForms>& units);
+// Those that the data can hardly tell from the best; attempts: the best first.
+std::vector<Attempt> NearBest(std::vector<Attempt> attempts);
 
-// The second beside a clipped signal, the best of `attempts` (pair_clipping.cc).
-std::optional<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
-                                      const std::vector<EffectForms>& units,
-                                      const std::vector<CoherentLine>& lines, int threads);
+// Of `attempts` (the best first) the best that fits, and those near it that fit too.
+template <typename Predicate>
+std::vector<Attempt> NearBestOf(const std::vector<Attempt>& attempts, Predicate&& is) {
+  std::vector<Attempt> fitting;
+  std::copy_if(attempts.begin(), attempts.end(), std::back_inserter(fitting), is);
+  return NearBest(std::move(fitting));
+}
+
+// Parameters paid for, the best first, and those near it; empty if none was tried.
+std::vector<Attempt> NearBestPaid(std::vector<std::optional<Attempt>> tried);
+
+// How the flame's gain fluctuates under this fit: the best of its kinds, and those near it.
+std::vector<Attempt> FluctuationsBeside(const Setting& at, const EffectFit& fit,
+                                        const std::vector<EffectForms>& units);
+
+// Seconds beside a clipped signal, the best of `attempts` (pair_clipping.cc).
+std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
+                                    const std::vector<EffectForms>& units,
+                                    const std::vector<CoherentLine>& lines, int threads);
 
 }  // namespace howl
 

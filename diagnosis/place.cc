@@ -54,7 +54,9 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
     for (Score& score : scores) {
       score.gain = 0.0;
       for (const Attempt& attempt : attempts) {
-        if (attempt.candidate.block == score.block || attempt.also == score.block) {
+        const auto& also = attempt.also;
+        if (attempt.candidate.block == score.block ||
+            std::find(also.begin(), also.end(), score.block) != also.end()) {
           score.gain += attempt.candidate.probability;
         }
       }

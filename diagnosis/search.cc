@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <string>
 
+#include "diagnosis/bootstrap/bootstrap.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -95,6 +97,22 @@ void Search::TryAll() {
   for (Attempt& attempt : attempts_) {
     attempt.candidate.p_value = PValue(attempt.candidate.gain, attempt.parameters, units_.size());
     PayForParameters(&attempt);
+  }
+}
+
+std::optional<double> Search::LargestGain() {
+  TryAll();
+  if (Stopped()) return std::nullopt;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const Attempt& attempt : attempts_) largest = std::max(largest, attempt.candidate.gain);
+  return largest;
+}
+
+void Search::Bootstrap() {
+  bootstrap_gains_ = BootstrapGains(records_, base_, *at_.experiments, options_);
+  if (bootstrap_gains_.empty()) return;
+  for (Attempt& attempt : attempts_) {
+    attempt.candidate.p_value = BootstrapPValue(bootstrap_gains_, attempt.candidate.gain);
   }
 }
 

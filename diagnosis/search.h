@@ -20,10 +20,13 @@ class Search {
  public:
   Search(const std::vector<DiagnosisExperiment>& experiments, const DiagnosisOptions& options);
   Diagnosis Run();
+  // The best candidate's, or less than nothing; no value if stopped.
+  std::optional<double> LargestGain();
 
  private:
   void TakeLinesLeftOver();
   void TryAll();
+  void Bootstrap();
   Attempt Try(const EffectForms& forms) const;
   bool Stopped() const { return options_.stopped && options_.stopped(); }
 
@@ -48,6 +51,7 @@ class Search {
   LineOrigin origin_;
   GainFluctuation fluctuation_;
   std::vector<Attempt> attempts_;
+  std::vector<double> bootstrap_gains_;
   std::vector<Eigen::VectorXd> flame_noise_;
   GapParts gap_before_;
 };

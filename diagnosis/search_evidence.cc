@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "diagnosis/bootstrap/bootstrap.h"
 #include "diagnosis/no_meaning.h"
 #include "diagnosis/search.h"
 #include "estimation/parallel.h"
@@ -40,7 +41,7 @@ void Search::MeasureGap(Attempt* attempt) const {
 }
 
 double Search::ShrinkageByNoMeaning(const Attempt& best) const {
-  if (!best.fit || best.also || !best.repaired.empty()) {
+  if (!best.fit || !best.also.empty() || !best.repaired.empty()) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   const Effect& effect = *best.fit->effect;
@@ -86,6 +87,7 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
         return attempt.seen || (attempt.kind == EffectKind::kDeclaredMap &&
                                 attempt.candidate.gain > DetectionGain(false));
       });
+  if (!bootstrap_gains_.empty()) out.gain_of_noise = BootstrapDetectionGain(bootstrap_gains_);
   if (!top) return out;
   out.gain = std::max(0.0, top->candidate.gain);
   out.gap_after = top->candidate.gap_after;

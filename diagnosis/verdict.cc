@@ -41,7 +41,8 @@ double Unexplained(const Evidence& at) {
 Belief Weigh(const Evidence& at) {
   const double rest = Unexplained(at);
   Belief out;
-  out.none = Logistic((DetectionGain(at.flame_alone) - at.gain) / kDetectionWidth) *
+  const double detection = std::max(DetectionGain(at.flame_alone), at.gain_of_noise);
+  out.none = Logistic((detection - at.gain) / kDetectionWidth) *
              Logistic((kUnexplainedDetection - rest) / kUnexplainedWidth);
   // A fit whose noise had to grow is no fit, even if no candidate takes anything off it.
   out.none *= Logistic((kGapOverFloor - at.gap_before / std::max(at.gap_floor, 1e-12)) /

@@ -11,6 +11,7 @@ inline constexpr double kFlameAllowance = 80.0;
 
 struct Evidence {
   double gain = 0.0;            // of log-likelihood, by the best candidate, parameters paid for
+  double gain_of_noise = 0.0;   // that the bootstrap reaches in one rig of twenty
   double acoustic_slack = 0.0;  // left after it (slack.h)
   double flame_slack = 0.0;
   double gap_before = 0.0;

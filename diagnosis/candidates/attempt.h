@@ -19,8 +19,8 @@ namespace howl {
 struct Attempt {
   Candidate candidate;
   EffectKind kind = EffectKind::kTransfer;
-  // Of two effects: the second's block, and what it alone brings.
-  std::optional<LoopBlock> also;
+  // Of two effects or three: the blocks of those after the first, and what the last brings.
+  std::vector<LoopBlock> also;
   double second_gain = 0.0;
   std::vector<ExperimentFit> held_out;
   bool without_lines = false;

@@ -78,6 +78,11 @@ std::string_view VerdictKindName(VerdictKind kind) {
 }
 
 Json DiagnosisJson(const Diagnosis& diagnosis) {
+  Json bootstrap = nullptr;
+  if (!diagnosis.bootstrap_gains.empty()) {
+    bootstrap = {{"replicates", diagnosis.bootstrap_gains.size()},
+                 {"largest_gains", diagnosis.bootstrap_gains}};
+  }
   Json candidates = Json::array();
   for (const Candidate& candidate : diagnosis.candidates) {
     candidates.push_back(CandidateJson(candidate));
@@ -99,6 +104,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
          {{"before", diagnosis.slack_acoustic_before}, {"after", diagnosis.slack_acoustic_after}}},
         {"flame_cut",
          {{"before", diagnosis.slack_flame_before}, {"after", diagnosis.slack_flame_after}}}}},
+      {"bootstrap", bootstrap},
       {"advice", diagnosis.advice}};
 }
 

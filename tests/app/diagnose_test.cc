@@ -4,8 +4,10 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "model/effects/catalogue.h"
 #include "tests/app/program.h"
 
 namespace howl {
@@ -95,6 +97,39 @@ TEST(Diagnose, AReferenceWithoutTheOperatingPoints) {
                             ":2: experiments: have none called exp1, and none on both sides of its "
                             "phi 0.56, expected one or the other\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "diagnosis.state"));
+}
+
+TEST(Diagnose, TooFewReplicatesOrAReferenceBesideThemAreMistakes) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  const std::string out = (folder.path() / "out").string();
+  const ProgramResult few = RunHowl("diagnose " + rig + " --bootstrap 5 --out " + out);
+  EXPECT_EQ(few.status, 2);
+  EXPECT_THAT(few.err, testing::HasSubstr("--bootstrap"));
+  const ProgramResult both =
+      RunHowl("diagnose " + rig + " --bootstrap 19 --reference " + rig + " --out " + out);
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, testing::HasSubstr("expected one or the other"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/diagnosis.json"));
+}
+
+TEST(Diagnose, TheBootstrapsGainsAreWritten) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  const std::string out = (folder.path() / "out").string();
+  std::string all_but;
+  for (const EffectPointer& effect : Catalogue()) {
+    if (effect->id() != "delay_varies_with_phi") all_but += std::string(effect->id()) + ",";
+  }
+  all_but.pop_back();
+  const ProgramResult run =
+      RunHowl("diagnose " + rig + " --bootstrap 19 --without " + all_but + " --out " + out);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, testing::HasSubstr("19 rigs simulated from the refitted base"));
+  const auto diagnosis = nlohmann::json::parse(ReadFile(out + "/diagnosis.json"));
+  EXPECT_EQ(diagnosis["bootstrap"]["replicates"], 19);
+  EXPECT_EQ(diagnosis["bootstrap"]["largest_gains"].size(), 19u);
+  EXPECT_GE(diagnosis["candidates"][0]["p_value"].get<double>(), 0.05);
 }
 
 }  // namespace

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "diagnosis/acoustic_cut.h"
 #include "diagnosis/flame_cut.h"
+#include "diagnosis/pair_parts.h"
 #include "diagnosis/verdict.h"
 #include "model/effects/combined.h"
 #include "tests/diagnosis/simulated_rig.h"
@@ -24,14 +27,6 @@ EffectPointer Find(std::string_view id) {
 }
 
 // Fewer candidates, to be quick.
-std::vector<std::string> AllBut(const std::vector<std::string>& kept) {
-  std::vector<std::string> withheld;
-  for (const EffectPointer& effect : Catalogue()) {
-    const std::string id(effect->id());
-    if (std::find(kept.begin(), kept.end(), id) == kept.end()) withheld.push_back(id);
-  }
-  return withheld;
-}
 
 void AddHum(double frequency_hz, double amplitude, std::vector<DiagnosisExperiment>* rig) {
   for (DiagnosisExperiment& experiment : *rig) {
@@ -120,20 +115,38 @@ void AddDropouts(RigParameters* rig) {
   EXPECT_TRUE(Find("intermittency")->AddTo({}, std::vector<double>{0.35, 0.2}, rig));
 }
 
+std::vector<DiagnosisExperiment> SlowAndIntermittent() {
+  return SimulatePoints(
+      3,
+      [](RigParameters* rig) {
+        AddDropouts(rig);
+        rig->instruments = {std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)};
+      },
+      41);
+}
+
 TEST(Diagnose, AFluctuatingGainIsSeenBesideALowPass) {
   DiagnosisOptions options;
   options.withheld = AllBut({"intermittency", "q_sensor_lowpass", "channel_skew"});
-  const Diagnosis diagnosis = Diagnose(
-      SimulatePoints(
-          3,
-          [](RigParameters* rig) {
-            AddDropouts(rig);
-            rig->instruments = {std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)};
-          },
-          41),
-      options);
+  const Diagnosis diagnosis = Diagnose(SlowAndIntermittent(), options);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass+intermittency");
+}
+
+TEST(Diagnose, ThreeEffectsAreThree) {
+  std::vector<DiagnosisExperiment> rig = SlowAndIntermittent();
+  AddHum(50.0, 0.05, &rig);
+  DiagnosisOptions options;
+  options.withheld = AllBut({"mains_hum", "intermittency", "q_sensor_lowpass", "channel_skew"});
+  const Diagnosis diagnosis = Diagnose(rig, options);
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "mains_hum+q_sensor_lowpass+intermittency");
+  const Candidate& three = diagnosis.candidates.at(0);
+  const auto cutoff = std::find_if(
+      three.parameters.begin(), three.parameters.end(),
+      [](const EstimatedParameter& p) { return p.name == "q_sensor_lowpass.cutoff_hz"; });
+  ASSERT_NE(cutoff, three.parameters.end());
+  EXPECT_NEAR(cutoff->value, 400.0, 20.0);
 }
 
 TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
@@ -159,6 +172,44 @@ TEST(Diagnose, AnExtraModeIsSeenBesideFewLevels) {
   const Diagnosis diagnosis = Diagnose(rig, options);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "quantisation+extra_acoustic_mode");
+}
+
+Attempt Gaining(const std::string& effect, LoopBlock block, double gain) {
+  Attempt out;
+  out.candidate.effect = effect;
+  out.candidate.block = block;
+  out.candidate.gain = gain;
+  out.candidate.parameters = {{"size", 1.0, 0.9, 1.1, ""}};
+  return out;
+}
+
+// 100 nats: odds fall by e in 1.6, and four of these make a class.
+TEST(Pair, SecondsNearTheBestStayInTheClass) {
+  const std::vector<Attempt> near =
+      NearBest({Gaining("flame_lowpass", LoopBlock::kFlame, 100.0),
+                Gaining("second_delay_path", LoopBlock::kDelay, 94.0),
+                Gaining("delay_dispersion", LoopBlock::kDelay, 93.0)});
+  ASSERT_EQ(near.size(), 2u);
+  EXPECT_EQ(near[1].candidate.effect, "second_delay_path");
+  EXPECT_TRUE(NearBest({}).empty());
+}
+
+TEST(Pair, JoiningKeepsNamesBlocksAndWhatTheLastBrings) {
+  const Attempt two = Join(Gaining("channel_skew", LoopBlock::kHeatReleaseInstrument, 500.0),
+                           Gaining("intermittency", LoopBlock::kFlame, 40.0));
+  EXPECT_EQ(two.candidate.effect, "channel_skew+intermittency");
+  EXPECT_DOUBLE_EQ(two.candidate.gain, 540.0);
+  EXPECT_DOUBLE_EQ(two.second_gain, 40.0);
+  const Attempt three = Join(Gaining("mains_hum", LoopBlock::kPressureInstrument, 7000.0), two);
+  EXPECT_EQ(three.candidate.effect, "mains_hum+channel_skew+intermittency");
+  EXPECT_EQ(three.candidate.block, LoopBlock::kPressureInstrument);
+  EXPECT_EQ(three.also,
+            (std::vector<LoopBlock>{LoopBlock::kHeatReleaseInstrument, LoopBlock::kFlame}));
+  EXPECT_DOUBLE_EQ(three.second_gain, 40.0);
+  ASSERT_EQ(three.candidate.parameters.size(), 3u);
+  EXPECT_EQ(three.candidate.parameters[0].name, "mains_hum.size");
+  EXPECT_EQ(three.candidate.parameters[1].name, "channel_skew.size");
+  EXPECT_EQ(three.candidate.parameters[2].name, "intermittency.size");
 }
 
 TEST(Diagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {

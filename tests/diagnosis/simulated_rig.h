@@ -2,6 +2,7 @@
 #ifndef HOWL_TESTS_DIAGNOSIS_SIMULATED_RIG_H_
 #define HOWL_TESTS_DIAGNOSIS_SIMULATED_RIG_H_
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -29,6 +30,16 @@ inline RigParameters TestRig(int point) {
 inline void AddMode(double ratio, double xi, double share, RigParameters* rig) {
   const auto& acoustics = rig->model.loop.acoustics;
   rig->extra_modes = {{ratio * acoustics.omega_hz, xi, share * acoustics.N}};
+}
+
+// The catalogue's effects but these: to withhold.
+inline std::vector<std::string> AllBut(const std::vector<std::string>& kept) {
+  std::vector<std::string> withheld;
+  for (const EffectPointer& effect : Catalogue()) {
+    const std::string id(effect->id());
+    if (std::find(kept.begin(), kept.end(), id) == kept.end()) withheld.push_back(id);
+  }
+  return withheld;
 }
 
 // change: of each point's rig, before it is simulated.

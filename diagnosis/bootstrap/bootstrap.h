@@ -1,0 +1,28 @@
+// Parametric bootstrap of the loop with no effect: what noise alone gives the best of the whole
+// catalogue. Each replicate simulates every operating point from the refitted base (fitted_rig.h),
+// and goes through the same search as the records did. Many of the catalogue's null values lie on
+// a bound, so that chi-square tables do not apply; these gains do, whatever the bound.
+#ifndef HOWL_DIAGNOSIS_BOOTSTRAP_BOOTSTRAP_H_
+#define HOWL_DIAGNOSIS_BOOTSTRAP_BOOTSTRAP_H_
+
+#include <vector>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/effect_fit.h"
+
+namespace howl {
+
+// The largest gain of each of options.bootstrap replicates, ascending. Empty if stopped.
+std::vector<double> BootstrapGains(const std::vector<CutRecord>& records, const EffectFit& base,
+                                   const std::vector<DiagnosisExperiment>& experiments,
+                                   const DiagnosisOptions& options);
+
+// (1 + how many replicates reach the gain) / (1 + replicates)
+double BootstrapPValue(const std::vector<double>& gains, double gain);
+
+// What one rig in twenty with no effect exceeds; with fewer than 19 replicates, their largest.
+double BootstrapDetectionGain(const std::vector<double>& gains);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_BOOTSTRAP_BOOTSTRAP_H_

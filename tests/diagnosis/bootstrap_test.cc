@@ -1,0 +1,175 @@
+#include "diagnosis/bootstrap/bootstrap.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/bootstrap/fitted_rig.h"
+#include "diagnosis/verdict.h"
+#include "model/instrument.h"
+#include "tests/diagnosis/simulated_rig.h"
+
+namespace howl {
+namespace {
+
+std::vector<DiagnosisExperiment> Again(const std::vector<DiagnosisExperiment>& rig,
+                                       const std::vector<CutRecord>& records,
+                                       const EffectFit& base) {
+  std::vector<DiagnosisExperiment> out;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const SimulatedRecord record =
+        Simulate(FittedRig(records[e], base, e, 50 + e), FittedRigOptions(records[e]));
+    out.push_back(
+        {rig[e].name, rig[e].phi, {record.sampling_hz, record.pressure, record.heat_release}});
+  }
+  return out;
+}
+
+double Rms(const Eigen::VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
+
+// The rig that was recorded has parameters, a flame and noise that are known: what is simulated
+// from its fit has them again.
+TEST(FittedRig, IsTheRigThatWasFitted) {
+  const std::vector<DiagnosisExperiment> rig = SimulateRig();
+  const std::vector<CutRecord> records = MakeCutRecords(rig);
+  const EffectFit base = FitBase(records);
+  const std::vector<CutRecord> again = MakeCutRecords(Again(rig, records, base));
+  const EffectFit refitted = FitBase(again);
+  EXPECT_NEAR(refitted.tau_s, 0.00352, 2e-5);
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const RigParameters truth = TestRig(static_cast<int>(e));
+    const Acoustics<double> acoustics = ToAcoustics(refitted.experiments[e].acoustics);
+    EXPECT_NEAR(acoustics.omega_hz / truth.model.loop.acoustics.omega_hz, 1.0, 0.01);
+    EXPECT_NEAR(acoustics.xi / truth.model.loop.acoustics.xi, 1.0, 0.1);
+    EXPECT_NEAR(Rms(again[e].pressure) / Rms(records[e].pressure), 1.0, 0.03);
+    EXPECT_NEAR(Rms(again[e].heat_release) / Rms(records[e].heat_release), 1.0, 0.03);
+    EXPECT_NEAR(again[e].at.cycle_frequency_hz, records[e].at.cycle_frequency_hz, 1.0);
+    // Noise, over the band: each is a mean of hundreds of bins.
+    const double flame =
+        refitted.experiments[e].flame_noise.mean() / base.experiments[e].flame_noise.mean();
+    EXPECT_NEAR(flame, 1.0, 0.12);
+    const double acoustic =
+        refitted.experiments[e].acoustic_noise.mean() / base.experiments[e].acoustic_noise.mean();
+    EXPECT_NEAR(acoustic, 1.0, 0.12);
+    // The flame at half its range, against the rig's own.
+    const double v = 0.5 * refitted.experiments[e].flame_range;
+    const FlameBasis basis(refitted.experiments[e].flame_range);
+    const Eigen::VectorXd& c = refitted.experiments[e].flame;
+    const double rise = basis.At(v, c) - basis.At(-v, c);
+    const Flame<double>& flame_of_rig = truth.model.flame;
+    EXPECT_NEAR(rise / (FlameResponse(flame_of_rig, v) - FlameResponse(flame_of_rig, -v)), 1.0,
+                0.05);
+  }
+}
+
+TEST(FittedRig, DrawsOtherNoiseFromAnotherSeed) {
+  const std::vector<CutRecord> records = MakeCutRecords(SimulatePoints(
+      1, [](RigParameters*) {}, 3));
+  const EffectFit base = FitBase(records);
+  const SimulationOptions how = FittedRigOptions(records[0]);
+  const SimulatedRecord one = Simulate(FittedRig(records[0], base, 0, 1), how);
+  EXPECT_EQ(one.pressure, Simulate(FittedRig(records[0], base, 0, 1), how).pressure);
+  EXPECT_NE(one.pressure, Simulate(FittedRig(records[0], base, 0, 2), how).pressure);
+}
+
+TEST(Bootstrap, PValueAndThresholdCountReplicates) {
+  std::vector<double> gains(19);
+  for (std::size_t i = 0; i < gains.size(); ++i) gains[i] = static_cast<double>(i);
+  EXPECT_DOUBLE_EQ(BootstrapPValue(gains, 100.0), 0.05);
+  EXPECT_DOUBLE_EQ(BootstrapPValue(gains, 17.5), 0.1);
+  EXPECT_DOUBLE_EQ(BootstrapPValue(gains, -1.0), 1.0);
+  EXPECT_DOUBLE_EQ(BootstrapDetectionGain(gains), 18.0);
+  gains.resize(99);
+  for (std::size_t i = 0; i < gains.size(); ++i) gains[i] = static_cast<double>(i);
+  EXPECT_DOUBLE_EQ(BootstrapDetectionGain(gains), 94.0);  // four of 99 are above
+}
+
+DiagnosisOptions Few(std::size_t replicates) {
+  DiagnosisOptions options;
+  options.bootstrap = replicates;
+  options.withheld = AllBut({"delay_varies_with_phi", "q_sensor_lowpass"});
+  return options;
+}
+
+TEST(Bootstrap, NoiseAloneGainsLittleAndAnEffectMuch) {
+  const Diagnosis null = Diagnose(SimulateRig(), Few(3));
+  ASSERT_EQ(null.bootstrap_gains.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(null.bootstrap_gains.begin(), null.bootstrap_gains.end()));
+  EXPECT_LT(null.bootstrap_gains.back(), 8.0);
+  EXPECT_EQ(null.kind, VerdictKind::kNone);
+  const Diagnosis slow = Diagnose(
+      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 700.0)}), Few(3));
+  EXPECT_LT(slow.bootstrap_gains.back(), 8.0);
+  EXPECT_EQ(slow.effect, "q_sensor_lowpass");
+  EXPECT_DOUBLE_EQ(slow.candidates[0].p_value, 0.25);
+}
+
+TEST(Bootstrap, IsTheSameForAllNumbersOfThreadsAndAnotherForAnotherSeed) {
+  const std::vector<DiagnosisExperiment> rig = SimulateRig();
+  DiagnosisOptions options = Few(2);
+  options.threads = 1;
+  const std::vector<double> one = Diagnose(rig, options).bootstrap_gains;
+  options.threads = 2;
+  EXPECT_EQ(one, Diagnose(rig, options).bootstrap_gains);
+  options.seed = 2;
+  EXPECT_NE(one, Diagnose(rig, options).bootstrap_gains);
+}
+
+class Kept final : public FitMemory {
+ public:
+  std::optional<std::string> Recall(const std::string& key) override {
+    const std::lock_guard<std::mutex> lock(lock_);
+    const auto found = all_.find(key);
+    if (found == all_.end()) return std::nullopt;
+    return found->second;
+  }
+  void Keep(const std::string& key, const std::string& bytes) override {
+    const std::lock_guard<std::mutex> lock(lock_);
+    all_[key] = bytes;
+  }
+  std::map<std::string, std::string> all_;
+
+ private:
+  std::mutex lock_;
+};
+
+TEST(Bootstrap, GoesOnWhereItWasStopped) {
+  const std::vector<DiagnosisExperiment> rig = SimulateRig();
+  DiagnosisOptions options = Few(3);
+  options.threads = 1;
+  const std::vector<double> whole = Diagnose(rig, options).bootstrap_gains;
+  Kept kept;
+  options.memory = &kept;
+  bool enough = false;
+  options.bootstrap_progress = [&](std::size_t done, std::size_t) { enough = done == 2; };
+  options.stopped = [&] { return enough; };
+  EXPECT_TRUE(Diagnose(rig, options).stopped);
+  EXPECT_EQ(std::count_if(kept.all_.begin(), kept.all_.end(),
+                          [](const auto& entry) { return entry.first.starts_with("bootstrap"); }),
+            2);
+  options.stopped = nullptr;
+  std::size_t done = 0;
+  options.bootstrap_progress = [&](std::size_t now, std::size_t) { done = now; };
+  EXPECT_EQ(Diagnose(rig, options).bootstrap_gains, whole);
+  EXPECT_EQ(done, 3u);
+}
+
+TEST(Verdict, WhatNoiseReachesIsNoDetection) {
+  Evidence evidence;
+  evidence.gain = 30.0;
+  evidence.gap_before = 0.05;
+  evidence.gap_after = 0.05;
+  evidence.gap_floor = 0.05;
+  EXPECT_LT(Weigh(evidence).none, 0.05);
+  evidence.gain_of_noise = 36.0;
+  EXPECT_GT(Weigh(evidence).none, 0.9);
+}
+
+}  // namespace
+}  // namespace howl
