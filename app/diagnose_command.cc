@@ -12,10 +12,10 @@
 #include "app/command.h"
 #include "app/diagnose_state.h"
 #include "app/diagnose_table.h"
+#include "app/diagnose_text.h"
 #include "app/interruption.h"
 #include "app/progress_line.h"
 #include "app/record_input.h"
-#include "app/text_table.h"
 #include "diagnosis/diagnosis.h"
 #include "io/config/nearest_key.h"
 #include "io/results/diagnosis_json.h"
@@ -25,8 +25,6 @@
 namespace howl {
 namespace {
 
-constexpr double kPerCent = 100.0;
-constexpr std::size_t kShownCandidates = 5;
 constexpr std::size_t kFewestSamples = 4096;
 
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) {
@@ -79,66 +77,6 @@ void CheckReference(const Config& config, const Config& reference,
                         config.operating_parameter + " " + text.data() +
                         ", expected one or the other");
   }
-}
-
-std::string ParameterText(const Candidate& candidate) {
-  std::string text;
-  for (const EstimatedParameter& parameter : candidate.parameters) {
-    if (!text.empty()) text += ", ";
-    text += parameter.name + " " + Significant(parameter.value, 4);
-    if (!parameter.unit.empty()) text += " " + parameter.unit;
-  }
-  return text;
-}
-
-void Print(const Diagnosis& diagnosis) {
-  switch (diagnosis.kind) {
-    case VerdictKind::kNone:
-      std::printf("verdict: none; the model's residuals are noise (probability %.2f)\n",
-                  diagnosis.probability_none);
-      break;
-    case VerdictKind::kUnknown:
-      std::printf(
-          "verdict: unknown; no effect of the catalogue explains the gap (probability "
-          "%.2f)\n",
-          diagnosis.probability_unknown);
-      if (!diagnosis.together.empty()) {
-        std::printf("  %s together would come nearest: two causes, or one that is not listed\n",
-                    diagnosis.together.c_str());
-      }
-      break;
-    case VerdictKind::kEffect:
-      std::printf("verdict: %s (probability %.2f)\n", diagnosis.effect.c_str(),
-                  diagnosis.candidates.front().probability);
-      for (const std::string& other : diagnosis.indistinguishable) {
-        std::printf("  the data cannot tell it from %s\n", other.c_str());
-      }
-      break;
-  }
-  for (const Place& place : diagnosis.where) {
-    std::printf("where: %s, %.0f to %.0f Hz, %zu experiments (share %.2f)\n",
-                std::string(LoopBlockName(place.block)).c_str(), place.low_hz, place.high_hz,
-                place.experiments.size(), place.share);
-  }
-  std::printf("gap, held out: %.3f before, %.3f after; floor %.3f\n", diagnosis.gap_before,
-              diagnosis.gap_after, diagnosis.gap_floor);
-  if (std::isfinite(diagnosis.shrinkage_no_meaning)) {
-    std::printf("an effect of no meaning, as free as the best, shrinks it by %.1f %%\n",
-                kPerCent * diagnosis.shrinkage_no_meaning);
-  }
-  if (!diagnosis.bootstrap_gains.empty()) {
-    std::printf("noise alone, in %zu rigs simulated from the refitted base, gains at most %.1f\n",
-                diagnosis.bootstrap_gains.size(), diagnosis.bootstrap_gains.back());
-  }
-  TextTable table({"candidate", "probability", "gain", "gap after", "shrinks %", "estimate"});
-  for (std::size_t i = 0; i < std::min(kShownCandidates, diagnosis.candidates.size()); ++i) {
-    const Candidate& candidate = diagnosis.candidates[i];
-    table.AddRow({candidate.effect, Fixed(candidate.probability, 3), Fixed(candidate.gain, 1),
-                  Fixed(candidate.gap_after, 3), Fixed(kPerCent * candidate.shrinkage, 1),
-                  ParameterText(candidate)});
-  }
-  std::printf("%s", table.Text().c_str());
-  std::printf("next: %s\n", diagnosis.advice.c_str());
 }
 
 // What a state file belongs to: the config's text (it has the effects) and every number.
@@ -240,7 +178,7 @@ int Run(const Options& options) {
   WriteWholeFile(path, DiagnosisJson(diagnosis).dump(2) + "\n");
   state.Forget();
   if (!options.quiet) {
-    Print(diagnosis);
+    PrintDiagnosis(diagnosis);
     std::printf("written: %s\n", path.c_str());
   }
   return kDone;

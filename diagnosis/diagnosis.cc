@@ -85,6 +85,9 @@ Diagnosis Search::Run() {
     }
     out.where = FindPlaces(records_, attempts_, out.kind, slack_before_, blocks);
   }
+  if (out.kind == VerdictKind::kEffect && attempts_[0].fit && attempts_[0].repaired.empty()) {
+    out.base_parameters = MovedParameters(records_, base_, *attempts_[0].fit);
+  }
   if (out.kind != VerdictKind::kNone && !attempts_.empty()) {
     out.shrinkage_no_meaning = ShrinkageByNoMeaning(attempts_[0]);
   }

@@ -21,6 +21,7 @@
 #include "diagnosis/cut_record.h"
 #include "diagnosis/fit_memory.h"
 #include "diagnosis/gap_map.h"
+#include "diagnosis/moved_parameters.h"
 #include "model/effects/catalogue.h"
 
 namespace howl {
@@ -74,6 +75,8 @@ struct Diagnosis {
   double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
   std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first
+  // Of the loop, where the verdict is an effect whose fit has them.
+  std::vector<MovedParameter> base_parameters;
   // What free slack takes off the likelihood, before and after the best effect, in cuts A and B.
   double slack_acoustic_before = 0.0;
   double slack_flame_before = 0.0;

@@ -2,7 +2,9 @@
 // band the root of the mean of |E|^2 / V less one, or zero where that is negative.
 //
 // "p": cut A, pressure from measured heat release; "q": cut B, heat release from measured pressure.
-// Bands in Hz, evenly spaced in the logarithm.
+// Bands in Hz, evenly spaced in the logarithm. Of noise alone n |E|^2 / V, summed over n
+// independent bins, is gamma-distributed with shape n; which cells are more than that is decided
+// for the whole map by Benjamini and Hochberg (1995).
 #ifndef HOWL_DIAGNOSIS_GAP_MAP_H_
 #define HOWL_DIAGNOSIS_GAP_MAP_H_
 
@@ -20,6 +22,9 @@ struct GapCell {
   double high_hz = 0.0;
   double before = 0.0;
   double after = 0.0;  // NaN where nothing was tried
+  // More than noise, among all cells of the map, at a false discovery rate of 5 %.
+  bool before_found = false;
+  bool after_found = false;
 };
 
 // `after` is null where no effect is left to show. `without_masked`: lines are not counted.

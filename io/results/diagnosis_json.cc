@@ -40,7 +40,9 @@ Json MapJson(const Diagnosis& diagnosis) {
                    {"experiment", cell.experiment},
                    {"band_hz", {cell.low_hz, cell.high_hz}},
                    {"before", NumberOrNull(cell.before)},
-                   {"after", NumberOrNull(cell.after)}});
+                   {"after", NumberOrNull(cell.after)},
+                   {"before_found", cell.before_found},
+                   {"after_found", cell.after_found}});
   }
   return map;
 }
@@ -87,6 +89,11 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
   for (const Candidate& candidate : diagnosis.candidates) {
     candidates.push_back(CandidateJson(candidate));
   }
+  Json base_parameters = Json::object();
+  for (const MovedParameter& parameter : diagnosis.base_parameters) {
+    base_parameters[parameter.name] = {{"without", NumberOrNull(parameter.without)},
+                                       {"with", NumberOrNull(parameter.with)}};
+  }
   return {
       {"schema", "howl.diagnosis/1"},
       {"verdict", VerdictJson(diagnosis)},
@@ -99,6 +106,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
         {"held_out", true}}},
       {"map", MapJson(diagnosis)},
       {"candidates", candidates},
+      {"base_parameters", base_parameters},
       {"free_slack",
        {{"acoustic_cut",
          {{"before", diagnosis.slack_acoustic_before}, {"after", diagnosis.slack_acoustic_after}}},

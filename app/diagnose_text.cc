@@ -1,0 +1,105 @@
+#include "app/diagnose_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "app/text_table.h"
+
+namespace howl {
+namespace {
+
+constexpr double kPerCent = 100.0;
+constexpr std::size_t kShownCandidates = 5;
+constexpr std::size_t kShownMoved = 4;
+constexpr double kMovedShare = 0.03;
+
+std::string ParameterText(const Candidate& candidate) {
+  std::string text;
+  for (const EstimatedParameter& parameter : candidate.parameters) {
+    if (!text.empty()) text += ", ";
+    text += parameter.name + " " + Significant(parameter.value, 4);
+    if (!parameter.unit.empty()) text += " " + parameter.unit;
+  }
+  return text;
+}
+
+// Base parameters that had absorbed the effect; empty if none had.
+std::string MovedText(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const MovedParameter& p :
+       FarthestMoved(diagnosis.base_parameters, kShownMoved, kMovedShare)) {
+    text += text.empty() ? "the fit without it had absorbed some: " : ", ";
+    text += p.name + " " + Significant(p.without, 4) + " for " + Significant(p.with, 4);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+// Cells of the map that are more than noise.
+std::string MapText(const Diagnosis& diagnosis) {
+  const auto count = [&](bool GapCell::*found) {
+    return std::to_string(std::ranges::count(diagnosis.map, true, found));
+  };
+  if (diagnosis.map.empty()) return "";
+  std::string text = "map: " + count(&GapCell::before_found) + " of " +
+                     std::to_string(diagnosis.map.size()) + " cells are more than noise";
+  if (!std::isnan(diagnosis.map[0].after)) text += ", " + count(&GapCell::after_found) + " after";
+  return text + "\n";
+}
+
+}  // namespace
+
+void PrintDiagnosis(const Diagnosis& diagnosis) {
+  switch (diagnosis.kind) {
+    case VerdictKind::kNone:
+      std::printf("verdict: none; the model's residuals are noise (probability %.2f)\n",
+                  diagnosis.probability_none);
+      break;
+    case VerdictKind::kUnknown:
+      std::printf(
+          "verdict: unknown; no effect of the catalogue explains the gap (probability "
+          "%.2f)\n",
+          diagnosis.probability_unknown);
+      if (!diagnosis.together.empty()) {
+        std::printf("  %s together would come nearest: two causes, or one that is not listed\n",
+                    diagnosis.together.c_str());
+      }
+      break;
+    case VerdictKind::kEffect:
+      std::printf("verdict: %s (probability %.2f)\n", diagnosis.effect.c_str(),
+                  diagnosis.candidates.front().probability);
+      for (const std::string& other : diagnosis.indistinguishable) {
+        std::printf("  the data cannot tell it from %s\n", other.c_str());
+      }
+      break;
+  }
+  for (const Place& place : diagnosis.where) {
+    std::printf("where: %s, %.0f to %.0f Hz, %zu experiments (share %.2f)\n",
+                std::string(LoopBlockName(place.block)).c_str(), place.low_hz, place.high_hz,
+                place.experiments.size(), place.share);
+  }
+  std::printf("gap, held out: %.3f before, %.3f after; floor %.3f\n", diagnosis.gap_before,
+              diagnosis.gap_after, diagnosis.gap_floor);
+  std::printf("%s", MapText(diagnosis).c_str());
+  if (std::isfinite(diagnosis.shrinkage_no_meaning)) {
+    std::printf("an effect of no meaning, as free as the best, shrinks it by %.1f %%\n",
+                kPerCent * diagnosis.shrinkage_no_meaning);
+  }
+  if (!diagnosis.bootstrap_gains.empty()) {
+    std::printf("noise alone, in %zu rigs simulated from the refitted base, gains at most %.1f\n",
+                diagnosis.bootstrap_gains.size(), diagnosis.bootstrap_gains.back());
+  }
+  TextTable table({"candidate", "probability", "gain", "gap after", "shrinks %", "estimate"});
+  for (std::size_t i = 0; i < std::min(kShownCandidates, diagnosis.candidates.size()); ++i) {
+    const Candidate& candidate = diagnosis.candidates[i];
+    table.AddRow({candidate.effect, Fixed(candidate.probability, 3), Fixed(candidate.gain, 1),
+                  Fixed(candidate.gap_after, 3), Fixed(kPerCent * candidate.shrinkage, 1),
+                  ParameterText(candidate)});
+  }
+  std::printf("%s", table.Text().c_str());
+  std::printf("%s", MovedText(diagnosis).c_str());
+  std::printf("next: %s\n", diagnosis.advice.c_str());
+}
+
+}  // namespace howl
