@@ -1,106 +1,27 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "app/command.h"
+#include "app/diagnose_input.h"
 #include "app/diagnose_state.h"
 #include "app/diagnose_table.h"
 #include "app/diagnose_text.h"
 #include "app/interruption.h"
 #include "app/progress_line.h"
-#include "app/record_input.h"
 #include "diagnosis/diagnosis.h"
 #include "io/config/nearest_key.h"
 #include "io/results/diagnosis_json.h"
-#include "io/user_error.h"
 #include "io/whole_file.h"
 
 namespace howl {
 namespace {
-
-constexpr std::size_t kFewestSamples = 4096;
-
-std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) {
-  const std::string file = config.source.string();
-  std::vector<DiagnosisExperiment> experiments;
-  for (NamedRecord& named : LoadRecords(config)) {
-    if (named.record.heat_release.empty()) {
-      throw UserError(file, config.experiments.front().line, "heat_release",
-                      named.name +
-                          " has pressure alone, expected both signals: the diagnosis cuts "
-                          "the loop between them");
-    }
-    if (named.record.pressure.size() < kFewestSamples) {
-      throw UserError(file, config.experiments.front().line, "record",
-                      named.name + " has " + std::to_string(named.record.pressure.size()) +
-                          " samples, expected at least " + std::to_string(kFewestSamples));
-    }
-    experiments.push_back({named.name, named.phi, std::move(named.record)});
-  }
-  if (experiments.empty()) {
-    throw UserError(file, config.experiments.front().line, "experiments",
-                    "no experiment has a record, expected at least one to diagnose");
-  }
-  return experiments;
-}
-
-// Operating points are found by name or parameter, and interpolated in between.
-void CheckReference(const Config& config, const Config& reference,
-                    const std::vector<DiagnosisExperiment>& rig,
-                    const std::vector<DiagnosisExperiment>& model) {
-  const std::string file = reference.source.string();
-  const int line = reference.experiments.front().line;
-  if (config.operating_parameter != reference.operating_parameter) {
-    throw UserError(file, line, "operating_parameter",
-                    "is " + reference.operating_parameter + " here, expected " +
-                        config.operating_parameter + " as in " + config.source.string());
-  }
-  const auto [low, high] = std::minmax_element(
-      model.begin(), model.end(),
-      [](const DiagnosisExperiment& a, const DiagnosisExperiment& b) { return a.phi < b.phi; });
-  for (const DiagnosisExperiment& each : rig) {
-    const bool named =
-        std::any_of(model.begin(), model.end(),
-                    [&](const DiagnosisExperiment& other) { return other.name == each.name; });
-    if (named || (each.phi >= low->phi && each.phi <= high->phi)) continue;
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.6g", each.phi);
-    throw UserError(file, line, "experiments",
-                    "have none called " + each.name + ", and none on both sides of its " +
-                        config.operating_parameter + " " + text.data() +
-                        ", expected one or the other");
-  }
-}
-
-// What a state file belongs to: the config's text (it has the effects) and every number.
-std::string Inputs(const Config& config, const std::vector<DiagnosisExperiment>& rig,
-                   const std::vector<DiagnosisExperiment>& reference) {
-  std::ifstream file(config.source, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  for (const std::vector<DiagnosisExperiment>* each : {&rig, &reference}) {
-    text << each->size() << "\n";
-    for (const DiagnosisExperiment& experiment : *each) {
-      const Record& record = experiment.record;
-      text << experiment.name << " " << record.pressure.size() << "\n";
-      for (const double number : {experiment.phi, record.sampling_hz}) {
-        text.write(reinterpret_cast<const char*>(&number), sizeof number);
-      }
-      for (const std::vector<double>* signal : {&record.pressure, &record.heat_release}) {
-        text.write(reinterpret_cast<const char*>(signal->data()),
-                   static_cast<std::streamsize>(signal->size() * sizeof(double)));
-      }
-    }
-  }
-  return text.str();
-}
 
 // "a,b" from --without.
 std::vector<std::string> Withheld(const Options& options) {
@@ -162,7 +83,7 @@ int Run(const Options& options) {
   }
   WatchForInterruption();
   const std::filesystem::path state_path = options.out / "diagnosis.state";
-  DiagnoseState state(state_path, Inputs(config, experiments, how.reference));
+  DiagnoseState state(state_path, InputBytes(config, experiments, how.reference));
   if (state.recalled() > 0 && !options.quiet) {
     std::fprintf(stderr, "going on from %s: %zu fits are done\n", state_path.c_str(),
                  state.recalled());

@@ -1,0 +1,27 @@
+// The records of a diagnosis. Mistakes throw UserError.
+#ifndef HOWL_APP_DIAGNOSE_INPUT_H_
+#define HOWL_APP_DIAGNOSE_INPUT_H_
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.h"
+#include "io/config/config.h"
+
+namespace howl {
+
+// Both signals of every experiment, long enough to be cut.
+std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
+
+// Operating points are found by name or parameter, and interpolated in between.
+void CheckReference(const Config& config, const Config& reference,
+                    const std::vector<DiagnosisExperiment>& rig,
+                    const std::vector<DiagnosisExperiment>& model);
+
+// What a state file belongs to: the config's text (it has the effects) and every number.
+std::string InputBytes(const Config& config, const std::vector<DiagnosisExperiment>& rig,
+                       const std::vector<DiagnosisExperiment>& reference);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_DIAGNOSE_INPUT_H_
