@@ -1,28 +1,20 @@
 // Local searches over the family: from a start to a member, and from a member to the farthest that
 // a quantity reaches within the family.
 //
-// Interior-point steps (logarithmic barrier, Gauss-Newton curvature) in the coordinates in which
-// most conditions of the test are bounds: ln xi, and the errors of phase, gain and loop phase, each
-// in units of its tolerance; with a second mode of each experiment's own ln omega as well; the
-// shared second mode counts once. Every iterate keeps the hard conditions strictly, so that what is
-// found is a member. A local search proves nothing: it makes `inner` wide, never `outer` tight.
+// Interior-point steps (estimation/family/local_barrier.h) in the coordinates in which most
+// conditions of the test are bounds (estimation/family/local_coordinates.h). Every iterate keeps
+// the hard conditions strictly, so that what is found is a member. A local search proves nothing:
+// it makes `inner` wide, never `outer` tight.
 #ifndef HOWL_ESTIMATION_FAMILY_LOCAL_SEARCH_H_
 #define HOWL_ESTIMATION_FAMILY_LOCAL_SEARCH_H_
 
-#include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
+#include "estimation/family/member_quantity.h"
 #include "estimation/family/problem.h"
 
 namespace howl {
-
-// A smooth quantity of a member, and the experiments that it depends on.
-struct MemberQuantity {
-  std::function<double(std::span<const LoopModel>)> value;
-  std::vector<std::size_t> experiments;
-};
 
 // A model, and how far it uses the conditions that were minimised: the largest error over its
 // tolerance. At most one: a member.
