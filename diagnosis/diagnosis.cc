@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "diagnosis/advice.h"
@@ -17,10 +18,6 @@ namespace howl {
 namespace {
 
 constexpr double kClassProbability = 0.02;
-// Of an unknown: where a second transfer function is needed, it may be that none of the catalogue
-// is the cause.
-constexpr double kTwoTransferFunctions = 0.9;
-
 // A second transfer function that brings as much as it must was seen to leave at least this share
 // of it as slack beside the first (results/trial): less is not worth the search.
 constexpr double kSlackOfASecond = 0.1;
@@ -67,7 +64,14 @@ Diagnosis Search::Run() {
   if (belief.none < 0.5 && !attempts_.empty() && Detected() &&
       (belief.unknown > 0.5 || LeavesRoomForASecond(attempts_[0], after))) {
     together = TryTransferPair(at_, attempts_[0], units_, options_.threads);
-    if (together) belief.unknown = std::max(belief.unknown, kTwoTransferFunctions);
+    if (together) belief.unknown = std::max(belief.unknown, kUnexplainedFact);
+  }
+  double no_meaning = std::numeric_limits<double>::quiet_NaN();
+  if (belief.none <= 0.5 && !attempts_.empty()) {
+    no_meaning = ShrinkageByNoMeaning(attempts_[0]);
+    if (IsNoBetterThanNoMeaning(attempts_[0].candidate.shrinkage, no_meaning)) {
+      belief.unknown = std::max(belief.unknown, kUnexplainedFact);
+    }
   }
   Diagnosis out = Conclude(evidence, belief);
   out.bootstrap_gains = bootstrap_gains_;
@@ -88,9 +92,7 @@ Diagnosis Search::Run() {
   if (out.kind == VerdictKind::kEffect && attempts_[0].fit && attempts_[0].repaired.empty()) {
     out.base_parameters = MovedParameters(records_, base_, *attempts_[0].fit);
   }
-  if (out.kind != VerdictKind::kNone && !attempts_.empty()) {
-    out.shrinkage_no_meaning = ShrinkageByNoMeaning(attempts_[0]);
-  }
+  out.shrinkage_no_meaning = no_meaning;
   if (together) {
     MeasureGap(&*together);
     together->candidate.probability = 0.0;

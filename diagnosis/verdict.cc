@@ -24,7 +24,7 @@ constexpr double kConfirmedUnknownShare = 0.35;
 constexpr double kUnknownWidth = 0.02;
 constexpr double kUnknownGapShare = 0.016;  // of the squared gap
 constexpr double kUnknownGapWidth = 0.004;
-constexpr double kUnexplainedFact = 0.9;
+constexpr double kNothing = 0.03;  // of shrinkage
 constexpr double kTemperature = 1.5;
 constexpr double kTemperatureShare = 0.001;
 constexpr double kTemperatureMostGain = 1e4;
@@ -64,6 +64,10 @@ Belief Weigh(const Evidence& at) {
     out.unknown = std::max(out.unknown, kUnexplainedFact);
   }
   return out;
+}
+
+bool IsNoBetterThanNoMeaning(double shrinkage, double shrinkage_no_meaning) {
+  return shrinkage_no_meaning > kNothing && shrinkage_no_meaning >= shrinkage;
 }
 
 double Temperature(double largest_gain) {

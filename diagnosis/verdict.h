@@ -39,6 +39,13 @@ double Unexplained(const Evidence& evidence);
 // distances count by their share of the largest gain too.
 double Temperature(double largest_gain);
 
+// Effects of no meaning, as free as the best, shrink the gap as much as it: what it gains is the
+// data's, not a cause's. NaN where there is nothing to compare.
+bool IsNoBetterThanNoMeaning(double shrinkage, double shrinkage_no_meaning);
+
+// The doubt that such a fact leaves: that what is wrong is not in the catalogue.
+inline constexpr double kUnexplainedFact = 0.9;
+
 // Of two kinds of evidence that do not compete (a line and a transfer function, say), the least
 // that each must bring.
 double DetectionGain(bool flame_alone);

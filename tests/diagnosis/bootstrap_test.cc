@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "diagnosis/bootstrap/fitted_rig.h"
-#include "diagnosis/verdict.h"
 #include "model/instrument.h"
 #include "tests/diagnosis/simulated_rig.h"
 
@@ -158,17 +157,6 @@ TEST(Bootstrap, GoesOnWhereItWasStopped) {
   options.bootstrap_progress = [&](std::size_t now, std::size_t) { done = now; };
   EXPECT_EQ(Diagnose(rig, options).bootstrap_gains, whole);
   EXPECT_EQ(done, 3u);
-}
-
-TEST(Verdict, WhatNoiseReachesIsNoDetection) {
-  Evidence evidence;
-  evidence.gain = 30.0;
-  evidence.gap_before = 0.05;
-  evidence.gap_after = 0.05;
-  evidence.gap_floor = 0.05;
-  EXPECT_LT(Weigh(evidence).none, 0.05);
-  evidence.gain_of_noise = 36.0;
-  EXPECT_GT(Weigh(evidence).none, 0.9);
 }
 
 }  // namespace

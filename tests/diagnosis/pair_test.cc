@@ -12,7 +12,6 @@
 #include "diagnosis/acoustic_cut.h"
 #include "diagnosis/flame_cut.h"
 #include "diagnosis/pair_parts.h"
-#include "diagnosis/verdict.h"
 #include "model/effects/combined.h"
 #include "tests/diagnosis/simulated_rig.h"
 
@@ -260,38 +259,6 @@ TEST(Diagnose, AnEffectOfNoMeaningLeavesTheGap) {
   EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass");
   EXPECT_GT(diagnosis.candidates[0].shrinkage, 0.8);
   EXPECT_LT(diagnosis.shrinkage_no_meaning, 0.03);
-}
-
-TEST(Verdict, FollowsTheEvidence) {
-  Evidence nothing;
-  nothing.gap_before = nothing.gap_after = nothing.gap_floor = 0.05;
-  EXPECT_GT(Weigh(nothing).none, 0.95);
-  Evidence noisy = nothing;
-  noisy.gap_before = noisy.gap_after = 0.3;
-  EXPECT_LT(Weigh(noisy).none, 0.05);
-  EXPECT_GT(Weigh(noisy).unknown, 0.95);
-  Evidence found = nothing;
-  found.gain = 500.0;
-  found.gap_before = 0.5;
-  EXPECT_LT(Weigh(found).none, 0.05);
-  EXPECT_LT(Weigh(found).unknown, 0.05);
-  Evidence poor = found;
-  poor.acoustic_slack = 400.0;
-  EXPECT_GT(Weigh(poor).unknown, 0.95);
-  Evidence far = found;
-  far.gap_after = 0.3;
-  EXPECT_GT(Weigh(far).unknown, 0.95);
-  // Few levels take nothing off the likelihood, yet there they are.
-  Evidence steps = nothing;
-  steps.seen = true;
-  EXPECT_EQ(Weigh(steps).none, 0.0);
-  EXPECT_EQ(Weigh(steps).unknown, 0.0);
-  Evidence misfit = found;
-  misfit.form_is_wrong = true;
-  EXPECT_GT(Weigh(misfit).unknown, 0.85);
-  Evidence line = nothing;
-  line.unexplained_lines = true;
-  EXPECT_GT((1.0 - Weigh(line).none) * Weigh(line).unknown, 0.85);
 }
 
 // The columns of every transfer effect against central differences of the residual at fixed
