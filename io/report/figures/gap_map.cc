@@ -21,7 +21,9 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
     const std::string name = cell.value("experiment", "");
     if (std::ranges::find(experiments, name) == experiments.end()) experiments.push_back(name);
   }
-  CsvWriter csv("curve,band_lo_hz,band_hi_hz,row,excess_before,excess_after,experiment");
+  CsvWriter csv(
+      "curve,band_lo_hz,band_hi_hz,row,excess_before,excess_after,experiment,found_before,found_"
+      "after");
   bool any_after = false;
   for (const auto& cell : cells) {
     const auto& band = cell.at("band_hz");
@@ -36,7 +38,11 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
     top = std::max({top, before, std::isfinite(after) ? after : 0.0});
     csv.Cell(cell.value("signal", "")).Cell(from).Cell(to);
     csv.Cell(static_cast<double>(row - experiments.begin() + 1)).Cell(before).Cell(after);
-    csv.Cell(*row).EndRow();
+    csv.Cell(*row);
+    for (const char* found : {"before_found", "after_found"}) {
+      csv.Cell(cell.value(found, false) ? 1.0 : 0.0);
+    }
+    csv.EndRow();
   }
   if (experiments.empty() || !(high > low)) return std::nullopt;
   std::string names;
@@ -50,7 +56,8 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
       "Excess of the residual over its noise (gap) by signal, band and experiment, before and "
       "after "
       "the best effect: p predicted from measured q (acoustics and both instruments), q from "
-      "measured p (delay, flame and both instruments). 0: nothing is left but noise.";
+      "measured p (delay, flame and both instruments). 0: nothing is left but noise. A dot marks "
+      "what is more than noise, at a false discovery rate of 5 % over the map.";
   figure.csv = csv.Text();
   figure.width = 900;
   figure.height = static_cast<int>(2 * (96 + 24 * experiments.size()) + 20);
@@ -84,6 +91,8 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
       script.Line("set xlabel 'frequency (Hz)' offset 0,0.3");
       script.Plot("data using (pick('" + std::string(signal) + "',2)):4:2:3:($4-0.46):($4+0.46):" +
                   (after ? "6" : "5") + " with boxxyerror linecolor palette");
+      script.Plot("data using (column(" + std::string(after ? "9" : "8") + ")==1 ? sqrt(pick('" +
+                  signal + "',2)*$3) : NaN):4 with points pt 7 ps 0.35 linecolor rgb '#f28e2b'");
       script.EndPlot();
     }
   }
