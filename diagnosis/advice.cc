@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "diagnosis/verdict.h"
+
 namespace howl {
-namespace {
-
-// Of log-likelihood. Noise of p as strong as a hundredth of its amplitude was seen to reach 35.
-constexpr double kNearNoise = 60.0;
-
-}  // namespace
-
 std::string Advice(const Diagnosis& diagnosis, bool seen) {
   if (diagnosis.kind == VerdictKind::kNone) {
     return "nothing to separate; longer records would lower the floor";

@@ -43,6 +43,7 @@ Diagnosis Search::Run() {
   }
   MeasureGaps();
   std::stable_sort(attempts_.begin(), attempts_.end(), Better);
+  gain_of_noise_ = GainOfNoiseForTheBest();
   Slack after;
   Evidence evidence = Look(attempts_.empty() ? nullptr : &attempts_[0], &after);
   Belief belief = Weigh(evidence);

@@ -116,6 +116,20 @@ void Search::Bootstrap() {
   }
 }
 
+double Search::GainOfNoiseForTheBest() const {
+  if (!bootstrap_gains_.empty()) return BootstrapDetectionGain(bootstrap_gains_);
+  if (attempts_.empty() || reference_) return 0.0;
+  const Attempt& best = attempts_[0];
+  const double gain = best.candidate.gain;
+  if (best.seen || !ShowsInFlame(best) || gain < DetectionGain(false) || gain > kNearNoise) {
+    return 0.0;
+  }
+  const auto unit = std::find_if(units_.begin(), units_.end(), [&](const EffectForms& forms) {
+    return forms[0]->id() == best.fit->effect->id();
+  });
+  return GainOfNoise(records_, base_, *at_.experiments, *unit, options_);
+}
+
 Attempt Search::Try(const EffectForms& forms) const {
   const Effect& effect = *forms[0];
   switch (effect.kind()) {

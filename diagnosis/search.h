@@ -27,6 +27,8 @@ class Search {
   void TakeLinesLeftOver();
   void TryAll();
   void Bootstrap();
+  // By the bootstrap if there was one; else, where the best is weak, by a few replicates of it.
+  double GainOfNoiseForTheBest() const;
   Attempt Try(const EffectForms& forms) const;
   bool Stopped() const { return options_.stopped && options_.stopped(); }
 
@@ -52,6 +54,7 @@ class Search {
   GainFluctuation fluctuation_;
   std::vector<Attempt> attempts_;
   std::vector<double> bootstrap_gains_;
+  double gain_of_noise_ = 0.0;
   std::vector<Eigen::VectorXd> flame_noise_;
   GapParts gap_before_;
 };

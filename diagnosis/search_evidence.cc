@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "diagnosis/bootstrap/bootstrap.h"
 #include "diagnosis/no_meaning.h"
 #include "diagnosis/search.h"
 #include "estimation/parallel.h"
@@ -87,7 +86,7 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
         return attempt.seen || (attempt.kind == EffectKind::kDeclaredMap &&
                                 attempt.candidate.gain > DetectionGain(false));
       });
-  if (!bootstrap_gains_.empty()) out.gain_of_noise = BootstrapDetectionGain(bootstrap_gains_);
+  out.gain_of_noise = gain_of_noise_;
   if (!top) return out;
   out.gain = std::max(0.0, top->candidate.gain);
   out.gap_after = top->candidate.gap_after;

@@ -11,7 +11,7 @@ inline constexpr double kFlameAllowance = 80.0;
 
 struct Evidence {
   double gain = 0.0;            // of log-likelihood, by the best candidate, parameters paid for
-  double gain_of_noise = 0.0;   // that the bootstrap reaches in one rig of twenty
+  double gain_of_noise = 0.0;   // that simulated replicates seldom reach (bootstrap.h)
   double acoustic_slack = 0.0;  // left after it (slack.h)
   double flame_slack = 0.0;
   double gap_before = 0.0;
@@ -45,6 +45,10 @@ bool IsNoBetterThanNoMeaning(double shrinkage, double shrinkage_no_meaning);
 
 // The doubt that such a fact leaves: that what is wrong is not in the catalogue.
 inline constexpr double kUnexplainedFact = 0.9;
+
+// Gains in cut B below this may be noise: where p's is as strong as a hundredth of its amplitude,
+// rigs with no effect were seen to reach 35.
+inline constexpr double kNearNoise = 60.0;
 
 // Of two kinds of evidence that do not compete (a line and a transfer function, say), the least
 // that each must bring.

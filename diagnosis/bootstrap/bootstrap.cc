@@ -1,10 +1,12 @@
 #include "diagnosis/bootstrap/bootstrap.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -17,6 +19,9 @@ namespace howl {
 namespace {
 
 constexpr double kLevel = 0.05;
+constexpr std::size_t kFewReplicates = 8;
+// The best of twenty candidates is looked at, and eight replicates give its deviation roughly.
+constexpr double kDeviations = 6.0;
 
 std::vector<DiagnosisExperiment> Replicate(const std::vector<CutRecord>& records,
                                            const EffectFit& base,
@@ -86,6 +91,30 @@ std::vector<double> BootstrapGains(const std::vector<CutRecord>& records, const 
   if (stopped) return {};
   std::sort(gains.begin(), gains.end());
   return gains;
+}
+
+double GainOfNoise(const std::vector<CutRecord>& records, const EffectFit& base,
+                   const std::vector<DiagnosisExperiment>& experiments,
+                   const std::vector<EffectPointer>& forms, const DiagnosisOptions& options) {
+  std::array<double, kFewReplicates> gains{};
+  RunUnits(gains.size(), options.threads, [&](std::size_t i) {
+    const std::vector<DiagnosisExperiment> replicate =
+        Replicate(records, base, experiments, UnitSeed(options.seed, "gain of noise", i));
+    const std::vector<CutRecord> replicate_records = MakeCutRecords(replicate);
+    const EffectFit replicate_base = FitBase(replicate_records);
+    Setting at{&replicate_records, &replicate_base, &replicate, {}, nullptr, nullptr};
+    for (std::size_t e = 0; e < replicate_records.size(); ++e) {
+      at.base_held_out.push_back(replicate_base.experiments[e]);
+    }
+    Attempt attempt = TryTransfer(at, forms);
+    PayForParameters(&attempt);
+    gains[i] = attempt.candidate.gain;
+  });
+  const double count = static_cast<double>(gains.size());
+  const double mean = std::accumulate(gains.begin(), gains.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double gain : gains) squares += (gain - mean) * (gain - mean);
+  return mean + kDeviations * std::sqrt(squares / (count - 1.0));
 }
 
 double BootstrapPValue(const std::vector<double>& gains, double gain) {

@@ -17,6 +17,12 @@ std::vector<double> BootstrapGains(const std::vector<CutRecord>& records, const 
                                    const std::vector<DiagnosisExperiment>& experiments,
                                    const DiagnosisOptions& options);
 
+// What noise alone gives one candidate, all its forms: the mean over a few replicates and six
+// standard deviations of them more. For a candidate whose gain is near what noise was seen to give.
+double GainOfNoise(const std::vector<CutRecord>& records, const EffectFit& base,
+                   const std::vector<DiagnosisExperiment>& experiments,
+                   const std::vector<EffectPointer>& forms, const DiagnosisOptions& options);
+
 // (1 + how many replicates reach the gain) / (1 + replicates)
 double BootstrapPValue(const std::vector<double>& gains, double gain);
 

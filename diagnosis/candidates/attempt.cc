@@ -26,7 +26,11 @@ Attempt Named(const Setting& at, const Effect& effect) {
 }
 
 bool ShowsInFlameAlone(const Attempt& attempt) {
-  return attempt.fit && !attempt.fit->effect->ChangesAcousticCut();
+  return attempt.fit && (attempt.leaks || !attempt.fit->effect->ChangesAcousticCut());
+}
+
+bool ShowsInFlame(const Attempt& attempt) {
+  return attempt.fit && attempt.fit->effect->ChangesFlameCut();
 }
 
 bool ShowsLimits(const Setting& at, bool pressure) {

@@ -25,6 +25,7 @@ struct Attempt {
   std::vector<ExperimentFit> held_out;
   bool without_lines = false;
   std::optional<EffectFit> fit;
+  bool leaks = false;  // p into recorded q: cut B's evidence, though both cuts' likelihood has it
   double parameters = 1.0;
   // Evidence beside the likelihood: what slack is left over may be the effect's own crude form.
   bool confirmed = false;
@@ -58,8 +59,9 @@ Attempt TryDeclaredLine(const Setting& at, const DeclaredEffect& effect,
 // The start of an attempt whose residuals are the base's.
 Attempt Named(const Setting& at, const Effect& effect);
 
-// It shows in cut B only: a transfer function that changes no other.
+// A transfer function whose evidence is cut B's alone; one that changes cut B at all.
 bool ShowsInFlameAlone(const Attempt& attempt);
+bool ShowsInFlame(const Attempt& attempt);
 
 // In the channel's samples an edge of the density, or in p's few levels, that a reference has not.
 bool ShowsLimits(const Setting& at, bool pressure);

@@ -47,6 +47,8 @@ Attempt FromFit(const Setting& at, EffectFit fit) {
     out.candidate.parameters.push_back(
         WithError(fit.effect->parameters()[j], fit.values[j], fit.standard_errors[j + 1]));
   }
+  const EffectContext& context = (*at.records)[0].at;
+  out.leaks = fit.effect->PressureLeak(context.cycle_frequency_hz, context, fit.values) != 0.0;
   out.held_out = HoldOutAll(at, fit);
   out.fit = std::move(fit);
   return out;
