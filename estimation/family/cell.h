@@ -8,6 +8,7 @@
 #define HOWL_ESTIMATION_FAMILY_CELL_H_
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "estimation/family/interval.h"
@@ -33,6 +34,16 @@ struct Cell {
   Interval window_hz;
   std::vector<ExperimentBox> boxes;
   double bound = 0.0;  // of the objective, set by the search
+};
+
+// A cell ends in one of four states, never mixed: outside (no member), inside (members only),
+// undecided (it may hold members, and at the precision asked it cannot move a bound), pending (not
+// looked at within the budget, or before an interruption).
+struct CellCounts {
+  std::size_t inside = 0;
+  std::size_t outside = 0;
+  std::size_t undecided = 0;
+  std::size_t pending = 0;
 };
 
 }  // namespace howl

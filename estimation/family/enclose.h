@@ -4,11 +4,7 @@
 // (estimation/family/cell.h): the cell that reaches farthest is split and contracted
 // (estimation/family/contract.h) until it reaches no farther than a member that was found, to
 // within half the stated width. So no member lies outside `outer`, and members were found at both
-// ends of `inner`.
-//
-// A cell ends in one of four states, never mixed: outside (no member), inside (members only),
-// undecided (it may hold members, and at the precision asked it cannot move a bound), pending (not
-// looked at within the budget, or before an interruption).
+// ends of `inner`. One step of a search: estimation/family/bound_step.h.
 //
 // Every bound is a unit of work of its own, so the result is the same whatever the number of
 // threads, and whether or not the run was interrupted, saved, loaded and resumed.
@@ -19,29 +15,14 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
-#include <string_view>
 #include <vector>
 
+#include "estimation/family/cell.h"
 #include "estimation/family/expression.h"
+#include "estimation/family/family_parameter.h"
 #include "estimation/family/problem.h"
 
 namespace howl {
-
-enum class FamilyParameter { kOmega, kXi, kN, kM, kTau, kLoopGain };
-
-inline constexpr std::array kFamilyParameters = {
-    FamilyParameter::kOmega, FamilyParameter::kXi,  FamilyParameter::kN,
-    FamilyParameter::kM,     FamilyParameter::kTau, FamilyParameter::kLoopGain};
-
-constexpr std::string_view FamilyParameterName(FamilyParameter parameter) {
-  constexpr std::array<std::string_view, kFamilyParameters.size()> kNames = {
-      "omega_hz", "xi", "N", "M", "tau_s", "loop_gain"};
-  return kNames[static_cast<std::size_t>(parameter)];
-}
-
-// Natural units; loop_gain is NaN where the experiment has no flame slope.
-double ParameterValue(const Experiment& experiment, const LoopModel& model,
-                      FamilyParameter parameter);
 
 // An expression to be bounded, for the model of one experiment.
 struct BoundedExpression {
@@ -57,13 +38,6 @@ struct EncloseOptions {
   int threads = 1;
   bool parameters = true;  // false: the expressions alone
   std::vector<BoundedExpression> expressions;
-};
-
-struct CellCounts {
-  std::size_t inside = 0;
-  std::size_t outside = 0;
-  std::size_t undecided = 0;
-  std::size_t pending = 0;
 };
 
 struct EnclosedBound {

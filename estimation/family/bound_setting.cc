@@ -1,0 +1,30 @@
+#include "estimation/family/bound_setting.h"
+
+#include <utility>
+
+#include "estimation/family/transfer_starts.h"
+#include "estimation/family/two_mode_tradeoff.h"
+
+namespace howl {
+
+namespace {
+
+constexpr std::size_t kBaseMembers = 1000;
+
+}  // namespace
+
+BoundSetting::BoundSetting(const FamilyProblem& family, std::uint64_t seed_of_draws)
+    : problem(family),
+      seed(seed_of_draws),
+      contractor(family),
+      local(family),
+      root(contractor.Root()),
+      root_empty(!contractor.Contract(root)) {
+  if (!NeedsTransferStarts(problem)) drawer = std::make_unique<MemberDrawer>(problem);
+  base = EnumerateMembers(problem, kBaseMembers, seed, 1).members;
+  if (HasGreedyTradeoff(problem)) {
+    for (Member& member : ExtremeMembers(problem)) base.push_back(std::move(member));
+  }
+}
+
+}  // namespace howl
