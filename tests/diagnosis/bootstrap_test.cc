@@ -120,6 +120,23 @@ TEST(Bootstrap, IsTheSameForAllNumbersOfThreadsAndAnotherForAnotherSeed) {
   EXPECT_NE(one, Diagnose(rig, options).bootstrap_gains);
 }
 
+TEST(Bootstrap, OneCandidatesGainOfNoiseIsSmallAndTheSameForAllNumbersOfThreads) {
+  const std::vector<DiagnosisExperiment> rig = SimulateRig();
+  const std::vector<CutRecord> records = MakeCutRecords(rig);
+  const EffectFit base = FitBase(records);
+  std::vector<EffectPointer> forms;
+  for (const EffectPointer& effect : Catalogue()) {
+    if (effect->id() == "delay_varies_with_phi") forms.push_back(effect);
+  }
+  DiagnosisOptions options;
+  options.threads = 1;
+  const double one = GainOfNoise(records, base, rig, forms, options);
+  EXPECT_LT(one, 16.0);  // the usual threshold in cut B stands
+  EXPECT_GT(one, -4.0);  // a parameter costs 3.1, and noise never gains less than nothing
+  options.threads = 2;
+  EXPECT_EQ(one, GainOfNoise(records, base, rig, forms, options));
+}
+
 class Kept final : public FitMemory {
  public:
   std::optional<std::string> Recall(const std::string& key) override {
