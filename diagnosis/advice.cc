@@ -6,6 +6,7 @@
 #include "diagnosis/verdict.h"
 
 namespace howl {
+
 std::string Advice(const Diagnosis& diagnosis, bool seen) {
   if (diagnosis.kind == VerdictKind::kNone) {
     return "nothing to separate; longer records would lower the floor";

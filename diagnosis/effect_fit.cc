@@ -108,22 +108,20 @@ EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& 
                     const EffectFit& base) {
   const std::vector<FlameColumns> columns = ColumnsFor(records, *effect);
   Fitter fitter(records, *effect, &columns);
-  EffectFits starts;
-  for (const std::vector<double>& values : StartValues(*effect, {})) {
-    starts.push_back(StartOf(records, effect, base, values, true));
-  }
-  // Found beside the base: nothing else needs to move first.
-  for (const std::vector<double>& values : ScannedStarts(effect, base, &fitter)) {
-    starts.push_back(StartOf(records, effect, base, values, false));
-  }
   EffectFits kept;
-  for (EffectFit& fit : starts) {
-    fitter.SetNoise(base);
-    fitter.Descend(&fit, kFirstRoundIterations);
-    fitter.RefitNoise(&fit);
-    kept.push_back(std::move(fit));
-    KeepBest(kStartsKept, &kept);
-  }
+  const auto follow = [&](const StartList& starts, bool own_locals) {
+    for (const std::vector<double>& values : starts) {
+      EffectFit fit = StartOf(records, effect, base, values, own_locals);
+      fitter.SetNoise(base);
+      fitter.Descend(&fit, kFirstRoundIterations);
+      fitter.RefitNoise(&fit);
+      kept.push_back(std::move(fit));
+      KeepBest(kStartsKept, &kept);
+    }
+  };
+  follow(StartValues(*effect, {}), true);
+  // Found beside the base: nothing else needs to move first.
+  follow(ScannedStarts(effect, base, &fitter), false);
   return SettleBest(std::move(kept), base, &fitter);
 }
 

@@ -119,6 +119,9 @@ std::optional<EffectFit> FromBytes(const std::string& bytes, const std::vector<C
   return fit;
 }
 
+namespace {
+
+// FitEffect, unless the memory has it.
 EffectFit FitOrRecall(FitMemory* memory, const std::string& key,
                       const std::vector<CutRecord>& records, const EffectPointer& effect,
                       const EffectFit& base) {
@@ -129,6 +132,19 @@ EffectFit FitOrRecall(FitMemory* memory, const std::string& key,
   EffectFit fit = FitEffect(records, effect, base);
   memory->Keep(key, ToBytes(fit));
   return fit;
+}
+
+}  // namespace
+
+EffectFit FitBestForm(FitMemory* memory, const std::vector<CutRecord>& records,
+                      const std::vector<EffectPointer>& forms, const EffectFit& base) {
+  std::optional<EffectFit> best;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    const std::string key = std::string(forms[i]->id()) + "#" + std::to_string(i);
+    EffectFit fit = FitOrRecall(memory, key, records, forms[i], base);
+    if (!best || fit.cost() < best->cost()) best = std::move(fit);
+  }
+  return std::move(*best);
 }
 
 }  // namespace howl

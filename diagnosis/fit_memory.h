@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "diagnosis/effect_fit.h"
 
@@ -29,10 +30,10 @@ std::string ToBytes(const EffectFit& fit);
 std::optional<EffectFit> FromBytes(const std::string& bytes, const std::vector<CutRecord>& records,
                                    const EffectPointer& effect);
 
-// FitEffect, unless the memory has it. Without a memory: FitEffect.
-EffectFit FitOrRecall(FitMemory* memory, const std::string& key,
-                      const std::vector<CutRecord>& records, const EffectPointer& effect,
-                      const EffectFit& base);
+// The best of an effect's forms (orders of a filter, say), each by FitEffect unless the memory has
+// it. Without a memory: by FitEffect.
+EffectFit FitBestForm(FitMemory* memory, const std::vector<CutRecord>& records,
+                      const std::vector<EffectPointer>& forms, const EffectFit& base);
 
 }  // namespace howl
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "diagnosis/real_fft.h"
+#include "estimation/unit_seed.h"
 #include "model/loop_effect.h"
 #include "model/random_stream.h"
 
@@ -149,9 +150,25 @@ SimulationCase FittedRig(const CutRecord& record, const EffectFit& base, std::si
   rig.noise.heat_release_sensor_std = std::sqrt(sensors.heat_release);
   const double rms = record.heat_release.norm() / std::sqrt(static_cast<double>(record.samples));
   rig.past = {{kStartOfCycle * std::numbers::sqrt2 * rms, record.at.cycle_frequency_hz, 0.0, 0.0}};
-  const double duration_s = kSettle_s + static_cast<double>(record.samples) / record.sampling_hz;
+  const SimulationOptions how = FittedRigOptions(record);
   rig.effects = {std::make_shared<FittedFlame>(
-      fit, NoiseDensity(record, fit.flame_noise, sensors.heat_release), duration_s)};
+      fit, NoiseDensity(record, fit.flame_noise, sensors.heat_release),
+      how.settle_s + how.duration_s)};
+  return out;
+}
+
+std::vector<DiagnosisExperiment> Replicate(const std::vector<CutRecord>& records,
+                                           const EffectFit& base,
+                                           const std::vector<DiagnosisExperiment>& experiments,
+                                           std::uint64_t seed) {
+  std::vector<DiagnosisExperiment> out;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const SimulatedRecord record = Simulate(
+        FittedRig(records[e], base, e, UnitSeed(seed, "point", e)), FittedRigOptions(records[e]));
+    out.push_back({experiments[e].name,
+                   experiments[e].phi,
+                   {record.sampling_hz, record.pressure, record.heat_release}});
+  }
   return out;
 }
 

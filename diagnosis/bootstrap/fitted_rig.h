@@ -12,6 +12,7 @@
 #define HOWL_DIAGNOSIS_BOOTSTRAP_FITTED_RIG_H_
 
 #include <cstdint>
+#include <vector>
 
 #include "diagnosis/effect_fit.h"
 #include "model/simulate.h"
@@ -20,6 +21,12 @@ namespace howl {
 
 // As long as the record, at its sampling rate.
 SimulationOptions FittedRigOptions(const CutRecord& record);
+
+// Records of all operating points, with the experiments' names and phi.
+std::vector<DiagnosisExperiment> Replicate(const std::vector<CutRecord>& records,
+                                           const EffectFit& base,
+                                           const std::vector<DiagnosisExperiment>& experiments,
+                                           std::uint64_t seed);
 
 SimulationCase FittedRig(const CutRecord& record, const EffectFit& base, std::size_t experiment,
                          std::uint64_t seed);

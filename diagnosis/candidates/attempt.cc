@@ -47,8 +47,10 @@ EstimatedParameter WithoutError(const std::string& name, double value, const std
   return {name, value, unknown, unknown, unit};
 }
 
+double PriceOfParameters(double parameters) { return 0.5 * parameters * std::log(kGainDataSize); }
+
 void PayForParameters(Attempt* attempt) {
-  attempt->candidate.gain -= 0.5 * attempt->parameters * std::log(kGainDataSize);
+  attempt->candidate.gain -= PriceOfParameters(attempt->parameters);
 }
 
 double PValue(double gain, double parameters, std::size_t catalogue) {

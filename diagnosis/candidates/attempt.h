@@ -66,7 +66,10 @@ bool ShowsInFlame(const Attempt& attempt);
 // In the channel's samples an edge of the density, or in p's few levels, that a reference has not.
 bool ShowsLimits(const Setting& at, bool pressure);
 
-// Half the logarithm of the data's size for each parameter, off the gain.
+// Half the logarithm of the data's size for each parameter.
+double PriceOfParameters(double parameters);
+
+// That, off the gain.
 void PayForParameters(Attempt* attempt);
 
 // Of several effects that together were tried: the p-value of the largest.

@@ -55,13 +55,7 @@ Attempt FromFit(const Setting& at, EffectFit fit) {
 }
 
 Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms) {
-  std::optional<EffectFit> best;
-  for (std::size_t i = 0; i < forms.size(); ++i) {
-    const std::string key = std::string(forms[i]->id()) + "#" + std::to_string(i);
-    EffectFit fit = FitOrRecall(at.memory, key, *at.records, forms[i], *at.base);
-    if (!best || fit.cost() < best->cost()) best = std::move(fit);
-  }
-  return FromFit(at, std::move(*best));
+  return FromFit(at, FitBestForm(at.memory, *at.records, forms, *at.base));
 }
 
 }  // namespace howl

@@ -52,11 +52,8 @@ void FindBand(const Setting& at, const EffectFit& fit, BlockSlack* out) {
 
 BlockSlack Paid(const Setting& at, const EffectFit& fit, LoopBlock block, std::string form,
                 double parameters) {
-  Attempt attempt;
-  attempt.candidate.gain = at.base->cost() - fit.cost();
-  attempt.parameters = parameters;
-  PayForParameters(&attempt);
-  BlockSlack out{block, std::move(form), attempt.candidate.gain, false, 0.0, 0.0};
+  const double gain = at.base->cost() - fit.cost() - PriceOfParameters(parameters);
+  BlockSlack out{block, std::move(form), gain, false, 0.0, 0.0};
   FindBand(at, fit, &out);
   return out;
 }
@@ -118,11 +115,8 @@ std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLi
   });
   const AdditiveGain additive = FitFreeAdditive(*at.records, *at.base);
   const auto paid = [&](LoopBlock block, const std::string& form, double gain) {
-    Attempt attempt;
-    attempt.candidate.gain = gain;
-    attempt.parameters = additive.parameters;
-    PayForParameters(&attempt);
-    out.push_back({block, form, attempt.candidate.gain, false, additive.low_hz, additive.high_hz});
+    out.push_back({block, form, gain - PriceOfParameters(additive.parameters), false,
+                   additive.low_hz, additive.high_hz});
   };
   paid(LoopBlock::kSource, "slack_source_additive", additive.source);
   paid(LoopBlock::kPressureInstrument, "slack_p_additive", additive.pressure);

@@ -17,19 +17,6 @@
 namespace howl {
 namespace {
 
-std::vector<DiagnosisExperiment> Again(const std::vector<DiagnosisExperiment>& rig,
-                                       const std::vector<CutRecord>& records,
-                                       const EffectFit& base) {
-  std::vector<DiagnosisExperiment> out;
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    const SimulatedRecord record =
-        Simulate(FittedRig(records[e], base, e, 50 + e), FittedRigOptions(records[e]));
-    out.push_back(
-        {rig[e].name, rig[e].phi, {record.sampling_hz, record.pressure, record.heat_release}});
-  }
-  return out;
-}
-
 double Rms(const Eigen::VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
 
 // The rig that was recorded has parameters, a flame and noise that are known: what is simulated
@@ -38,7 +25,7 @@ TEST(FittedRig, IsTheRigThatWasFitted) {
   const std::vector<DiagnosisExperiment> rig = SimulateRig();
   const std::vector<CutRecord> records = MakeCutRecords(rig);
   const EffectFit base = FitBase(records);
-  const std::vector<CutRecord> again = MakeCutRecords(Again(rig, records, base));
+  const std::vector<CutRecord> again = MakeCutRecords(Replicate(records, base, rig, 50));
   const EffectFit refitted = FitBase(again);
   EXPECT_NEAR(refitted.tau_s, 0.00352, 2e-5);
   for (std::size_t e = 0; e < records.size(); ++e) {

@@ -18,10 +18,9 @@ TEST(MovedParameters, TheFarthestComeFirst) {
 
 // A lag of q by 1 / (2 pi 400 Hz) is taken for delay and damping by a fit that knows of none.
 TEST(MovedParameters, ALagOfQHadMovedTheDelayAndTheAcoustics) {
-  DiagnosisOptions options;
-  options.withheld = AllBut({"q_sensor_lowpass"});
-  const Diagnosis diagnosis = Diagnose(
-      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)}), options);
+  const Diagnosis diagnosis = DiagnoseAmong(
+      {"q_sensor_lowpass"},
+      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)}));
   ASSERT_EQ(diagnosis.effect, "q_sensor_lowpass");
   ASSERT_EQ(diagnosis.base_parameters.size(), 13u);
   const MovedParameter& tau = diagnosis.base_parameters[0];

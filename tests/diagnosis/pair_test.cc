@@ -79,9 +79,8 @@ TEST(Diagnose, HumBesideALowPassAreTwoEffects) {
   std::vector<DiagnosisExperiment> rig =
       SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)});
   AddHum(50.0, 0.05, &rig);
-  DiagnosisOptions options;
-  options.withheld = AllBut({"mains_hum", "external_tone", "q_sensor_lowpass", "channel_skew"});
-  const Diagnosis diagnosis = Diagnose(rig, options);
+  const Diagnosis diagnosis =
+      DiagnoseAmong({"mains_hum", "external_tone", "q_sensor_lowpass", "channel_skew"}, rig);
   ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "mains_hum+q_sensor_lowpass");
   EXPECT_LT(diagnosis.gap_after, 0.3 * diagnosis.gap_before);
@@ -90,9 +89,8 @@ TEST(Diagnose, HumBesideALowPassAreTwoEffects) {
 TEST(Diagnose, HumAloneIsOneEffect) {
   std::vector<DiagnosisExperiment> rig = SimulateRig();
   AddHum(50.0, 0.05, &rig);
-  DiagnosisOptions options;
-  options.withheld = AllBut({"mains_hum", "external_tone", "q_sensor_lowpass", "channel_skew"});
-  const Diagnosis diagnosis = Diagnose(rig, options);
+  const Diagnosis diagnosis =
+      DiagnoseAmong({"mains_hum", "external_tone", "q_sensor_lowpass", "channel_skew"}, rig);
   ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "mains_hum");
 }
@@ -125,9 +123,8 @@ std::vector<DiagnosisExperiment> SlowAndIntermittent() {
 }
 
 TEST(Diagnose, AFluctuatingGainIsSeenBesideALowPass) {
-  DiagnosisOptions options;
-  options.withheld = AllBut({"intermittency", "q_sensor_lowpass", "channel_skew"});
-  const Diagnosis diagnosis = Diagnose(SlowAndIntermittent(), options);
+  const Diagnosis diagnosis =
+      DiagnoseAmong({"intermittency", "q_sensor_lowpass", "channel_skew"}, SlowAndIntermittent());
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass+intermittency");
 }
@@ -135,9 +132,8 @@ TEST(Diagnose, AFluctuatingGainIsSeenBesideALowPass) {
 TEST(Diagnose, ThreeEffectsAreThree) {
   std::vector<DiagnosisExperiment> rig = SlowAndIntermittent();
   AddHum(50.0, 0.05, &rig);
-  DiagnosisOptions options;
-  options.withheld = AllBut({"mains_hum", "intermittency", "q_sensor_lowpass", "channel_skew"});
-  const Diagnosis diagnosis = Diagnose(rig, options);
+  const Diagnosis diagnosis =
+      DiagnoseAmong({"mains_hum", "intermittency", "q_sensor_lowpass", "channel_skew"}, rig);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "mains_hum+q_sensor_lowpass+intermittency");
   const Candidate& three = diagnosis.candidates.at(0);
@@ -151,9 +147,7 @@ TEST(Diagnose, ThreeEffectsAreThree) {
 TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
   std::vector<DiagnosisExperiment> rig = SimulatePoints(3, AddDropouts, 43);
   CutOff(0.85, &Record::heat_release, &rig);
-  DiagnosisOptions options;
-  options.withheld = AllBut({"intermittency", "q_clipping", "channel_skew"});
-  const Diagnosis diagnosis = Diagnose(rig, options);
+  const Diagnosis diagnosis = DiagnoseAmong({"intermittency", "q_clipping", "channel_skew"}, rig);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "q_clipping+intermittency");
 }
@@ -166,9 +160,8 @@ TEST(Diagnose, AnExtraModeIsSeenBesideFewLevels) {
     const double step = (*std::max_element(p.begin(), p.end())) / 50.0;
     for (double& x : p) x = step * std::round(x / step);
   }
-  DiagnosisOptions options;
-  options.withheld = AllBut({"extra_acoustic_mode", "quantisation", "channel_skew"});
-  const Diagnosis diagnosis = Diagnose(rig, options);
+  const Diagnosis diagnosis =
+      DiagnoseAmong({"extra_acoustic_mode", "quantisation", "channel_skew"}, rig);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "quantisation+extra_acoustic_mode");
 }
@@ -212,28 +205,24 @@ TEST(Pair, JoiningKeepsNamesBlocksAndWhatTheLastBrings) {
 }
 
 TEST(Diagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {
-  DiagnosisOptions options;
-  options.withheld = AllBut({"extra_acoustic_mode", "q_sensor_lowpass", "crosstalk_p_to_q"});
-  const Diagnosis diagnosis = Diagnose(
+  const Diagnosis diagnosis = DiagnoseAmong(
+      {"extra_acoustic_mode", "q_sensor_lowpass", "crosstalk_p_to_q"},
       SimulatePoints(
           3,
           [](RigParameters* rig) {
             AddMode(2.2, 0.04, 0.05, rig);
             rig->instruments = {std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)};
           },
-          45),
-      options);
+          45));
   EXPECT_EQ(diagnosis.kind, VerdictKind::kUnknown);
   EXPECT_EQ(diagnosis.together, "q_sensor_lowpass+extra_acoustic_mode");
 }
 
 TEST(Diagnose, AModeOnTopOfAModeIsNoCauseOfItsOwn) {
-  DiagnosisOptions options;
-  options.withheld = AllBut({"extra_acoustic_mode", "channel_skew"});
   const Diagnosis diagnosis =
-      Diagnose(SimulatePoints(
-                   3, [](RigParameters* rig) { AddMode(3.0, 0.05, 0.1, rig); }, 49),
-               options);
+      DiagnoseAmong({"extra_acoustic_mode", "channel_skew"},
+                    SimulatePoints(
+                        3, [](RigParameters* rig) { AddMode(3.0, 0.05, 0.1, rig); }, 49));
   EXPECT_EQ(diagnosis.kind, VerdictKind::kUnknown);
   ASSERT_FALSE(diagnosis.where.empty());
   EXPECT_EQ(diagnosis.where[0].block, LoopBlock::kAcoustics);
@@ -242,9 +231,8 @@ TEST(Diagnose, AModeOnTopOfAModeIsNoCauseOfItsOwn) {
 TEST(Diagnose, AnEdgeInTheSamplesThatNothingExplainsIsUnknown) {
   std::vector<DiagnosisExperiment> rig = SimulateRig();
   CutOff(0.8, &Record::pressure, &rig);
-  DiagnosisOptions options;
-  options.withheld = AllBut({"second_delay_path", "channel_skew", "q_clipping"});
-  const Diagnosis diagnosis = Diagnose(rig, options);
+  const Diagnosis diagnosis =
+      DiagnoseAmong({"second_delay_path", "channel_skew", "q_clipping"}, rig);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kUnknown);
   ASSERT_FALSE(diagnosis.where.empty());
   EXPECT_EQ(diagnosis.where[0].block, LoopBlock::kPressureInstrument);
@@ -252,10 +240,9 @@ TEST(Diagnose, AnEdgeInTheSamplesThatNothingExplainsIsUnknown) {
 
 // It is as free as the low-pass, yet what it learns on two points is of no use on the third.
 TEST(Diagnose, AnEffectOfNoMeaningLeavesTheGap) {
-  DiagnosisOptions options;
-  options.withheld = AllBut({"q_sensor_lowpass", "channel_skew"});
-  const Diagnosis diagnosis = Diagnose(
-      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)}), options);
+  const Diagnosis diagnosis = DiagnoseAmong(
+      {"q_sensor_lowpass", "channel_skew"},
+      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)}));
   EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass");
   EXPECT_GT(diagnosis.candidates[0].shrinkage, 0.8);
   EXPECT_LT(diagnosis.shrinkage_no_meaning, 0.03);

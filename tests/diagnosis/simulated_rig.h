@@ -42,6 +42,14 @@ inline std::vector<std::string> AllBut(const std::vector<std::string>& kept) {
   return withheld;
 }
 
+// With these of the catalogue alone, to be quick.
+inline Diagnosis DiagnoseAmong(const std::vector<std::string>& kept,
+                               const std::vector<DiagnosisExperiment>& rig) {
+  DiagnosisOptions options;
+  options.withheld = AllBut(kept);
+  return Diagnose(rig, options);
+}
+
 // change: of each point's rig, before it is simulated.
 inline std::vector<DiagnosisExperiment> SimulatePoints(
     int points, const std::function<void(RigParameters*)>& change, std::uint64_t seed) {
