@@ -43,7 +43,7 @@ Eigen::VectorXcd Bare(const CutRecord& record, const Eigen::VectorXcd& transfer)
   const Eigen::Index start = record.first - kTapReach;
   const Eigen::Index n = record.extended();
   return ApplyWindow(record.pressure_spectrum.segment(start, n) -
-                         transfer.cwiseProduct(record.heat_release_spectrum.segment(start, n)),
+                         transfer.cwiseProduct(record.driving_heat_release),
                      record.acoustic_count);
 }
 
@@ -95,8 +95,7 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
                                   const AcousticLocals& locals, const Eigen::VectorXcd& residual,
                                   const Eigen::VectorXd& steps) {
   Eigen::MatrixXcd jacobian(record.acoustic_count, 4 + steps.size());
-  const Eigen::Index start = record.first - kTapReach;
-  const auto q = record.heat_release_spectrum.segment(start, record.extended());
+  const Eigen::VectorXcd& q = record.driving_heat_release;
   // What moves about the means hardly changes how the residual moves with the locals.
   const Eigen::VectorXcd r = RecordedTransfer(record, effect, x, locals);
   for (int i = 0; i < 4; ++i) {

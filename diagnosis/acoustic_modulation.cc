@@ -11,9 +11,7 @@ namespace {
 constexpr double kModulationStep = 1e-3;
 constexpr int kPasses = 2;
 
-Eigen::VectorXcd HeatRelease(const CutRecord& record) {
-  return record.heat_release_spectrum.segment(record.first - kTapReach, record.extended());
-}
+Eigen::VectorXcd HeatRelease(const CutRecord& record) { return record.driving_heat_release; }
 
 Eigen::VectorXcd MovedFrequency(const CutRecord& record, const Effect& effect, EffectValues x,
                                 const AcousticLocals& mean, const Eigen::ArrayXd& by) {

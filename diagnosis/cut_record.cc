@@ -114,6 +114,10 @@ void SetBand(double cycle_hz, CutRecord* record) {
   record->sensor_noise = noise.variance;
   record->derivative_filter =
       record->derivative_filter.cwiseProduct(PressureShrinkage(*record, noise.pressure_variance));
+  record->driving_heat_release =
+      record->heat_release_spectrum
+          .cwiseProduct(HeatReleaseShrinkage(*record, noise.heat_release_variance))
+          .segment(start, record->extended());
 }
 
 }  // namespace
@@ -188,6 +192,11 @@ std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& ex
     record.at.heat_release_over_pressure = mean_ratio;
   }
   return records;
+}
+
+void DriveAsRecorded(CutRecord* record) {
+  record->driving_heat_release =
+      record->heat_release_spectrum.segment(record->first - kTapReach, record->extended());
 }
 
 }  // namespace howl

@@ -64,6 +64,8 @@ struct CutRecord {
   Eigen::VectorXcd heat_release_spectrum;
   Eigen::VectorXcd windowed_pressure;  // acoustic_count bins
   Eigen::VectorXcd windowed_heat_release;
+  // Cut A's input: Q times the shrinkage of sensor_noise.h, on the extended band.
+  Eigen::VectorXcd driving_heat_release;
   Eigen::VectorXd frequency_hz;  // of the extended band: acoustic_count + 2 kTapReach bins
   // s times a low-pass, times the shrinkage of sensor_noise.h: over the half spectrum.
   Eigen::VectorXcd derivative_filter;
@@ -94,6 +96,9 @@ Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& s
 // to 8 (cut A) and 6.4 (cut B) times the cycle's frequency, and no further than 0.34 and 0.27 of
 // the sampling rate.
 std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments);
+
+// Cut A's input without the shrinkage.
+void DriveAsRecorded(CutRecord* record);
 
 }  // namespace howl
 

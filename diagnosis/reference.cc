@@ -141,12 +141,20 @@ double MeanSamples(const std::vector<DiagnosisExperiment>& experiments) {
   return sum / static_cast<double>(experiments.size());
 }
 
+// The bias by noise in q is the same in reference and rig, and no evidence.
+std::vector<CutRecord> AsRecorded(const std::vector<DiagnosisExperiment>& experiments) {
+  std::vector<CutRecord> records = MakeCutRecords(experiments);
+  for (CutRecord& record : records) DriveAsRecorded(&record);
+  return records;
+}
+
 }  // namespace
 
 void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* to) {
   for (std::size_t e = 0; e < from.size(); ++e) {
     if (from[e].reference.acoustic.size() == (*to)[e].extended()) {
       (*to)[e].reference = from[e].reference;
+      DriveAsRecorded(&(*to)[e]);
       (*to)[e].flame_share = from[e].flame_share;
     }
   }
@@ -169,7 +177,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
                                const std::vector<DiagnosisExperiment>& rig,
                                std::vector<CutRecord>* records) {
   ReferenceModel out;
-  std::vector<CutRecord> own = MakeCutRecords(reference);
+  std::vector<CutRecord> own = AsRecorded(reference);
   out.lines = FindCoherentLines(own);
   MaskLines(out.lines, &own);
   const EffectFit base = FitBase(own);
@@ -193,7 +201,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
     std::vector<ReferencePoint> described[2];
     for (const int i : {0, 1}) {
       const std::vector<DiagnosisExperiment> half = Half(reference, i == 1);
-      part[i] = MakeCutRecords(half);
+      part[i] = AsRecorded(half);
       MaskLines(FindCoherentLines(part[i]), &part[i]);
       const EffectFit fit = FitBase(part[i]);
       described[i] = DescribeReference(half, part[i], fit);
@@ -251,6 +259,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
   const FewLevels levels = FindQuantisation(own);
   if (levels.found) out.quantisation_levels = levels.levels;
 
+  for (CutRecord& record : *records) DriveAsRecorded(&record);
   MaskLines(out.lines, records);
   const EffectFit plain = FitBase(*records);
   SetSensorNoise(rig, records, plain);

@@ -2,6 +2,8 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include "diagnosis/local_power.h"
 #include "diagnosis/noise_fit.h"
@@ -12,11 +14,51 @@ namespace {
 constexpr Eigen::Index kBlock = 48;
 constexpr Eigen::Index kTerms = 3;
 constexpr Eigen::Index kSmoothing = 30;
+constexpr Eigen::Index kWideReach = 120;
+constexpr std::size_t kFewestBlocks = 3;
+constexpr double kFlat = 1.8;
 constexpr Eigen::Index kLineReach = 3;
 constexpr double kLineRatio = 6.0;
-// Where p is hardly more than its noise, what the median's scatter lets through is noise, and a
-// regressor with noise looks like a low-pass; a regressor that misses a weak part does not.
-constexpr double kLeastRatio = 2.0;
+// Where a signal is hardly more than its noise, what the median's scatter lets through is noise,
+// and a regressor with noise looks like a low-pass; a regressor that misses a weak part does not.
+constexpr double kLeastPressureRatio = 2.0;
+constexpr double kLeastHeatReleaseRatio = 3.0;
+
+Eigen::VectorXd Shrinkage(const Eigen::VectorXcd& spectrum, double noise_variance,
+                          double least_ratio) {
+  const Eigen::Index n = spectrum.size();
+  Eigen::VectorXd power = Eigen::VectorXd::Zero(n);
+  const Eigen::Index count = n - 2 * kTapReach;
+  power.segment(kTapReach, count) = ApplyWindow(spectrum, count).cwiseAbs2();
+  Eigen::VectorXd out(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    // Beside a line, whose own bins are few, the median is what the neighbours have.
+    const Eigen::Index near = std::max<Eigen::Index>(k - kLineReach, 0);
+    const double own = power.segment(near, std::min(k + kLineReach + 1, n) - near).mean();
+    const double typical = LocalPower(power, k, kSmoothing);
+    const double level = own > kLineRatio * typical ? own : typical;
+    out[k] = level > least_ratio * noise_variance ? 1.0 - noise_variance / level : 0.0;
+  }
+  return out;
+}
+
+// White noise is what a spectrum falls to and no further: the quietest quarter of wide blocks, if
+// it is flat; else nothing is known of it, and zero.
+double NoiseFloor(const Eigen::VectorXcd& spectrum) {
+  const Eigen::Index count = spectrum.size() - 2 * kTapReach;
+  const Eigen::VectorXd power = ApplyWindow(spectrum, count).cwiseAbs2();
+  std::vector<double> levels;
+  for (Eigen::Index at = kWideReach; at + kWideReach < count; at += 2 * kWideReach + 1) {
+    levels.push_back(LocalPower(power, at, kWideReach));
+  }
+  const std::size_t quarter = levels.size() / 4;
+  if (quarter < kFewestBlocks) return 0.0;
+  std::sort(levels.begin(), levels.end());
+  if (levels[quarter - 1] > kFlat * levels[0]) return 0.0;
+  return std::accumulate(levels.begin(), levels.begin() + static_cast<std::ptrdiff_t>(quarter),
+                         0.0) /
+         static_cast<double>(quarter);
+}
 
 }  // namespace
 
@@ -58,24 +100,16 @@ SensorNoise EstimateSensorNoise(const CutRecord& record) {
   const double slope = (out.variance[high] - out.variance[low]) /
                        std::max(gain_squared[high] - gain_squared[low], 1e-300);
   out.pressure_variance = std::max(out.variance[low] - slope * gain_squared[low], 0.0);
+  out.heat_release_variance = std::clamp(slope, 0.0, NoiseFloor(record.heat_release_spectrum));
   return out;
 }
 
-Eigen::VectorXd PressureShrinkage(const CutRecord& record, double pressure_variance) {
-  const Eigen::Index n = record.pressure_spectrum.size();
-  Eigen::VectorXd power = Eigen::VectorXd::Zero(n);
-  const Eigen::Index count = n - 2 * kTapReach;
-  power.segment(kTapReach, count) = ApplyWindow(record.pressure_spectrum, count).cwiseAbs2();
-  Eigen::VectorXd out(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    // Beside a line, whose own bins are few, the median is what the neighbours have.
-    const Eigen::Index near = std::max<Eigen::Index>(k - kLineReach, 0);
-    const double own = power.segment(near, std::min(k + kLineReach + 1, n) - near).mean();
-    const double typical = LocalPower(power, k, kSmoothing);
-    const double level = own > kLineRatio * typical ? own : typical;
-    out[k] = level > kLeastRatio * pressure_variance ? 1.0 - pressure_variance / level : 0.0;
-  }
-  return out;
+Eigen::VectorXd PressureShrinkage(const CutRecord& record, double noise_variance) {
+  return Shrinkage(record.pressure_spectrum, noise_variance, kLeastPressureRatio);
+}
+
+Eigen::VectorXd HeatReleaseShrinkage(const CutRecord& record, double noise_variance) {
+  return Shrinkage(record.heat_release_spectrum, noise_variance, kLeastHeatReleaseRatio);
 }
 
 }  // namespace howl

@@ -5,7 +5,8 @@
 // The flame is driven by the derivative of recorded p, whose noise would bias its response towards
 // zero where the signal is weak, and look like a low-pass. So p is first replaced by its
 // expectation given the record: times 1 - sigma_p^2 / S_pp (Wiener). A regression on that is not
-// biased.
+// biased. So is q, which drives the acoustics, where its spectrum shows that it falls to its noise:
+// behind a low-pass.
 #ifndef HOWL_DIAGNOSIS_SENSOR_NOISE_H_
 #define HOWL_DIAGNOSIS_SENSOR_NOISE_H_
 
@@ -16,14 +17,17 @@
 namespace howl {
 
 struct SensorNoise {
-  Eigen::VectorXd variance;        // sigma_p^2 + |R|^2 sigma_q^2 on the band of cut A
-  double pressure_variance = 0.0;  // sigma_p^2, in units of |P|^2 under the window
+  Eigen::VectorXd variance;  // sigma_p^2 + |R|^2 sigma_q^2 on the band of cut A
+  // sigma_p^2 and sigma_q^2, in units of |P|^2 and |Q|^2 under the window.
+  double pressure_variance = 0.0;
+  double heat_release_variance = 0.0;
 };
 
 SensorNoise EstimateSensorNoise(const CutRecord& record);
 
-// 1 - sigma_p^2 / S_pp over the half spectrum, S_pp smoothed over a few bins; between 0 and 1.
-Eigen::VectorXd PressureShrinkage(const CutRecord& record, double pressure_variance);
+// 1 - sigma^2 / S over the half spectrum, S smoothed over a few bins; between 0 and 1.
+Eigen::VectorXd PressureShrinkage(const CutRecord& record, double noise_variance);
+Eigen::VectorXd HeatReleaseShrinkage(const CutRecord& record, double noise_variance);
 
 }  // namespace howl
 

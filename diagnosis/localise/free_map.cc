@@ -40,8 +40,7 @@ Eigen::MatrixXcd MapSpectra(const CutRecord& record, const Eigen::VectorXd& sign
 }
 
 Eigen::VectorXd PredictedPressure(const CutRecord& record, const Eigen::VectorXcd& transfer) {
-  return InTime(record, transfer.cwiseProduct(record.heat_release_spectrum.segment(
-                            record.first - kTapReach, transfer.size())));
+  return InTime(record, transfer.cwiseProduct(record.driving_heat_release));
 }
 
 Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, double largest,

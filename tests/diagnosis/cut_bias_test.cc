@@ -1,9 +1,10 @@
-// What a diagnosis has to find of itself: saturation by its repeated values, and nothing in cut B
-// where the loop's own noise is strong.
+// What a diagnosis has to find of itself: saturation by its repeated values, and nothing where
+// noise alone is strong.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "diagnosis/effect_fit.h"
@@ -40,6 +41,27 @@ TEST(CutB, StrongCombustionNoiseLeavesNothingForAFreeFilter) {
   for (CutRecord& record : records) record.flame_share.setOnes();
   const EffectFit sharp = FitBase(records);
   EXPECT_GT(ComputeSlack(records, sharp).flame_excess, 50.0);
+}
+
+// A second-order low-pass leaves q less than its noise at high frequencies. As a regressor that is
+// noise biases the acoustics, and free slack finds the bias.
+TEST(CutA, NoiseOfLowPassedHeatReleaseLeavesNothingForFreeSlack) {
+  const double cutoff_hz = 240.0;
+  const std::vector<DiagnosisExperiment> rig = SimulateRig(
+      {std::make_shared<SecondOrderResponse>(Channel::kHeatRelease, cutoff_hz, std::sqrt(0.5))});
+  const auto fit = [](const std::vector<CutRecord>& records) {
+    return FitEffect(records, QSensorLowPass()[1], FitBase(records));
+  };
+  std::vector<CutRecord> records = MakeCutRecords(rig);
+  const EffectFit right = fit(records);
+  EXPECT_LT(ComputeSlack(records, right).acoustic_excess, 10.0);
+  EXPECT_NEAR(right.values[0], cutoff_hz, 0.01 * cutoff_hz);
+
+  for (CutRecord& record : records) {
+    record.driving_heat_release =
+        record.heat_release_spectrum.segment(record.first - kTapReach, record.extended());
+  }
+  EXPECT_GT(ComputeSlack(records, fit(records)).acoustic_excess, 100.0);
 }
 
 TEST(Clipping, RepeatedExtremesAreSeenHoweverFewAreCutOff) {
