@@ -61,6 +61,10 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
           "verdict: unknown; no effect of the catalogue explains the gap (probability "
           "%.2f)\n",
           diagnosis.probability_unknown);
+      if (!diagnosis.repaired.empty()) {
+        std::printf("  %s is seen in the samples; unknown is what is left once it is repaired\n",
+                    diagnosis.repaired.c_str());
+      }
       if (!diagnosis.together.empty()) {
         std::printf("  %s together would come nearest: two causes, or one that is not listed\n",
                     diagnosis.together.c_str());

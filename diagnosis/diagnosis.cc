@@ -43,11 +43,31 @@ Diagnosis Search::Run() {
   }
   MeasureGaps();
   std::stable_sort(attempts_.begin(), attempts_.end(), Better);
+  if (!attempts_.empty() && attempts_[0].refilled) records_ = *attempts_[0].refilled;
   gain_of_noise_ = GainOfNoiseForTheBest();
-  Slack after;
-  Evidence evidence = Look(attempts_.empty() ? nullptr : &attempts_[0], &after);
-  Belief belief = Weigh(evidence);
-  if (belief.none < 0.5) {
+  Judgement at = Judge();
+  Diagnosis out = Conclude(at.evidence, at.belief);
+  Describe(at, &out);
+  if (at.together) {
+    MeasureGap(&*at.together);
+    at.together->candidate.probability = 0.0;
+    out.together = at.together->candidate.effect;
+    attempts_.insert(attempts_.begin() + 1, std::move(*at.together));
+  }
+  const bool seen = (repair_ && out.kind == VerdictKind::kNone) ||
+                    (!attempts_.empty() && (attempts_[0].seen || attempts_[0].without_lines));
+  out.candidates = Candidates();
+  out.advice = Advice(out, seen);
+  if (repair_) AddClipping(&out);
+  Calibrate(seen, &out);
+  return out;
+}
+
+Search::Judgement Search::Judge() {
+  Judgement at;
+  at.evidence = Look(attempts_.empty() ? nullptr : &attempts_[0], &at.after);
+  at.belief = Weigh(at.evidence);
+  if (at.belief.none < 0.5) {
     std::vector<Attempt> combined =
         TryDistinctEffects(at_, attempts_, units_, lines_, options_.threads);
     if (!combined.empty()) {
@@ -57,53 +77,62 @@ Diagnosis Search::Run() {
       }
       attempts_.insert(attempts_.begin(), std::make_move_iterator(combined.begin()),
                        std::make_move_iterator(combined.end()));
-      evidence = Look(&attempts_[0], &after);
-      belief = Weigh(evidence);
+      at.evidence = Look(&attempts_[0], &at.after);
+      at.belief = Weigh(at.evidence);
     }
   }
-  std::optional<Attempt> together;
-  if (belief.none < 0.5 && !attempts_.empty() && Detected() &&
-      (belief.unknown > 0.5 || LeavesRoomForASecond(attempts_[0], after))) {
-    together = TryTransferPair(at_, attempts_[0], units_, options_.threads);
-    if (together) belief.unknown = std::max(belief.unknown, kUnexplainedFact);
+  if (at.belief.none < 0.5 && !attempts_.empty() && Detected() &&
+      (at.belief.unknown > 0.5 || LeavesRoomForASecond(attempts_[0], at.after))) {
+    at.together = TryTransferPair(at_, attempts_[0], units_, options_.threads);
+    if (at.together) at.belief.unknown = std::max(at.belief.unknown, kUnexplainedFact);
   }
-  double no_meaning = std::numeric_limits<double>::quiet_NaN();
-  if (belief.none <= 0.5 && !attempts_.empty()) {
-    no_meaning = ShrinkageByNoMeaning(attempts_[0]);
-    if (IsNoBetterThanNoMeaning(attempts_[0].candidate.shrinkage, no_meaning)) {
-      belief.unknown = std::max(belief.unknown, kUnexplainedFact);
+  if (at.belief.none <= 0.5 && !attempts_.empty()) {
+    at.shrinkage_no_meaning = ShrinkageByNoMeaning(attempts_[0]);
+    if (IsNoBetterThanNoMeaning(attempts_[0].candidate.shrinkage, at.shrinkage_no_meaning)) {
+      at.belief.unknown = std::max(at.belief.unknown, kUnexplainedFact);
     }
   }
-  Diagnosis out = Conclude(evidence, belief);
-  out.bootstrap_gains = bootstrap_gains_;
-  out.slack_acoustic_before = slack_before_.acoustic_excess;
-  out.slack_flame_before = slack_before_.flame_excess;
-  out.slack_acoustic_after = after.acoustic_excess;
-  out.slack_flame_after = after.flame_excess;
-  out.map =
-      GapMap(records_, at_.base_held_out, attempts_.empty() ? nullptr : &attempts_[0].held_out,
-             flame_noise_, lines_.empty());
-  if (out.kind != VerdictKind::kNone) {
+  return at;
+}
+
+void Search::Describe(const Judgement& at, Diagnosis* out) {
+  const bool only_clipping = repair_ && out->kind == VerdictKind::kNone;
+  const Slack& before = repair_ ? repair_->recorded_slack : slack_before_;
+  out->bootstrap_gains = bootstrap_gains_;
+  out->slack_acoustic_before = before.acoustic_excess;
+  out->slack_flame_before = before.flame_excess;
+  out->slack_acoustic_after = at.after.acoustic_excess;
+  out->slack_flame_after = at.after.flame_excess;
+  out->shrinkage_no_meaning = at.shrinkage_no_meaning;
+  const bool no_lines = lines_.empty();
+  GapSide left;
+  if (only_clipping || attempts_.empty()) {
+    if (only_clipping) left = {&at_.base_held_out, no_lines};
+  } else {
+    left = {&attempts_[0].held_out, no_lines || attempts_[0].without_lines};
+  }
+  out->map =
+      GapMap(records_, {repair_ ? &repair_->recorded_held_out : &at_.base_held_out, no_lines}, left,
+             flame_noise_);
+  if (out->kind != VerdictKind::kNone) {
     std::vector<BlockSlack> blocks;
-    if (out.kind == VerdictKind::kUnknown) {
+    if (out->kind == VerdictKind::kUnknown) {
       blocks = Localise(at_, lines_, origin_, fluctuation_, options_.threads);
     }
-    out.where = FindPlaces(records_, attempts_, out.kind, slack_before_, blocks);
+    out->where = FindPlaces(records_, attempts_, out->kind, slack_before_, blocks);
   }
-  if (out.kind == VerdictKind::kEffect && attempts_[0].fit && attempts_[0].repaired.empty()) {
-    out.base_parameters = MovedParameters(records_, base_, *attempts_[0].fit);
+  const EffectFit& without = repair_ ? repair_->recorded_base : base_;
+  if (only_clipping) {
+    out->base_parameters = MovedParameters(records_, without, base_);
+  } else if (out->kind == VerdictKind::kEffect && attempts_[0].fit &&
+             attempts_[0].repaired.empty()) {
+    out->base_parameters = MovedParameters(records_, without, *attempts_[0].fit);
   }
-  out.shrinkage_no_meaning = no_meaning;
-  if (together) {
-    MeasureGap(&*together);
-    together->candidate.probability = 0.0;
-    out.together = together->candidate.effect;
-    attempts_.insert(attempts_.begin() + 1, std::move(*together));
-  }
-  const bool seen = !attempts_.empty() && (attempts_[0].seen || attempts_[0].without_lines);
-  for (Attempt& attempt : attempts_) out.candidates.push_back(std::move(attempt.candidate));
-  out.advice = Advice(out, seen);
-  Calibrate(seen, &out);
+}
+
+std::vector<Candidate> Search::Candidates() const {
+  std::vector<Candidate> out;
+  for (const Attempt& attempt : attempts_) out.push_back(attempt.candidate);
   return out;
 }
 

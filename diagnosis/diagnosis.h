@@ -61,6 +61,9 @@ struct Place {
 struct Diagnosis {
   VerdictKind kind = VerdictKind::kNone;
   std::string effect;  // empty unless kEffect; "a+b": two at once
+  // Seen in the samples and taken out of them before the search: p_clipping; else empty. It leads
+  // `effect` and every candidate; an unknown is then what is left once it is repaired.
+  std::string repaired;
   std::vector<std::string> indistinguishable;
   // Unknown: two effects of the catalogue that together would leave little; empty if none do.
   std::string together;

@@ -74,10 +74,8 @@ double DiscoveryThreshold(std::vector<double> p_values) {
 
 }  // namespace
 
-std::vector<GapCell> GapMap(const std::vector<CutRecord>& records,
-                            const std::vector<ExperimentFit>& before,
-                            const std::vector<ExperimentFit>* after,
-                            const std::vector<Eigen::VectorXd>& flame_noise, bool without_masked) {
+std::vector<GapCell> GapMap(const std::vector<CutRecord>& records, const GapSide& before,
+                            const GapSide& after, const std::vector<Eigen::VectorXd>& flame_noise) {
   std::vector<GapCell> cells;
   std::vector<double> before_p;
   std::vector<double> after_p;
@@ -89,13 +87,13 @@ std::vector<GapCell> GapMap(const std::vector<CutRecord>& records,
         return flame ? fit.flame_residual : fit.acoustic_residual;
       };
       for (const Band& band : Bands(record, flame ? record.flame_count : record.acoustic_count)) {
-        const auto excess = [&](const std::vector<ExperimentFit>& fits) {
-          return MeanExcess(record, band.bins, residual(fits[e]), variance,
-                            flame ? record.flame_share : Eigen::VectorXd(), without_masked);
+        const auto excess = [&](const GapSide& side) {
+          if (!side.residuals) return std::numeric_limits<double>::quiet_NaN();
+          return MeanExcess(record, band.bins, residual((*side.residuals)[e]), variance,
+                            flame ? record.flame_share : Eigen::VectorXd(), side.without_masked);
         };
-        const double nothing = std::numeric_limits<double>::quiet_NaN();
         const double was = excess(before);
-        const double is = after != nullptr ? excess(*after) : nothing;
+        const double is = excess(after);
         const double bins = IndependentBins(record, band.bins, flame);
         cells.push_back(
             {flame ? "q" : "p", record.name, band.low_hz, band.high_hz, Root(was), Root(is)});

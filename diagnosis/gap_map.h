@@ -27,11 +27,13 @@ struct GapCell {
   bool after_found = false;
 };
 
-// `after` is null where no effect is left to show. `without_masked`: lines are not counted.
-std::vector<GapCell> GapMap(const std::vector<CutRecord>& records,
-                            const std::vector<ExperimentFit>& before,
-                            const std::vector<ExperimentFit>* after,
-                            const std::vector<Eigen::VectorXd>& flame_noise, bool without_masked);
+struct GapSide {
+  const std::vector<ExperimentFit>* residuals = nullptr;  // null where nothing was tried
+  bool without_masked = false;                            // lines are accounted for
+};
+
+std::vector<GapCell> GapMap(const std::vector<CutRecord>& records, const GapSide& before,
+                            const GapSide& after, const std::vector<Eigen::VectorXd>& flame_noise);
 
 }  // namespace howl
 

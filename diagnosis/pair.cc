@@ -12,9 +12,10 @@
 namespace howl {
 namespace {
 
-// Two transfer functions compete: the second mends what is inexact in the first, as a low-pass that
-// a rig's recorder has in discrete time.
-constexpr double kCompetingShare = 0.03;
+// Two transfer functions compete: the second mends what is inexact in the first. What moves with
+// the amplitude is known to some orders only.
+constexpr double kCompetingShare = 0.01;
+constexpr double kCompetingShareOfMoving = 0.03;
 constexpr std::size_t kFollowed = 3;  // of the seconds, to the end
 // A fluctuating gain spreads the cycle's line: effects that smooth the flame's answer fit that.
 constexpr double kBesideFluctuationShare = 0.45;
@@ -99,7 +100,10 @@ std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Att
 }
 
 double LeastCompeting(const Attempt& first) {
-  return std::max(LeastSecond(first), kCompetingShare * first.candidate.gain);
+  const bool moving =
+      first.fit && (first.fit->effect->ModulatesAcoustics() || first.fit->effect->ModulatesDelay());
+  const double share = moving ? kCompetingShareOfMoving : kCompetingShare;
+  return std::max(LeastSecond(first), share * first.candidate.gain);
 }
 
 std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,

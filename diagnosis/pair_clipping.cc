@@ -9,12 +9,11 @@
 namespace howl {
 namespace {
 
-// Clipped samples are put back roughly, those of q more so: p tells of them through cut A alone.
+// Clipped samples of q are put back roughly: p tells of them through cut A alone.
 constexpr double kAfterRepairGain = 60.0;
-constexpr double kAfterPressureRepairShare = 0.016;
-constexpr double kAfterHeatReleaseRepairShare = 0.4;
+constexpr double kAfterRepairShare = 0.4;
 
-// Once the first effect, clipping, was taken out of the samples.
+// Once q's clipping was taken out of the samples.
 std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
                                  const std::vector<EffectForms>& units,
                                  const std::vector<CoherentLine>& lines, int threads) {
@@ -26,23 +25,15 @@ std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
   for (std::size_t e = 0; e < records.size(); ++e) {
     at.base_held_out.push_back(HeldOut(records, base, e));
   }
-  const bool pressure = first.candidate.block == LoopBlock::kPressureInstrument;
-  if (pressure) {
-    std::vector<Attempt> gains = FluctuationsBeside(at, base, units);
-    if (!gains.empty() && gains[0].candidate.gain > LeastSecond(first)) {
-      return JoinAll(first, std::move(gains));
-    }
-  }
   std::vector<std::optional<Attempt>> tried(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const Effect& effect = *units[i][0];
     if (effect.kind() != EffectKind::kTransfer) return;
-    if (pressure || effect.ChangesAcousticCut()) tried[i] = TryTransfer(at, units[i]);
+    if (effect.ChangesAcousticCut()) tried[i] = TryTransfer(at, units[i]);
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
-  const double share = pressure ? kAfterPressureRepairShare : kAfterHeatReleaseRepairShare;
   // Slack that is left in cut A tells how rough the repair is.
-  const double least = std::max({kAfterRepairGain, share * first.candidate.gain,
+  const double least = std::max({kAfterRepairGain, kAfterRepairShare * first.candidate.gain,
                                  ComputeSlack(records, base).acoustic_excess});
   if (best.empty() || best[0].candidate.gain < least) return {};
   // A mode on top of a mode mends the repair.
@@ -71,12 +62,8 @@ std::vector<Attempt> BesideClippedHeatRelease(const Attempt& first,
 std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
                                     const std::vector<EffectForms>& units,
                                     const std::vector<CoherentLine>& lines, int threads) {
-  const Attempt& clipped = attempts[0];
-  if (clipped.candidate.block == LoopBlock::kHeatReleaseInstrument) {
-    std::vector<Attempt> pairs = BesideClippedHeatRelease(clipped, attempts);
-    if (!pairs.empty()) return pairs;
-  }
-  return AfterRepair(at, clipped, units, lines, threads);
+  std::vector<Attempt> pairs = BesideClippedHeatRelease(attempts[0], attempts);
+  return pairs.empty() ? AfterRepair(at, attempts[0], units, lines, threads) : pairs;
 }
 
 }  // namespace howl

@@ -22,22 +22,27 @@ double LeastSecond(const Attempt& first) {
   return std::max(kSecondGain, kSecondShare * first.candidate.gain);
 }
 
-Attempt Join(const Attempt& first, Attempt second) {
+Candidate JoinCandidates(const Candidate& first, Candidate second) {
   std::vector<EstimatedParameter> parameters;
-  for (const Candidate* one : {&first.candidate, &std::as_const(second.candidate)}) {
+  for (const Candidate* one : {&first, &std::as_const(second)}) {
     const bool named = one->effect.find('+') != std::string::npos;  // with their effects already
     for (EstimatedParameter parameter : one->parameters) {
       if (!named) parameter.name = one->effect + "." + parameter.name;
       parameters.push_back(std::move(parameter));
     }
   }
+  second.parameters = std::move(parameters);
+  second.effect = CombinedId(first.effect, second.effect);
+  second.block = first.block;
+  second.gain += first.gain;
+  return second;
+}
+
+Attempt Join(const Attempt& first, Attempt second) {
   Attempt out = std::move(second);
   if (out.also.empty()) out.second_gain = out.candidate.gain;
   out.also.insert(out.also.begin(), out.candidate.block);
-  out.candidate.parameters = std::move(parameters);
-  out.candidate.effect = CombinedId(first.candidate.effect, out.candidate.effect);
-  out.candidate.block = first.candidate.block;
-  out.candidate.gain += first.candidate.gain;
+  out.candidate = JoinCandidates(first.candidate, std::move(out.candidate));
   out.parameters += first.parameters;
   out.seen = out.seen || first.seen;
   out.confirmed = out.confirmed || first.confirmed;

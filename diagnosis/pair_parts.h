@@ -29,7 +29,8 @@ const Attempt* BestOf(const std::vector<Attempt>& attempts, Predicate&& is) {
   return found == attempts.end() ? nullptr : &*found;
 }
 
-// `second` as it is, with the first's name and parameters before its own.
+// `second` as it is, with the first's name, block and parameters before its own.
+Candidate JoinCandidates(const Candidate& first, Candidate second);
 Attempt Join(const Attempt& first, Attempt second);
 
 std::vector<Attempt> JoinAll(const Attempt& first, std::vector<Attempt> seconds);
@@ -52,7 +53,7 @@ std::vector<Attempt> NearBestPaid(std::vector<std::optional<Attempt>> tried);
 std::vector<Attempt> FluctuationsBeside(const Setting& at, const EffectFit& fit,
                                         const std::vector<EffectForms>& units);
 
-// Seconds beside a clipped signal, the best of `attempts` (pair_clipping.cc).
+// Seconds beside clipped q, the best of `attempts` (pair_clipping.cc).
 std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
                                     const std::vector<EffectForms>& units,
                                     const std::vector<CoherentLine>& lines, int threads);

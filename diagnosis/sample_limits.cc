@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 namespace howl {
 namespace {
 
+constexpr double kTop = 0.9995;
 constexpr double kEdgeWidth = 0.02;
 constexpr double kEdgeRatio = 5.0;
 constexpr double kEdgeShare = 0.03;
@@ -23,7 +25,7 @@ std::vector<double> Levels(const Eigen::VectorXd& x) {
 
 // Many samples just below the extreme, few a little further down.
 bool EdgeAt(const Eigen::VectorXd& x, double range) {
-  const double top = SampleQuantile(x, 0.9995);
+  const double top = SampleQuantile(x, kTop);
   const double width = kEdgeWidth * 0.5 * range;
   const double near = static_cast<double>((x.array() > top - width).count());
   const double below = static_cast<double>(
@@ -52,12 +54,26 @@ bool RepeatedExtreme(const Eigen::VectorXd& x, double range) {
          static_cast<double>(at_top) > kRepeatedRatio * static_cast<double>(most);
 }
 
-bool SharpEdge(const Eigen::VectorXd& x) {
-  const double range = SampleQuantile(x, 0.9995) - SampleQuantile(x, 0.0005);
-  if (RepeatedExtreme(x, range) || RepeatedExtreme(-x, range)) return true;
+// Of the signal's upper end; above all of it where there is no plateau.
+double PlateauFloor(const Eigen::VectorXd& x, double range, bool edges) {
+  if (RepeatedExtreme(x, range)) return x.maxCoeff() - kSameValue * range;
+  if (edges) return SampleQuantile(x, kTop) - kEdgeWidth * 0.5 * range;
+  return std::numeric_limits<double>::infinity();
+}
+
+double Range(const Eigen::VectorXd& x) {
+  return SampleQuantile(x, kTop) - SampleQuantile(x, 1.0 - kTop);
+}
+
+bool HasEdges(const Eigen::VectorXd& x, double range) {
   // Between coarse levels any density has edges.
   if (Levels(x).size() <= kMostLevels) return false;
   return EdgeAt(x, range) && EdgeAt(-x, range);
+}
+
+bool SharpEdge(const Eigen::VectorXd& x) {
+  const double range = Range(x);
+  return RepeatedExtreme(x, range) || RepeatedExtreme(-x, range) || HasEdges(x, range);
 }
 
 }  // namespace
@@ -67,6 +83,13 @@ double SampleQuantile(const Eigen::VectorXd& x, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
+}
+
+Plateaus FindPlateaus(const Eigen::VectorXd& x) {
+  const double range = Range(x);
+  const bool edges = HasEdges(x, range);
+  return {(x.array() > PlateauFloor(x, range, edges)).cast<double>(),
+          (-x.array() > PlateauFloor(-x, range, edges)).cast<double>()};
 }
 
 bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure) {

@@ -10,6 +10,14 @@
 
 namespace howl {
 
+// One where saturation holds the signal at that end of its range, zero elsewhere.
+struct Plateaus {
+  Eigen::ArrayXd upper;
+  Eigen::ArrayXd lower;
+};
+
+Plateaus FindPlateaus(const Eigen::VectorXd& x);
+
 // In most records: the density of the signal's values ends in an edge.
 bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure);
 

@@ -57,10 +57,16 @@ Search::Search(const std::vector<DiagnosisExperiment>& experiments, const Diagno
   base_ = FitBase(records_);
   if (!reference_) TakeLinesLeftOver();
   at_ = {&records_, &base_, &experiments, {}, options.memory, reference_ ? &*reference_ : nullptr};
+  HoldOutBase();
+  RepairPressure();
+  slack_before_ = ComputeSlack(records_, base_);
+}
+
+void Search::HoldOutBase() {
+  at_.base_held_out.clear();
   for (std::size_t e = 0; e < records_.size(); ++e) {
     at_.base_held_out.push_back(HeldOut(records_, base_, e));
   }
-  slack_before_ = ComputeSlack(records_, base_);
 }
 
 void Search::TakeLinesLeftOver() {
@@ -98,6 +104,7 @@ void Search::TryAll() {
     attempt.candidate.p_value = PValue(attempt.candidate.gain, attempt.parameters, units_.size());
     PayForParameters(&attempt);
   }
+  RefillBest();
 }
 
 std::optional<double> Search::LargestGain() {

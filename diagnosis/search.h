@@ -1,9 +1,11 @@
 // One diagnosis, from records to verdict: fit the base, try every effect, measure the gaps, weigh,
-// conclude. Inner workings of diagnosis.h: search.cc fits, search_evidence.cc measures,
-// diagnosis.cc concludes.
+// conclude. Inner workings of diagnosis.h: search.cc fits, search_repair.cc takes saturation out of
+// p first, search_evidence.cc measures, diagnosis.cc concludes.
 #ifndef HOWL_DIAGNOSIS_SEARCH_H_
 #define HOWL_DIAGNOSIS_SEARCH_H_
 
+#include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,6 +18,17 @@
 
 namespace howl {
 
+// p's saturation is seen without a model, and taken out of the samples before anything else is
+// searched for: what the records then still have beside the base is another effect's.
+struct PressureRepair {
+  Candidate clipping;
+  std::vector<CutRecord> recorded;
+  EffectFit recorded_base;
+  Slack recorded_slack;
+  std::vector<ExperimentFit> recorded_held_out;
+  std::vector<DiagnosisExperiment> experiments;  // repaired
+};
+
 class Search {
  public:
   Search(const std::vector<DiagnosisExperiment>& experiments, const DiagnosisOptions& options);
@@ -25,6 +38,16 @@ class Search {
 
  private:
   void TakeLinesLeftOver();
+  void HoldOutBase();
+  void RepairPressure();
+  // With p's plateaus filled in under the fit itself, instead of the base.
+  struct RefilledFit {
+    EffectFit fit;
+    std::shared_ptr<const std::vector<CutRecord>> records;
+  };
+  RefilledFit Refill(const EffectFit& under_base) const;
+  Attempt Refilled(const Attempt& attempt) const;
+  void RefillBest();
   void TryAll();
   void Bootstrap();
   // By the bootstrap if there was one; else, where the best is weak, by a few replicates of it.
@@ -39,8 +62,22 @@ class Search {
   // With the best attempt, if there is any; `after`: the slack that it leaves.
   Evidence Look(const Attempt* top, Slack* after) const;
 
+  // What the evidence comes to, once combinations were tried.
+  struct Judgement {
+    Evidence evidence;
+    Belief belief;
+    Slack after;
+    std::optional<Attempt> together;
+    double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
+  };
+  Judgement Judge();
   bool Detected() const;
   Diagnosis Conclude(const Evidence& evidence, const Belief& belief);
+  // Where, how much, and what the base had absorbed.
+  void Describe(const Judgement& at, Diagnosis* out);
+  std::vector<Candidate> Candidates() const;
+  // The clipping that was repaired, before whatever was found beside it.
+  void AddClipping(Diagnosis* diagnosis);
 
   const DiagnosisOptions& options_;
   std::vector<EffectForms> units_;
@@ -48,6 +85,7 @@ class Search {
   std::vector<CoherentLine> lines_;
   std::optional<ReferenceModel> reference_;
   EffectFit base_;
+  std::optional<PressureRepair> repair_;
   Setting at_;
   Slack slack_before_;
   LineOrigin origin_;

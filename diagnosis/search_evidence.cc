@@ -9,7 +9,7 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kNoMeaningDraws = 5;
+constexpr std::size_t kNoMeaningDraws = 11;
 constexpr std::uint64_t kNoMeaningSeed = 20;
 
 }  // namespace

@@ -33,13 +33,17 @@ bool ShowsInFlame(const Attempt& attempt) {
   return attempt.fit && attempt.fit->effect->ChangesFlameCut();
 }
 
+const std::vector<CutRecord>& AsRecorded(const Setting& at) {
+  return at.recorded ? *at.recorded : *at.records;
+}
+
 bool ShowsLimits(const Setting& at, bool pressure) {
   const ReferenceModel* known = at.reference;
   const bool known_edge =
       known && (pressure ? known->pressure_sharp_edge : known->heat_release_sharp_edge);
   const bool known_levels = known && known->quantisation_levels > 0.0;
   return (!known_edge && HasSharpEdge(*at.records, pressure)) ||
-         (pressure && !known_levels && FindQuantisation(*at.records).found);
+         (pressure && !known_levels && FindQuantisation(AsRecorded(at)).found);
 }
 
 EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit) {

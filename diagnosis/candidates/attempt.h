@@ -3,6 +3,8 @@
 #ifndef HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_
 #define HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +34,9 @@ struct Attempt {
   bool seen = false;  // in the samples themselves, without a model
   // Where the effect was taken out of the samples: the records without it.
   std::vector<DiagnosisExperiment> repaired;
+  // Where p's plateaus were filled in under this fit (search_repair.cc): the records it is a fit
+  // to.
+  std::shared_ptr<const std::vector<CutRecord>> refilled;
 };
 
 // What all attempts share: the records, and the fit of the loop with no effect.
@@ -42,6 +47,9 @@ struct Setting {
   std::vector<ExperimentFit> base_held_out;
   FitMemory* memory = nullptr;
   const ReferenceModel* reference = nullptr;  // what stands in the model's place, if anything does
+  const std::vector<CutRecord>* recorded = nullptr;  // before a repair; null: records
+  // After one: a fit to what the base filled in, made a fit to what it fills in itself.
+  std::function<EffectFit(const EffectFit&)> refit = {};
 };
 
 // An effect with several forms (orders of a filter, say): the best of them.
@@ -62,6 +70,9 @@ Attempt Named(const Setting& at, const Effect& effect);
 // A transfer function whose evidence is cut B's alone; one that changes cut B at all.
 bool ShowsInFlameAlone(const Attempt& attempt);
 bool ShowsInFlame(const Attempt& attempt);
+
+// Levels are those of the samples as they were recorded.
+const std::vector<CutRecord>& AsRecorded(const Setting& at);
 
 // In the channel's samples an edge of the density, or in p's few levels, that a reference has not.
 bool ShowsLimits(const Setting& at, bool pressure);

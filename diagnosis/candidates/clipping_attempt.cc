@@ -32,18 +32,7 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
       const Eigen::VectorXd& signal = clipping.repaired[e];
       Record& record = out.repaired[e].record;
       record.pressure.resize(static_cast<std::size_t>(signal.size()));
-      record.heat_release.resize(static_cast<std::size_t>(signal.size()));
-      std::vector<double>& channel = pressure ? record.pressure : record.heat_release;
-      channel.assign(signal.data(), signal.data() + signal.size());
-    }
-  }
-  if (pressure && clipping.sharp_edge) {
-    // The flame too is driven by the repaired signal.
-    std::vector<CutRecord> records = MakeCutRecords(out.repaired);
-    KeepReference(*at.records, &records);
-    const EffectFit fit = FitBase(records);
-    for (std::size_t e = 0; e < out.held_out.size(); ++e) {
-      out.held_out[e] = HeldOut(records, fit, e);
+      record.heat_release.assign(signal.data(), signal.data() + signal.size());
     }
   }
   out.parameters = kClippingShapes * static_cast<double>(out.held_out.size());

@@ -59,9 +59,14 @@ BlockSlack Paid(const Setting& at, const EffectFit& fit, LoopBlock block, std::s
 }
 
 BlockSlack TryForm(const Setting& at, const EffectPointer& form) {
+  const auto paid = [&](const EffectFit& fit) {
+    return Paid(at, fit, form->block(), std::string(form->id()),
+                static_cast<double>(fit.values.size()));
+  };
   const EffectFit fit = FitEffect(*at.records, form, *at.base);
-  return Paid(at, fit, form->block(), std::string(form->id()),
-              static_cast<double>(fit.values.size()));
+  const BlockSlack out = paid(fit);
+  const bool refit = at.refit && form->ChangesAcousticCut() && out.gain > 0.0;
+  return refit ? paid(at.refit(fit)) : out;
 }
 
 BlockSlack TryMap(const Setting& at, bool pressure) {

@@ -50,7 +50,7 @@ Residuals NoiseAlone(std::uint64_t seed) {
 }
 
 std::vector<GapCell> Map(const Residuals& at) {
-  return GapMap(at.records, at.fits, nullptr, at.flame_noise, false);
+  return GapMap(at.records, {&at.fits, false}, {}, at.flame_noise);
 }
 
 // With nothing to find, the rate is that of maps with any cell found.

@@ -25,8 +25,6 @@ EffectPointer Find(std::string_view id) {
   return nullptr;
 }
 
-// Fewer candidates, to be quick.
-
 void AddHum(double frequency_hz, double amplitude, std::vector<DiagnosisExperiment>* rig) {
   for (DiagnosisExperiment& experiment : *rig) {
     for (std::size_t i = 0; i < experiment.record.pressure.size(); ++i) {
@@ -93,19 +91,6 @@ TEST(Diagnose, HumAloneIsOneEffect) {
       DiagnoseAmong({"mains_hum", "external_tone", "q_sensor_lowpass", "channel_skew"}, rig);
   ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "mains_hum");
-}
-
-void CutOff(double quantile, std::vector<double> Record::*channel,
-            std::vector<DiagnosisExperiment>* rig) {
-  for (DiagnosisExperiment& experiment : *rig) {
-    std::vector<double>& signal = experiment.record.*channel;
-    std::vector<double> sorted = signal;
-    std::sort(sorted.begin(), sorted.end());
-    const auto last = static_cast<double>(sorted.size() - 1);
-    const double high = sorted[static_cast<std::size_t>(quantile * last)];
-    const double low = sorted[static_cast<std::size_t>((1.0 - quantile) * last)];
-    for (double& x : signal) x = std::clamp(x, low, high);
-  }
 }
 
 void AddDropouts(RigParameters* rig) {

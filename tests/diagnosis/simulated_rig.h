@@ -75,6 +75,20 @@ inline std::vector<DiagnosisExperiment> SimulatePoints(
   return experiments;
 }
 
+// At the quantile and the one as far from the other end.
+inline void CutOff(double quantile, std::vector<double> Record::*channel,
+                   std::vector<DiagnosisExperiment>* rig) {
+  for (DiagnosisExperiment& experiment : *rig) {
+    std::vector<double>& signal = experiment.record.*channel;
+    std::vector<double> sorted = signal;
+    std::sort(sorted.begin(), sorted.end());
+    const auto last = static_cast<double>(sorted.size() - 1);
+    const double high = sorted[static_cast<std::size_t>(quantile * last)];
+    const double low = sorted[static_cast<std::size_t>((1.0 - quantile) * last)];
+    for (double& x : signal) x = std::clamp(x, low, high);
+  }
+}
+
 inline std::vector<DiagnosisExperiment> SimulateRig(
     std::vector<std::shared_ptr<const Instrument>> instruments = {}, std::uint64_t seed = 7) {
   return SimulatePoints(

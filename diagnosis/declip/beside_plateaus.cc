@@ -1,0 +1,188 @@
+#include "diagnosis/declip/beside_plateaus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "diagnosis/acoustic_modulation.h"
+#include "diagnosis/band_signal.h"
+#include "diagnosis/fitter.h"
+#include "diagnosis/scaled_solve.h"
+
+namespace howl {
+namespace {
+
+constexpr int kMostSteps = 40;
+constexpr double kLeastProgress = 1e-3;  // of the cost
+constexpr double kFirstDamping = 1e-3;
+constexpr double kMostDamping = 1e6;
+constexpr double kDifferenceStep = 1e-5;
+constexpr double kLargestLogStep = 0.6;
+constexpr double kLargestLinearStep = 0.15;  // of the bounds' distance
+constexpr Eigen::Index kLocals = 4;
+
+double Span(const EffectParameter& p) { return p.high - p.low; }
+
+// Each experiment counts by its own error.
+double Cost(const std::vector<BesidePlateaus>& experiments, const std::vector<double>& squares) {
+  double cost = 0.0;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    cost += 0.5 * experiments[e].weight().sum() *
+            std::log(std::max(squares[e], std::numeric_limits<double>::min()));
+  }
+  return cost;
+}
+
+struct Normal {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd right;
+};
+
+// Columns: the experiment's locals, then the effect's parameters in the search's coordinates.
+Normal Linearise(const BesidePlateaus& at, const Effect& effect, const std::vector<double>& values,
+                 const AcousticLocals& locals, const Eigen::ArrayXd& error) {
+  const Eigen::ArrayXd root = at.weight().sqrt();
+  const auto d = static_cast<Eigen::Index>(values.size());
+  Eigen::MatrixXd columns(error.size(), kLocals + d);
+  for (Eigen::Index i = 0; i < kLocals; ++i) {
+    const double step = kDifferenceStep * (i < 2 ? 1.0 : std::max(std::abs(locals[2]), 1e-12));
+    AcousticLocals moved = locals;
+    moved[i] += step;
+    columns.col(i) = (at.Error(effect, values, moved) - error) / step * root;
+  }
+  std::vector<double> moved = values;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    const EffectParameter& p = effect.parameters()[j];
+    const double step =
+        kDifferenceStep * (p.scale == ParameterScale::kLogarithmic ? values[j] : 0.1 * Span(p));
+    moved[j] = values[j] + step;
+    columns.col(kLocals + static_cast<Eigen::Index>(j)) =
+        (at.Error(effect, moved, locals) - error) / step * ScaleOf(p, values[j]) * root;
+    moved[j] = values[j];
+  }
+  const double scale = at.weight().sum() / at.WeightedSquares(error);
+  return {scale * columns.transpose() * columns,
+          scale * columns.transpose() * (error * root).matrix()};
+}
+
+double Moved(const EffectParameter& p, double x, double by) {
+  if (p.scale == ParameterScale::kLogarithmic) {
+    x *= std::exp(std::clamp(by, -kLargestLogStep, kLargestLogStep));
+  } else {
+    const double most = kLargestLinearStep * Span(p);
+    x += std::clamp(by, -most, most);
+  }
+  return std::clamp(x, p.low, p.high);
+}
+
+PlateauFit Stepped(const PlateauFit& at, const Effect& effect, const Eigen::VectorXd& step) {
+  PlateauFit out = at;
+  Eigen::Index first = 0;
+  for (AcousticLocals& locals : out.locals) {
+    AcousticLocals by = step.segment<kLocals>(first);
+    by[0] = std::clamp(by[0], -0.1, 0.1);
+    by[1] = std::clamp(by[1], -0.5, 0.5);
+    locals += by;
+    first += kLocals;
+  }
+  for (std::size_t j = 0; j < out.values.size(); ++j) {
+    out.values[j] =
+        Moved(effect.parameters()[j], at.values[j], step[first + static_cast<Eigen::Index>(j)]);
+  }
+  return out;
+}
+
+}  // namespace
+
+BesidePlateaus::BesidePlateaus(const CutRecord& recorded, const CutRecord& filled)
+    : recorded_(recorded), filled_(filled), plateaus_(FindPlateaus(recorded.pressure)) {
+  const auto n = static_cast<double>(recorded.samples);
+  weight_ = (Eigen::ArrayXd::LinSpaced(recorded.samples, 0.5, n - 0.5) * (std::numbers::pi / n))
+                .sin()
+                .square() *
+            (1.0 - plateaus_.upper - plateaus_.lower);
+}
+
+bool BesidePlateaus::HasPlateaus() const {
+  return plateaus_.upper.sum() + plateaus_.lower.sum() > 0.0;
+}
+
+Eigen::ArrayXd BesidePlateaus::Error(const Effect& effect, EffectValues x,
+                                     const AcousticLocals& locals) const {
+  const Eigen::Index start = filled_.first - kTapReach;
+  Eigen::VectorXcd p =
+      RecordedTransfer(filled_, effect, x, locals).cwiseProduct(filled_.driving_heat_release);
+  if (effect.ModulatesAcoustics()) {
+    const AcousticModulation modulation = Modulation(filled_, effect, x);
+    if (modulation.log_omega.size() + modulation.xi_add.size() > 0) {
+      p += MovedPressure(filled_, effect, x, locals, modulation);
+    }
+  }
+  for (Eigen::Index k = 0; k < filled_.acoustic_count; ++k) {
+    if (!filled_.masked[static_cast<std::size_t>(k)]) continue;
+    p[k + kTapReach] = filled_.pressure_spectrum[start + k + kTapReach];
+  }
+  Eigen::ArrayXd error = recorded_.pressure.array() - InTime(filled_, p).array();
+  error -= (weight_ * error).sum() / weight_.sum();
+  return error;
+}
+
+Eigen::VectorXd BesidePlateaus::Fill(const Eigen::ArrayXd& error) const {
+  const Eigen::ArrayXd recorded = recorded_.pressure.array();
+  const Eigen::ArrayXd model = recorded - error;
+  const Eigen::ArrayXd filled = (1.0 - plateaus_.upper - plateaus_.lower) * recorded +
+                                plateaus_.upper * model.max(recorded) +
+                                plateaus_.lower * model.min(recorded);
+  return filled - filled.mean();
+}
+
+PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments, const Effect& effect,
+                             PlateauFit start) {
+  const auto d = static_cast<Eigen::Index>(start.values.size());
+  const auto shared = kLocals * static_cast<Eigen::Index>(experiments.size());
+  std::vector<Eigen::ArrayXd> errors(experiments.size());
+  std::vector<double> squares(experiments.size());
+  const auto evaluate = [&](const PlateauFit& at, std::vector<Eigen::ArrayXd>* to) {
+    for (std::size_t e = 0; e < experiments.size(); ++e) {
+      (*to)[e] = experiments[e].Error(effect, at.values, at.locals[e]);
+      squares[e] = experiments[e].WeightedSquares((*to)[e]);
+    }
+    return Cost(experiments, squares);
+  };
+  PlateauFit best = std::move(start);
+  best.cost = evaluate(best, &errors);
+  std::vector<Eigen::ArrayXd> next(experiments.size());
+  double damping = kFirstDamping;
+  for (int i = 0; i < kMostSteps && damping < kMostDamping; ++i) {
+    Normal all{Eigen::MatrixXd::Zero(shared + d, shared + d), Eigen::VectorXd::Zero(shared + d)};
+    for (std::size_t e = 0; e < experiments.size(); ++e) {
+      const Normal own = Linearise(experiments[e], effect, best.values, best.locals[e], errors[e]);
+      const Eigen::Index at = kLocals * static_cast<Eigen::Index>(e);
+      all.gram.block(at, at, kLocals, kLocals) = own.gram.topLeftCorner(kLocals, kLocals);
+      all.gram.block(at, shared, kLocals, d) = own.gram.topRightCorner(kLocals, d);
+      all.gram.block(shared, at, d, kLocals) = own.gram.bottomLeftCorner(d, kLocals);
+      all.gram.bottomRightCorner(d, d) += own.gram.bottomRightCorner(d, d);
+      all.right.segment(at, kLocals) = own.right.head(kLocals);
+      all.right.tail(d) += own.right.tail(d);
+    }
+    double progress = 0.0;
+    while (damping < kMostDamping) {
+      PlateauFit moved = Stepped(best, effect, -SolveScaled(all.gram, all.right, damping));
+      moved.cost = evaluate(moved, &next);
+      if (moved.cost < best.cost) {
+        progress = best.cost - moved.cost;
+        best = std::move(moved);
+        std::swap(errors, next);
+        damping = std::max(0.1 * damping, 1e-12);
+        break;
+      }
+      damping *= 10.0;
+    }
+    if (progress < kLeastProgress) break;
+  }
+  return best;
+}
+
+}  // namespace howl

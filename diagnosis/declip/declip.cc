@@ -1,0 +1,104 @@
+#include "diagnosis/declip/declip.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "diagnosis/cut_noise.h"
+#include "diagnosis/declip/beside_plateaus.h"
+#include "diagnosis/real_fft.h"
+#include "diagnosis/real_gram.h"
+#include "diagnosis/scaled_solve.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kStarts = 4;
+constexpr int kMostFillings = 40;
+constexpr double kSettled = 1e-6;  // change of the signal over the error, both squared
+
+CutRecord WithPressure(CutRecord record, const Eigen::VectorXd& pressure) {
+  record.pressure = pressure;
+  record.pressure_spectrum = ForwardFft(pressure);
+  record.windowed_pressure =
+      ApplyWindow(record.pressure_spectrum.segment(record.first - kTapReach, record.extended()),
+                  record.acoustic_count);
+  return record;
+}
+
+// A step of the fit to the whole signal.
+AcousticLocals Step(const CutRecord& record, const EffectFit& fit, const AcousticLocals& at) {
+  const Effect& effect = *fit.effect;
+  const Eigen::VectorXcd residual = AcousticResidual(record, effect, fit.values, at);
+  const Eigen::VectorXcd r = RecordedTransfer(record, effect, fit.values, at);
+  const Eigen::VectorXd noise =
+      FitAcousticNoise(record, residual, r.segment(kTapReach, record.acoustic_count).cwiseAbs2());
+  const Eigen::VectorXd weight = AcousticWeights(record, noise);
+  const Eigen::MatrixXcd jacobian =
+      AcousticJacobian(record, effect, fit.values, at, residual, Eigen::VectorXd());
+  Eigen::VectorXd step = -SolveScaled(RealGram(weight, jacobian, jacobian),
+                                      RealGram(weight, jacobian, residual), 1e-9);
+  step[0] = std::clamp(step[0], -0.1, 0.1);
+  step[1] = std::clamp(step[1], -0.5, 0.5);
+  return at + step.head<4>();
+}
+
+// From the fit's own acoustics on, which lie near.
+Eigen::VectorXd Fill(const CutRecord& recorded, CutRecord filled, std::size_t e, EffectFit* fit) {
+  AcousticLocals& locals = fit->experiments[e].acoustics;
+  for (int i = 0; i < kMostFillings; ++i) {
+    const BesidePlateaus beside(recorded, filled);
+    const Eigen::ArrayXd error = beside.Error(*fit->effect, fit->values, locals);
+    const Eigen::VectorXd next = beside.Fill(error);
+    const double change = (next - filled.pressure).squaredNorm();
+    filled = WithPressure(std::move(filled), next);
+    if (change <= kSettled * beside.WeightedSquares(error)) break;
+    locals = Step(filled, *fit, locals);
+  }
+  return filled.pressure;
+}
+
+AcousticLocals FitAlone(const CutRecord& record, const BesidePlateaus& beside, const EffectFit& fit,
+                        std::size_t e) {
+  std::vector<AcousticLocals> starts = {fit.experiments[e].acoustics};
+  for (const AcousticLocals& other : AcousticStarts(record, *fit.effect, fit.values, kStarts)) {
+    starts.push_back(other);
+  }
+  AcousticLocals best = starts[0];
+  double least = std::numeric_limits<double>::infinity();
+  for (const AcousticLocals& start : starts) {
+    const PlateauFit one = FitBesidePlateaus({beside}, *fit.effect, {{}, {start}, 0.0});
+    if (!(one.cost < least)) continue;
+    least = one.cost;
+    best = one.locals[0];
+  }
+  return best;
+}
+
+}  // namespace
+
+Declipped DeclipAt(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
+                   EffectFit fit) {
+  Declipped out{{}, std::move(fit)};
+  for (std::size_t e = 0; e < recorded.size(); ++e) {
+    out.pressure.push_back(Fill(recorded[e], filled[e], e, &out.fit));
+  }
+  return out;
+}
+
+Declipped DeclipAnew(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
+                     EffectFit fit) {
+  std::vector<BesidePlateaus> beside;
+  for (std::size_t e = 0; e < recorded.size(); ++e) beside.emplace_back(recorded[e], filled[e]);
+  PlateauFit best{fit.values, {}, 0.0};
+  for (std::size_t e = 0; e < recorded.size(); ++e) {
+    best.locals.push_back(fit.values.empty() ? FitAlone(recorded[e], beside[e], fit, e)
+                                             : fit.experiments[e].acoustics);
+  }
+  if (!fit.values.empty()) best = FitBesidePlateaus(beside, *fit.effect, std::move(best));
+  fit.values = best.values;
+  for (std::size_t e = 0; e < recorded.size(); ++e) fit.experiments[e].acoustics = best.locals[e];
+  return DeclipAt(recorded, filled, std::move(fit));
+}
+
+}  // namespace howl
