@@ -58,6 +58,12 @@ void PrintTable(const TableDiagnosis& table) {
 }  // namespace
 
 int RunTable(const Config& config, const Options& options) {
+  for (const char* option : {"--bootstrap", "--reference", "--without"}) {
+    if (options.Has(option)) {
+      throw UsageError(std::string(option) +
+                       " needs records of p and q: " + config.source.string() + " is a table");
+    }
+  }
   std::vector<Experiment> experiments;
   for (const ExperimentConfig& one : config.experiments) experiments.push_back(one.experiment);
   const bool any_line =

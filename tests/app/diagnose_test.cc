@@ -113,6 +113,18 @@ TEST(Diagnose, TooFewReplicatesOrAReferenceBesideThemAreMistakes) {
   EXPECT_FALSE(std::filesystem::exists(out + "/diagnosis.json"));
 }
 
+TEST(Diagnose, WhatNeedsRecordsIsAMistakeOnATable) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  for (const std::string option : {"--bootstrap 19", "--without channel_skew"}) {
+    const ProgramResult result =
+        RunHowl("diagnose " + Config("r228_two_modes") + " " + option + " --out " + out);
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_THAT(result.err, testing::HasSubstr("needs records of p and q")) << option;
+    EXPECT_FALSE(std::filesystem::exists(out + "/diagnosis.json"));
+  }
+}
+
 TEST(Diagnose, TheBootstrapsGainsAreWritten) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");
