@@ -122,6 +122,9 @@ std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect
                                            EffectValues x, std::size_t count) {
   constexpr std::array kOmega = {0.78, 0.85, 0.92, 0.96, 1.0, 1.05};
   constexpr std::array kXi = {0.05, 0.1, 0.17, 0.28};
+  // Where another mode carries the cycle, omega is known by their ratio.
+  constexpr std::array kOmegaIfCarried = {0.98, 1.0, 1.02};
+  constexpr std::array kXiIfCarried = {0.1, 0.17};
   const CutReference& reference = record.reference;
   std::vector<double> cycles_hz = {record.at.cycle_frequency_hz};
   // The cycle of another experiment may be another mode's.
@@ -132,6 +135,13 @@ std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect
   for (const double cycle_hz : cycles_hz) {
     for (const double omega : kOmega) {
       for (const double xi : kXi) places.emplace_back(std::log(omega * cycle_hz), std::log(xi));
+    }
+  }
+  for (const double ratio : effect.ModeRatios(x)) {
+    for (const double omega : kOmegaIfCarried) {
+      for (const double xi : kXiIfCarried) {
+        places.emplace_back(std::log(omega * record.at.cycle_frequency_hz / ratio), std::log(xi));
+      }
     }
   }
   // A reference's factors stand beside its own base: far from there they mislead.

@@ -68,6 +68,11 @@ class Combined final : public NamedEffect {
   bool IsOwnCause(EffectValues x) const override {
     return first_->IsOwnCause(First(x)) && second_->IsOwnCause(Second(x));
   }
+  std::vector<double> ModeRatios(EffectValues x) const override {
+    std::vector<double> ratios = first_->ModeRatios(First(x));
+    for (const double ratio : second_->ModeRatios(Second(x))) ratios.push_back(ratio);
+    return ratios;
+  }
   Response FlameOut(double frequency_hz, const EffectContext& at, EffectValues x) const override {
     return first_->FlameOut(frequency_hz, at, First(x)) *
            second_->FlameOut(frequency_hz, at, Second(x));

@@ -126,6 +126,9 @@ class Effect {
 
   virtual EffectForm form() const { return {}; }
 
+  // Frequencies over omega of modes that it adds: one of them may carry an experiment's cycle.
+  virtual std::vector<double> ModeRatios(EffectValues /*x*/) const { return {}; }
+
   // False where these values are no cause of their own, but a sign that the base's form is wrong.
   virtual bool IsOwnCause(EffectValues /*x*/) const { return true; }
 

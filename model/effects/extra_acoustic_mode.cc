@@ -44,6 +44,7 @@ class Mode final : public NamedEffect {
     return std::abs(std::log(x[0])) > kSameMode &&
            std::abs(std::log(x[0] / kSeedHarmonicRatio)) > kSameMode;
   }
+  std::vector<double> ModeRatios(EffectValues x) const override { return {x[0]}; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
                      const EffectContext& at, EffectValues x) const override {
     const Response base = Effect::Acoustics(acoustics, frequency_hz, at, x);

@@ -1,10 +1,15 @@
 // Fits that find their way to weak modes far from any start.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
+#include "diagnosis/acoustic_cut.h"
+#include "diagnosis/band_signal.h"
 #include "diagnosis/effect_fit.h"
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
@@ -25,6 +30,36 @@ TEST(Starts, AWeakNarrowModeIsFoundWhereverItLies) {
     EXPECT_NEAR(fit.values[0], ratio, 0.03 * ratio);
     EXPECT_NEAR(fit.values[1], 0.05, 0.02) << ratio;
   }
+}
+
+// One point's cycle is the extra mode's own: its omega lies far below the cycle, at the ratio.
+TEST(Starts, OmegaIsFoundWhereAnotherModeCarriesTheCycle) {
+  const double ratio = 1.6;
+  const AcousticLocals truth(std::log(150.0), std::log(0.15), 6000.0, 1500.0);
+  const std::vector<double> x = {ratio, 0.34, 0.045};
+  const EffectPointer effect = ExtraAcousticMode()[0];
+  const Effect& mode = *effect;
+  // Noise and a line at the extra mode as q; p by the mode's own transfer function.
+  DiagnosisExperiment experiment{"exp1", 0.5, {5000.0, {}, {}}};
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  for (int i = 0; i < 16000; ++i) {
+    const double t = static_cast<double>(i) / 5000.0;
+    experiment.record.heat_release.push_back(
+        0.4 * std::sin(2.0 * std::numbers::pi * 150.0 * ratio * t) + noise(random));
+  }
+  experiment.record.pressure = experiment.record.heat_release;
+  const CutRecord driven = MakeCutRecords({experiment})[0];
+  const Eigen::VectorXd p = InTime(driven, RecordedTransfer(driven, mode, x, truth)
+                                               .cwiseProduct(driven.heat_release_spectrum.segment(
+                                                   driven.first - kTapReach, driven.extended())));
+  experiment.record.pressure.assign(p.data(), p.data() + p.size());
+  const CutRecord record = MakeCutRecords({experiment})[0];
+  ASSERT_NEAR(record.at.cycle_frequency_hz, 150.0 * ratio, 2.0);
+  const std::vector<AcousticLocals> starts = AcousticStarts(record, mode, x, 3);
+  EXPECT_TRUE(std::any_of(starts.begin(), starts.end(), [&](const AcousticLocals& start) {
+    return std::abs(start[0] - truth[0]) < 0.03 && std::abs(start[2] / truth[2] - 1.0) < 0.25;
+  }));
 }
 
 }  // namespace
