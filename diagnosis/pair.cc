@@ -129,7 +129,8 @@ std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
     tried[i] = FromFit(at, Settle(*at.records, *at.base, *seconds[i]));
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
-  if (best.empty() || best[0].candidate.gain - first.candidate.gain < LeastCompeting(first)) {
+  const double least = std::max(LeastCompeting(first), at.reference ? kNearNoise : 0.0);
+  if (best.empty() || best[0].candidate.gain - first.candidate.gain < least) {
     return std::nullopt;
   }
   return std::move(best[0]);

@@ -44,11 +44,11 @@ std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
 // A clipped q is no wrong input to the flame, and Phi takes its flat top for saturation: cut B is
 // right as it is, and tells of the flame and the delay.
 std::vector<Attempt> BesideClippedHeatRelease(const Attempt& first,
-                                              const std::vector<Attempt>& attempts) {
+                                              const std::vector<Attempt>& attempts, double least) {
   std::vector<Attempt> others = NearBestOf(attempts, [](const Attempt& attempt) {
     return (IsGain(attempt) || IsTransfer(attempt)) && !ChangesAcousticCut(attempt);
   });
-  if (others.empty() || others[0].candidate.gain < DetectionGain(true)) return {};
+  if (others.empty() || others[0].candidate.gain < least) return {};
   for (Attempt& other : others) {
     for (std::size_t e = 0; e < other.held_out.size(); ++e) {
       other.held_out[e].acoustic_residual = first.held_out[e].acoustic_residual;
@@ -62,7 +62,8 @@ std::vector<Attempt> BesideClippedHeatRelease(const Attempt& first,
 std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
                                     const std::vector<EffectForms>& units,
                                     const std::vector<CoherentLine>& lines, int threads) {
-  std::vector<Attempt> pairs = BesideClippedHeatRelease(attempts[0], attempts);
+  const double least = at.reference ? kNearNoise : DetectionGain(true);
+  std::vector<Attempt> pairs = BesideClippedHeatRelease(attempts[0], attempts, least);
   return pairs.empty() ? AfterRepair(at, attempts[0], units, lines, threads) : pairs;
 }
 

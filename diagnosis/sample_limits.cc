@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kTop = 0.9995;
 constexpr double kEdgeWidth = 0.02;
+constexpr double kNearTop = 0.15;  // of half the range
+constexpr double kDensestShare = 0.3;
 constexpr double kEdgeRatio = 5.0;
 constexpr double kEdgeShare = 0.03;
 constexpr double kSameValue = 1e-6;  // of the range
@@ -54,11 +56,51 @@ bool RepeatedExtreme(const Eigen::VectorXd& x, double range) {
          static_cast<double>(at_top) > kRepeatedRatio * static_cast<double>(most);
 }
 
-// Of the signal's upper end; above all of it where there is no plateau.
-double PlateauFloor(const Eigen::VectorXd& x, double range, bool edges) {
-  if (RepeatedExtreme(x, range)) return x.maxCoeff() - kSameValue * range;
-  if (edges) return SampleQuantile(x, kTop) - kEdgeWidth * 0.5 * range;
-  return std::numeric_limits<double>::infinity();
+struct Plateau {
+  double floor = std::numeric_limits<double>::infinity();  // of its samples
+  double level = std::numeric_limits<double>::infinity();  // at most that of saturation
+  bool noisy = false;
+};
+
+// Where the samples near the top are densest: the middle of the shortest interval with a share.
+double DensestNear(const Eigen::VectorXd& x, double top, double reach) {
+  std::vector<double> near;
+  for (const double value : x) {
+    if (value > top - reach) near.push_back(value);
+  }
+  std::sort(near.begin(), near.end());
+  const auto count = static_cast<std::size_t>(kDensestShare * static_cast<double>(near.size()));
+  double level = top;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + count < near.size(); ++i) {
+    const double length = near[i + count] - near[i];
+    if (length >= shortest) continue;
+    shortest = length;
+    level = 0.5 * (near[i + count] + near[i]);
+  }
+  return level;
+}
+
+// Of the signal's upper end, if it has one.
+Plateau FindPlateau(const Eigen::VectorXd& x, double range, bool edges) {
+  if (RepeatedExtreme(x, range)) return {x.maxCoeff() - kSameValue * range, x.maxCoeff(), false};
+  if (!edges) return {};
+  const double top = SampleQuantile(x, kTop);
+  const double level = DensestNear(x, top, kNearTop * 0.5 * range);
+  // As far below the level as the noise reaches above it.
+  const double floor = 2.0 * level - top;
+  return {floor, floor, true};
+}
+
+// With the neighbours where there is noise: whether these are held is not to be told by the noise.
+Eigen::ArrayXd SamplesOn(const Plateau& plateau, const Eigen::VectorXd& x) {
+  Eigen::ArrayXd on = (x.array() > plateau.floor).cast<double>();
+  if (!plateau.noisy) return on;
+  const Eigen::Index n = on.size() - 1;
+  const Eigen::ArrayXd before = on.head(n);
+  on.head(n) = on.head(n).max(Eigen::ArrayXd(on.tail(n)));
+  on.tail(n) = on.tail(n).max(before);
+  return on;
 }
 
 double Range(const Eigen::VectorXd& x) {
@@ -88,8 +130,9 @@ double SampleQuantile(const Eigen::VectorXd& x, double share) {
 Plateaus FindPlateaus(const Eigen::VectorXd& x) {
   const double range = Range(x);
   const bool edges = HasEdges(x, range);
-  return {(x.array() > PlateauFloor(x, range, edges)).cast<double>(),
-          (-x.array() > PlateauFloor(-x, range, edges)).cast<double>()};
+  const Plateau upper = FindPlateau(x, range, edges);
+  const Plateau lower = FindPlateau(-x, range, edges);
+  return {SamplesOn(upper, x), SamplesOn(lower, -x), upper.level, -lower.level};
 }
 
 bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure) {

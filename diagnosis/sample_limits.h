@@ -10,10 +10,14 @@
 
 namespace howl {
 
-// One where saturation holds the signal at that end of its range, zero elsewhere.
+// Where saturation holds the signal at either end of its range. Noise that came after it spreads
+// the samples about the level.
 struct Plateaus {
-  Eigen::ArrayXd upper;
+  Eigen::ArrayXd upper;  // one there, zero elsewhere
   Eigen::ArrayXd lower;
+  // No farther out than where it is held: a truth beyond is not what was recorded.
+  double upper_level = 0.0;
+  double lower_level = 0.0;
 };
 
 Plateaus FindPlateaus(const Eigen::VectorXd& x);

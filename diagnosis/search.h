@@ -46,7 +46,7 @@ class Search {
     std::shared_ptr<const std::vector<CutRecord>> records;
   };
   RefilledFit Refill(const EffectFit& under_base) const;
-  Attempt Refilled(const Attempt& attempt) const;
+  Attempt Refilled(const Attempt& attempt, const EffectForms& forms) const;
   void RefillBest();
   void TryAll();
   void Bootstrap();

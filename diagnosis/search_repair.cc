@@ -120,8 +120,14 @@ Search::RefilledFit Search::Refill(const EffectFit& under_base) const {
   return {std::move(fit), std::move(records)};
 }
 
-Attempt Search::Refilled(const Attempt& attempt) const {
+// The best form under the base's filling need not be the best under its own.
+Attempt Search::Refilled(const Attempt& attempt, const EffectForms& forms) const {
   RefilledFit refilled = Refill(*attempt.fit);
+  for (const EffectPointer& form : forms) {
+    if (form == attempt.fit->effect) continue;
+    RefilledFit other = Refill(FitEffect(records_, form, base_));
+    if (other.fit.cost() < refilled.fit.cost()) refilled = std::move(other);
+  }
   Setting at = at_;
   at.records = refilled.records.get();
   Attempt out = FromFit(at, std::move(refilled.fit));
@@ -140,7 +146,7 @@ void Search::RefillBest() {
     Attempt& attempt = attempts_[i];
     if (attempt.fit && attempt.fit->effect->ChangesAcousticCut() &&
         attempt.candidate.gain > least) {
-      attempt = Refilled(attempt);
+      attempt = Refilled(attempt, units_[i]);
     }
   });
 }

@@ -132,9 +132,10 @@ Eigen::ArrayXd BesidePlateaus::Error(const Effect& effect, EffectValues x,
 Eigen::VectorXd BesidePlateaus::Fill(const Eigen::ArrayXd& error) const {
   const Eigen::ArrayXd recorded = recorded_.pressure.array();
   const Eigen::ArrayXd model = recorded - error;
-  const Eigen::ArrayXd filled = (1.0 - plateaus_.upper - plateaus_.lower) * recorded +
-                                plateaus_.upper * model.max(recorded) +
-                                plateaus_.lower * model.min(recorded);
+  const Eigen::ArrayXd filled =
+      (1.0 - plateaus_.upper - plateaus_.lower) * recorded +
+      plateaus_.upper * (model > plateaus_.upper_level).select(model, recorded) +
+      plateaus_.lower * (model < plateaus_.lower_level).select(model, recorded);
   return filled - filled.mean();
 }
 

@@ -29,7 +29,7 @@ class BesidePlateaus {
   double WeightedSquares(const Eigen::ArrayXd& error) const {
     return (weight_ * error.square()).sum();
   }
-  // The plateaus from the model, or as recorded where the model lies within them; without mean.
+  // The plateaus from the model, or as recorded where it does not reach them; without mean.
   Eigen::VectorXd Fill(const Eigen::ArrayXd& error) const;
 
   const Eigen::ArrayXd& weight() const { return weight_; }

@@ -1,6 +1,6 @@
 // Declipping. Samples of p that saturation cut off are missing data, and cut A says what they were:
 //
-//   p(t) = max(p_model(t), level) on the upper plateaus, min on the lower;   P_model = R Q
+//   p(t) = p_model(t) on the plateaus where it lies beyond their level;   P_model = R Q
 //
 // First R is fitted to the samples beside the plateaus alone (beside_plateaus.h); then, by
 // expectation and maximisation, to the whole signal filled in, at the spectrum of its noise.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,21 @@ TEST(Diagnose, ClippedPressureAloneLeavesNoiseOnceItIsRepaired) {
   EXPECT_NEAR(diagnosis.base_parameters[0].with, 0.00352, 2e-5);
 }
 
+// A recorder's noise spreads the plateaus: no value repeats.
+TEST(Diagnose, ClippedPressureUnderNoiseIsRepairedToo) {
+  std::vector<DiagnosisExperiment> rig = Clipped(SimulateRig());
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> noise(0.0, kPressureNoise);
+  for (DiagnosisExperiment& experiment : rig) {
+    for (double& p : experiment.record.pressure) p += noise(random);
+  }
+  const Diagnosis diagnosis =
+      DiagnoseAmong({"p_clipping", "extra_acoustic_mode", "channel_skew"}, rig);
+  ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "p_clipping");
+  EXPECT_LT(diagnosis.gap_after, 1.2 * diagnosis.gap_floor);
+}
+
 TEST(Diagnose, AnExtraModeIsSeenBesideClippedPressure) {
   const Diagnosis diagnosis =
       DiagnoseAmong({"p_clipping", "extra_acoustic_mode", "channel_skew"},
@@ -127,6 +143,19 @@ TEST(Diagnose, ALowPassOfQIsSeenBesideClippedPressure) {
   ASSERT_EQ(parameters.size(), 2u);
   EXPECT_LT(parameters[1].low, 400.0);
   EXPECT_GT(parameters[1].high, 400.0);
+}
+
+// Under the base's filling the form of first order fits better.
+TEST(Diagnose, TheFormOfALowPassIsFoundBesideClippedPressure) {
+  const double cutoff_hz = 270.0;
+  const Diagnosis diagnosis =
+      DiagnoseAmong({"p_clipping", "q_sensor_lowpass"},
+                    Clipped(SimulateRig({std::make_shared<SecondOrderResponse>(
+                        Channel::kHeatRelease, cutoff_hz, std::sqrt(0.5))})));
+  ASSERT_EQ(diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(diagnosis.effect, "p_clipping+q_sensor_lowpass");
+  EXPECT_NEAR(diagnosis.candidates[0].parameters.at(1).value, cutoff_hz, 0.01 * cutoff_hz);
+  EXPECT_LT(diagnosis.gap_after, 1.2 * diagnosis.gap_floor);
 }
 
 // q does not drive it, so that it goes on while p is on its plateau.
