@@ -20,7 +20,7 @@ namespace {
 constexpr double kClassProbability = 0.02;
 // A second transfer function that brings as much as it must was seen to leave at least this share
 // of it as slack beside the first (results/trial): less is not worth the search.
-constexpr double kSlackOfASecond = 0.1;
+constexpr double kSlackOfASecond = 0.3;
 
 bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
   return !first.seen && first.also.empty() &&
