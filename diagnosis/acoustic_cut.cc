@@ -82,12 +82,8 @@ Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect,
 Eigen::VectorXcd AcousticResidual(const CutRecord& record, const Effect& effect, EffectValues x,
                                   const AcousticLocals& locals) {
   Eigen::VectorXcd residual = Bare(record, RecordedTransfer(record, effect, x, locals));
-  if (!effect.ModulatesAcoustics()) return residual;
-  const AcousticModulation modulation = Modulation(record, effect, x);
-  if (modulation.log_omega.size() + modulation.xi_add.size() > 0) {
-    residual -=
-        ApplyWindow(MovedPressure(record, effect, x, locals, modulation), record.acoustic_count);
-  }
+  const Eigen::VectorXcd moved = PressureOfMovement(record, effect, x, locals);
+  if (moved.size() > 0) residual -= ApplyWindow(moved, record.acoustic_count);
   return residual;
 }
 

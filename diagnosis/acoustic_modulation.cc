@@ -11,11 +11,9 @@ namespace {
 constexpr double kModulationStep = 1e-3;
 constexpr int kPasses = 2;
 
-Eigen::VectorXcd HeatRelease(const CutRecord& record) { return record.driving_heat_release; }
-
 Eigen::VectorXcd MovedFrequency(const CutRecord& record, const Effect& effect, EffectValues x,
                                 const AcousticLocals& mean, const Eigen::ArrayXd& by) {
-  const Eigen::VectorXcd q = HeatRelease(record);
+  const Eigen::VectorXcd& q = record.driving_heat_release;
   const auto transfer = [&](double log_omega) {
     AcousticLocals at = mean;
     at[0] += log_omega;
@@ -42,7 +40,7 @@ Eigen::VectorXcd MovedDamping(const CutRecord& record, double omega, double xi, 
     s[k] = LaplaceVariable(record.frequency_hz[k]);
     h[k] = 1.0 / (s[k] * s[k] + 2.0 * xi * omega * s[k] + omega * omega);
   }
-  const Eigen::VectorXcd still = c * s.cwiseProduct(h).cwiseProduct(HeatRelease(record));
+  const Eigen::VectorXcd still = c * s.cwiseProduct(h).cwiseProduct(record.driving_heat_release);
   Eigen::VectorXcd moved = Eigen::VectorXcd::Zero(n);
   for (int pass = 0; pass < kPasses; ++pass) {
     const Eigen::VectorXd rate = InTime(record, s.cwiseProduct(still + moved));
@@ -52,7 +50,11 @@ Eigen::VectorXcd MovedDamping(const CutRecord& record, double omega, double xi, 
   return moved;
 }
 
-}  // namespace
+struct AcousticModulation {
+  // Sample by sample, less their means; empty where nothing moves.
+  Eigen::ArrayXd log_omega;
+  Eigen::ArrayXd xi_add;
+};
 
 AcousticModulation Modulation(const CutRecord& record, const Effect& effect, EffectValues x) {
   AcousticModulation out;
@@ -102,6 +104,16 @@ Eigen::VectorXcd MovedPressure(const CutRecord& record, const Effect& effect, Ef
     moved += both;
   }
   return moved;
+}
+
+}  // namespace
+
+Eigen::VectorXcd PressureOfMovement(const CutRecord& record, const Effect& effect, EffectValues x,
+                                    const AcousticLocals& mean) {
+  if (!effect.ModulatesAcoustics()) return {};
+  const AcousticModulation modulation = Modulation(record, effect, x);
+  if (modulation.log_omega.size() + modulation.xi_add.size() == 0) return {};
+  return MovedPressure(record, effect, x, mean, modulation);
 }
 
 }  // namespace howl

@@ -24,17 +24,9 @@
 
 namespace howl {
 
-struct AcousticModulation {
-  // Sample by sample, less their means; empty where nothing moves.
-  Eigen::ArrayXd log_omega;
-  Eigen::ArrayXd xi_add;
-};
-
-AcousticModulation Modulation(const CutRecord& record, const Effect& effect, EffectValues x);
-
-// What the movement about the means adds to p, on the extended band.
-Eigen::VectorXcd MovedPressure(const CutRecord& record, const Effect& effect, EffectValues x,
-                               const AcousticLocals& mean, const AcousticModulation& modulation);
+// What the movement about the means adds to p, on the extended band; empty where nothing moves.
+Eigen::VectorXcd PressureOfMovement(const CutRecord& record, const Effect& effect, EffectValues x,
+                                    const AcousticLocals& mean);
 
 }  // namespace howl
 

@@ -183,16 +183,12 @@ DeclaredMapFit FitDeclaredMap(const std::vector<DiagnosisExperiment>& experiment
   const std::optional<Repaired> repaired =
       std::isfinite(cost) ? Repair(experiments, records, effect, out.values) : std::nullopt;
   if (!repaired) {
-    for (std::size_t e = 0; e < records.size(); ++e) {
-      out.held_out.push_back(HeldOut(records, base, e));
-    }
+    out.held_out = HoldOutEach(records, base);
     return out;
   }
   out.gain = std::max(0.0, search.Cost(search.Nulls()) - cost);
   out.fit = FitBase(repaired->records);
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    out.held_out.push_back(HeldOut(repaired->records, out.fit, e));
-  }
+  out.held_out = HoldOutEach(repaired->records, out.fit);
   return out;
 }
 

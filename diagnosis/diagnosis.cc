@@ -106,9 +106,9 @@ void Search::Describe(const Judgement& at, Diagnosis* out) {
   out->shrinkage_no_meaning = at.shrinkage_no_meaning;
   const bool no_lines = lines_.empty();
   GapSide left;
-  if (only_clipping || attempts_.empty()) {
-    if (only_clipping) left = {&at_.base_held_out, no_lines};
-  } else {
+  if (only_clipping) {
+    left = {&at_.base_held_out, no_lines};
+  } else if (!attempts_.empty()) {
     left = {&attempts_[0].held_out, no_lines || attempts_[0].without_lines};
   }
   out->map =

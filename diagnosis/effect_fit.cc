@@ -195,4 +195,11 @@ ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fi
   return moved.experiments[experiment];
 }
 
+std::vector<ExperimentFit> HoldOutEach(const std::vector<CutRecord>& records,
+                                       const EffectFit& fit) {
+  std::vector<ExperimentFit> out;
+  for (std::size_t e = 0; e < records.size(); ++e) out.push_back(HeldOut(records, fit, e));
+  return out;
+}
+
 }  // namespace howl

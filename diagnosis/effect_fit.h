@@ -65,6 +65,7 @@ EffectFit Settle(const std::vector<CutRecord>& records, const EffectFit& base,
 // them, as far as these determine them; its own parameters refitted.
 ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fit,
                       std::size_t experiment);
+std::vector<ExperimentFit> HoldOutEach(const std::vector<CutRecord>& records, const EffectFit& fit);
 
 }  // namespace howl
 

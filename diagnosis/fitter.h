@@ -15,6 +15,10 @@ inline constexpr double kDescentConverged = 1e-3;  // of the cost, in units of a
 
 // Search coordinate u of a parameter: log x or x. d x / d u.
 double ScaleOf(const EffectParameter& parameter, double x);
+// Of x, for a derivative by difference.
+double DifferenceStep(const EffectParameter& parameter, double x);
+// x moved by a step of u, no farther than a descent may go at once, within the bounds.
+double SteppedValue(const EffectParameter& parameter, double x, double step);
 
 class Fitter {
  public:

@@ -28,6 +28,20 @@ Eigen::MatrixXd Gram(const Eigen::MatrixXcd& a, const Eigen::VectorXd& w,
 
 }  // namespace
 
+double DifferenceStep(const EffectParameter& p, double x) {
+  return kDifferenceStep * (p.scale == ParameterScale::kLogarithmic ? x : 0.1 * Span(p));
+}
+
+double SteppedValue(const EffectParameter& p, double x, double step) {
+  if (p.scale == ParameterScale::kLogarithmic) {
+    x *= std::exp(std::clamp(step, -kLargestLogStep, kLargestLogStep));
+  } else {
+    const double most = kLargestLinearStep * Span(p);
+    x += std::clamp(step, -most, most);
+  }
+  return std::clamp(x, p.low, p.high);
+}
+
 double Fitter::LeakJacobian(EffectValues x, const AcousticLocals& locals, std::size_t e) const {
   const CutRecord& record = records_[e];
   if (effect_.PressureLeak(record.at.cycle_frequency_hz, record.at, x) == 0.0) return 0.0;
@@ -48,7 +62,7 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
     const EffectParameter& p = effect_.parameters()[static_cast<std::size_t>(j)];
     const double x = fit.values[static_cast<std::size_t>(j)];
     to_u[j] = ScaleOf(p, x);
-    steps[j] = kDifferenceStep * (p.scale == ParameterScale::kLogarithmic ? x : 0.1 * Span(p));
+    steps[j] = DifferenceStep(p, x);
   }
   System system;
   for (std::size_t e = 0; e < records_.size(); ++e) {
@@ -136,17 +150,9 @@ void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
   for (Eigen::Index j = 0; j < d; ++j) {
     const EffectParameter& p = effect_.parameters()[static_cast<std::size_t>(j)];
     double& x = fit->values[static_cast<std::size_t>(j)];
-    if (p.scale == ParameterScale::kLogarithmic) {
-      const double was = x;
-      x = std::clamp(x * std::exp(std::clamp(step[1 + j], -kLargestLogStep, kLargestLogStep)),
-                     p.low, p.high);
-      taken[j] = std::log(x / was);
-    } else {
-      const double was = x;
-      const double most = kLargestLinearStep * Span(p);
-      x = std::clamp(x + std::clamp(step[1 + j], -most, most), p.low, p.high);
-      taken[j] = x - was;
-    }
+    const double was = x;
+    x = SteppedValue(p, x, step[1 + j]);
+    taken[j] = p.scale == ParameterScale::kLogarithmic ? std::log(x / was) : x - was;
   }
   fit->tau_s = std::max(fit->tau_s + step[0], 0.0);
   if (!acoustic_) return;

@@ -17,14 +17,10 @@ constexpr double kAfterRepairShare = 0.4;
 std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
                                  const std::vector<EffectForms>& units,
                                  const std::vector<CoherentLine>& lines, int threads) {
-  std::vector<CutRecord> records = MakeCutRecords(first.repaired);
-  KeepReference(*whole.records, &records);
-  MaskLines(lines, &records);
+  const std::vector<CutRecord> records = RemakeCutRecords(first.repaired, *whole.records, lines);
   const EffectFit base = FitBase(records);
-  Setting at{&records, &base, &first.repaired, {}, nullptr, whole.reference};
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    at.base_held_out.push_back(HeldOut(records, base, e));
-  }
+  const Setting at{&records, &base,          &first.repaired, HoldOutEach(records, base),
+                   nullptr,  whole.reference};
   std::vector<std::optional<Attempt>> tried(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const Effect& effect = *units[i][0];

@@ -142,7 +142,7 @@ double MeanSamples(const std::vector<DiagnosisExperiment>& experiments) {
 }
 
 // The bias by noise in q is the same in reference and rig, and no evidence.
-std::vector<CutRecord> AsRecorded(const std::vector<DiagnosisExperiment>& experiments) {
+std::vector<CutRecord> CutAsRecorded(const std::vector<DiagnosisExperiment>& experiments) {
   std::vector<CutRecord> records = MakeCutRecords(experiments);
   for (CutRecord& record : records) DriveAsRecorded(&record);
   return records;
@@ -158,6 +158,15 @@ void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* t
       (*to)[e].flame_share = from[e].flame_share;
     }
   }
+}
+
+std::vector<CutRecord> RemakeCutRecords(const std::vector<DiagnosisExperiment>& changed,
+                                        const std::vector<CutRecord>& like,
+                                        const std::vector<CoherentLine>& lines) {
+  std::vector<CutRecord> records = MakeCutRecords(changed);
+  KeepReference(like, &records);
+  MaskLines(lines, &records);
+  return records;
 }
 
 std::vector<CoherentLine> NewLines(const std::vector<CoherentLine>& lines,
@@ -177,7 +186,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
                                const std::vector<DiagnosisExperiment>& rig,
                                std::vector<CutRecord>* records) {
   ReferenceModel out;
-  std::vector<CutRecord> own = AsRecorded(reference);
+  std::vector<CutRecord> own = CutAsRecorded(reference);
   out.lines = FindCoherentLines(own);
   MaskLines(out.lines, &own);
   const EffectFit base = FitBase(own);
@@ -201,7 +210,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
     std::vector<ReferencePoint> described[2];
     for (const int i : {0, 1}) {
       const std::vector<DiagnosisExperiment> half = Half(reference, i == 1);
-      part[i] = AsRecorded(half);
+      part[i] = CutAsRecorded(half);
       MaskLines(FindCoherentLines(part[i]), &part[i]);
       const EffectFit fit = FitBase(part[i]);
       described[i] = DescribeReference(half, part[i], fit);

@@ -70,6 +70,10 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
 
 // The same records made anew from changed signals keep what the reference says of them.
 void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* to);
+// With the lines masked too.
+std::vector<CutRecord> RemakeCutRecords(const std::vector<DiagnosisExperiment>& changed,
+                                        const std::vector<CutRecord>& like,
+                                        const std::vector<CoherentLine>& lines);
 
 // Lines that the reference has not, or has four times weaker.
 std::vector<CoherentLine> NewLines(const std::vector<CoherentLine>& lines,

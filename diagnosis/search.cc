@@ -57,16 +57,9 @@ Search::Search(const std::vector<DiagnosisExperiment>& experiments, const Diagno
   base_ = FitBase(records_);
   if (!reference_) TakeLinesLeftOver();
   at_ = {&records_, &base_, &experiments, {}, options.memory, reference_ ? &*reference_ : nullptr};
-  HoldOutBase();
+  at_.base_held_out = HoldOutEach(records_, base_);
   RepairPressure();
   slack_before_ = ComputeSlack(records_, base_);
-}
-
-void Search::HoldOutBase() {
-  at_.base_held_out.clear();
-  for (std::size_t e = 0; e < records_.size(); ++e) {
-    at_.base_held_out.push_back(HeldOut(records_, base_, e));
-  }
 }
 
 void Search::TakeLinesLeftOver() {

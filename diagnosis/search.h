@@ -38,7 +38,6 @@ class Search {
 
  private:
   void TakeLinesLeftOver();
-  void HoldOutBase();
   void RepairPressure();
   // With p's plateaus filled in under the fit itself, instead of the base.
   struct RefilledFit {

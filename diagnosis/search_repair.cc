@@ -32,15 +32,6 @@ void SetPressures(const std::vector<Eigen::VectorXd>& pressures,
   }
 }
 
-std::vector<CutRecord> Remade(const std::vector<DiagnosisExperiment>& experiments,
-                              const std::vector<CutRecord>& like,
-                              const std::vector<CoherentLine>& lines) {
-  std::vector<CutRecord> records = MakeCutRecords(experiments);
-  KeepReference(like, &records);
-  MaskLines(lines, &records);
-  return records;
-}
-
 double MeanFraction(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& whole) {
   double sum = 0.0;
   for (std::size_t e = 0; e < recorded.size(); ++e) {
@@ -88,9 +79,9 @@ void Search::RepairPressure() {
   const Declipped whole = DeclipAnew(repair.recorded, repair.recorded, repair.recorded_base);
   SetPressures(whole.pressure, &repair.experiments);
   repair.recorded_slack = ComputeSlack(repair.recorded, repair.recorded_base);
-  records_ = Remade(repair.experiments, repair.recorded, lines_);
+  records_ = RemakeCutRecords(repair.experiments, repair.recorded, lines_);
   base_ = FitBase(records_);
-  HoldOutBase();
+  at_.base_held_out = HoldOutEach(records_, base_);
   repair.clipping.gain = repair.recorded_base.cost() - base_.cost();
   repair.clipping.p_value = 0.0;
   repair.clipping.parameters = {
@@ -111,7 +102,7 @@ Search::RefilledFit Search::Refill(const EffectFit& under_base) const {
   EffectFit fit = under_base;
   for (int i = 0; i < kMostRefills; ++i) {
     SetPressures(whole.pressure, &experiments);
-    *records = Remade(experiments, repair_->recorded, lines_);
+    *records = RemakeCutRecords(experiments, repair_->recorded, lines_);
     const double before = fit.cost();
     fit = Settle(*records, base_, whole.fit);
     if (std::abs(before - fit.cost()) < kLeastRefill) break;

@@ -27,6 +27,7 @@ constexpr double kLeastHeatReleaseRatio = 3.0;
 Eigen::VectorXd Shrinkage(const Eigen::VectorXcd& spectrum, double noise_variance,
                           double least_ratio) {
   const Eigen::Index n = spectrum.size();
+  if (noise_variance == 0.0) return Eigen::VectorXd::Ones(n);
   Eigen::VectorXd power = Eigen::VectorXd::Zero(n);
   const Eigen::Index count = n - 2 * kTapReach;
   power.segment(kTapReach, count) = ApplyWindow(spectrum, count).cwiseAbs2();

@@ -1,3 +1,5 @@
+#include <glog/logging.h>
+
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/static_map.h"
 
@@ -27,6 +29,7 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
   out.seen = clipping.sharp_edge;
   out.confirmed = clipping.sharp_edge || clipping.plateau_noise < kPlateauNoise;
   if (clipping.sharp_edge) {
+    CHECK(!pressure) << "an edge in p is repaired before the search (search_repair.cc)";
     out.repaired = *at.experiments;
     for (std::size_t e = 0; e < out.repaired.size(); ++e) {
       const Eigen::VectorXd& signal = clipping.repaired[e];

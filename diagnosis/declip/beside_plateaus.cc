@@ -19,11 +19,7 @@ constexpr double kLeastProgress = 1e-3;  // of the cost
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e6;
 constexpr double kDifferenceStep = 1e-5;
-constexpr double kLargestLogStep = 0.6;
-constexpr double kLargestLinearStep = 0.15;  // of the bounds' distance
 constexpr Eigen::Index kLocals = 4;
-
-double Span(const EffectParameter& p) { return p.high - p.low; }
 
 // Each experiment counts by its own error.
 double Cost(const std::vector<BesidePlateaus>& experiments, const std::vector<double>& squares) {
@@ -41,8 +37,9 @@ struct Normal {
 };
 
 // Columns: the experiment's locals, then the effect's parameters in the search's coordinates.
-Normal Linearise(const BesidePlateaus& at, const Effect& effect, const std::vector<double>& values,
-                 const AcousticLocals& locals, const Eigen::ArrayXd& error) {
+Normal Linearise(const BesidePlateaus& at, const CutRecord& filled, const Effect& effect,
+                 const std::vector<double>& values, const AcousticLocals& locals,
+                 const Eigen::ArrayXd& error) {
   const Eigen::ArrayXd root = at.weight().sqrt();
   const auto d = static_cast<Eigen::Index>(values.size());
   Eigen::MatrixXd columns(error.size(), kLocals + d);
@@ -50,31 +47,20 @@ Normal Linearise(const BesidePlateaus& at, const Effect& effect, const std::vect
     const double step = kDifferenceStep * (i < 2 ? 1.0 : std::max(std::abs(locals[2]), 1e-12));
     AcousticLocals moved = locals;
     moved[i] += step;
-    columns.col(i) = (at.Error(effect, values, moved) - error) / step * root;
+    columns.col(i) = (at.Error(filled, effect, values, moved) - error) / step * root;
   }
   std::vector<double> moved = values;
   for (std::size_t j = 0; j < values.size(); ++j) {
     const EffectParameter& p = effect.parameters()[j];
-    const double step =
-        kDifferenceStep * (p.scale == ParameterScale::kLogarithmic ? values[j] : 0.1 * Span(p));
+    const double step = DifferenceStep(p, values[j]);
     moved[j] = values[j] + step;
     columns.col(kLocals + static_cast<Eigen::Index>(j)) =
-        (at.Error(effect, moved, locals) - error) / step * ScaleOf(p, values[j]) * root;
+        (at.Error(filled, effect, moved, locals) - error) / step * ScaleOf(p, values[j]) * root;
     moved[j] = values[j];
   }
   const double scale = at.weight().sum() / at.WeightedSquares(error);
   return {scale * columns.transpose() * columns,
           scale * columns.transpose() * (error * root).matrix()};
-}
-
-double Moved(const EffectParameter& p, double x, double by) {
-  if (p.scale == ParameterScale::kLogarithmic) {
-    x *= std::exp(std::clamp(by, -kLargestLogStep, kLargestLogStep));
-  } else {
-    const double most = kLargestLinearStep * Span(p);
-    x += std::clamp(by, -most, most);
-  }
-  return std::clamp(x, p.low, p.high);
 }
 
 PlateauFit Stepped(const PlateauFit& at, const Effect& effect, const Eigen::VectorXd& step) {
@@ -88,16 +74,16 @@ PlateauFit Stepped(const PlateauFit& at, const Effect& effect, const Eigen::Vect
     first += kLocals;
   }
   for (std::size_t j = 0; j < out.values.size(); ++j) {
-    out.values[j] =
-        Moved(effect.parameters()[j], at.values[j], step[first + static_cast<Eigen::Index>(j)]);
+    out.values[j] = SteppedValue(effect.parameters()[j], at.values[j],
+                                 step[first + static_cast<Eigen::Index>(j)]);
   }
   return out;
 }
 
 }  // namespace
 
-BesidePlateaus::BesidePlateaus(const CutRecord& recorded, const CutRecord& filled)
-    : recorded_(recorded), filled_(filled), plateaus_(FindPlateaus(recorded.pressure)) {
+BesidePlateaus::BesidePlateaus(const CutRecord& recorded)
+    : recorded_(recorded), plateaus_(FindPlateaus(recorded.pressure)) {
   const auto n = static_cast<double>(recorded.samples);
   weight_ = (Eigen::ArrayXd::LinSpaced(recorded.samples, 0.5, n - 0.5) * (std::numbers::pi / n))
                 .sin()
@@ -105,26 +91,18 @@ BesidePlateaus::BesidePlateaus(const CutRecord& recorded, const CutRecord& fille
             (1.0 - plateaus_.upper - plateaus_.lower);
 }
 
-bool BesidePlateaus::HasPlateaus() const {
-  return plateaus_.upper.sum() + plateaus_.lower.sum() > 0.0;
-}
-
-Eigen::ArrayXd BesidePlateaus::Error(const Effect& effect, EffectValues x,
+Eigen::ArrayXd BesidePlateaus::Error(const CutRecord& filled, const Effect& effect, EffectValues x,
                                      const AcousticLocals& locals) const {
-  const Eigen::Index start = filled_.first - kTapReach;
   Eigen::VectorXcd p =
-      RecordedTransfer(filled_, effect, x, locals).cwiseProduct(filled_.driving_heat_release);
-  if (effect.ModulatesAcoustics()) {
-    const AcousticModulation modulation = Modulation(filled_, effect, x);
-    if (modulation.log_omega.size() + modulation.xi_add.size() > 0) {
-      p += MovedPressure(filled_, effect, x, locals, modulation);
-    }
+      RecordedTransfer(filled, effect, x, locals).cwiseProduct(filled.driving_heat_release);
+  const Eigen::VectorXcd moved = PressureOfMovement(filled, effect, x, locals);
+  if (moved.size() > 0) p += moved;
+  const Eigen::Index start = filled.first - kTapReach;
+  for (Eigen::Index k = 0; k < filled.acoustic_count; ++k) {
+    if (!filled.masked[static_cast<std::size_t>(k)]) continue;
+    p[k + kTapReach] = filled.pressure_spectrum[start + k + kTapReach];
   }
-  for (Eigen::Index k = 0; k < filled_.acoustic_count; ++k) {
-    if (!filled_.masked[static_cast<std::size_t>(k)]) continue;
-    p[k + kTapReach] = filled_.pressure_spectrum[start + k + kTapReach];
-  }
-  Eigen::ArrayXd error = recorded_.pressure.array() - InTime(filled_, p).array();
+  Eigen::ArrayXd error = recorded_.pressure.array() - InTime(filled, p).array();
   error -= (weight_ * error).sum() / weight_.sum();
   return error;
 }
@@ -139,7 +117,8 @@ Eigen::VectorXd BesidePlateaus::Fill(const Eigen::ArrayXd& error) const {
   return filled - filled.mean();
 }
 
-PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments, const Effect& effect,
+PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments,
+                             const std::vector<CutRecord>& filled, const Effect& effect,
                              PlateauFit start) {
   const auto d = static_cast<Eigen::Index>(start.values.size());
   const auto shared = kLocals * static_cast<Eigen::Index>(experiments.size());
@@ -147,7 +126,7 @@ PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments, con
   std::vector<double> squares(experiments.size());
   const auto evaluate = [&](const PlateauFit& at, std::vector<Eigen::ArrayXd>* to) {
     for (std::size_t e = 0; e < experiments.size(); ++e) {
-      (*to)[e] = experiments[e].Error(effect, at.values, at.locals[e]);
+      (*to)[e] = experiments[e].Error(filled[e], effect, at.values, at.locals[e]);
       squares[e] = experiments[e].WeightedSquares((*to)[e]);
     }
     return Cost(experiments, squares);
@@ -159,7 +138,8 @@ PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments, con
   for (int i = 0; i < kMostSteps && damping < kMostDamping; ++i) {
     Normal all{Eigen::MatrixXd::Zero(shared + d, shared + d), Eigen::VectorXd::Zero(shared + d)};
     for (std::size_t e = 0; e < experiments.size(); ++e) {
-      const Normal own = Linearise(experiments[e], effect, best.values, best.locals[e], errors[e]);
+      const Normal own =
+          Linearise(experiments[e], filled[e], effect, best.values, best.locals[e], errors[e]);
       const Eigen::Index at = kLocals * static_cast<Eigen::Index>(e);
       all.gram.block(at, at, kLocals, kLocals) = own.gram.topLeftCorner(kLocals, kLocals);
       all.gram.block(at, shared, kLocals, d) = own.gram.topRightCorner(kLocals, d);

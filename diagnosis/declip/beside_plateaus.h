@@ -1,11 +1,11 @@
 // Cut A in the samples that saturation left: least squares over what stands beside p's plateaus,
 //
-//   minimise  sum over experiments of  n log sum over t of w(t) (p(t) - p_model(t))^2,   P_model =
-//   R Q
+//   minimise  sum over experiments of  n log sum over t of w(t) (p(t) - p_model(t))^2
 //
-// in omega, xi, N and M of each experiment and the effect's parameters; Levenberg and Marquardt.
-// w falls to zero at the record's ends, which do not know what came before, and is zero on the
-// plateaus. Coherent lines, which q does not drive, are carried on as the filled signal has them.
+// with P_model = R Q, in omega, xi, N and M of each experiment and the effect's parameters;
+// Levenberg and Marquardt. w falls to zero at the record's ends, which do not know what came
+// before, and is zero on the plateaus. Coherent lines, which q does not drive, are carried on as
+// the filled signal has them.
 #ifndef HOWL_DIAGNOSIS_DECLIP_BESIDE_PLATEAUS_H_
 #define HOWL_DIAGNOSIS_DECLIP_BESIDE_PLATEAUS_H_
 
@@ -20,12 +20,13 @@ namespace howl {
 // One experiment's p beside its plateaus.
 class BesidePlateaus {
  public:
-  // filled: the same experiment with its plateaus filled in before, or as recorded too. Both
-  // outlive this.
-  BesidePlateaus(const CutRecord& recorded, const CutRecord& filled);
+  // recorded: outlives this.
+  explicit BesidePlateaus(const CutRecord& recorded);
 
-  // Recorded less modelled p, without its mean beside the plateaus.
-  Eigen::ArrayXd Error(const Effect& effect, EffectValues x, const AcousticLocals& locals) const;
+  // Recorded less modelled p, without its mean beside the plateaus. filled: the same experiment
+  // with its plateaus filled in before, or as recorded too.
+  Eigen::ArrayXd Error(const CutRecord& filled, const Effect& effect, EffectValues x,
+                       const AcousticLocals& locals) const;
   double WeightedSquares(const Eigen::ArrayXd& error) const {
     return (weight_ * error.square()).sum();
   }
@@ -33,11 +34,9 @@ class BesidePlateaus {
   Eigen::VectorXd Fill(const Eigen::ArrayXd& error) const;
 
   const Eigen::ArrayXd& weight() const { return weight_; }
-  bool HasPlateaus() const;
 
  private:
   const CutRecord& recorded_;
-  const CutRecord& filled_;
   Plateaus plateaus_;
   Eigen::ArrayXd weight_;
 };
@@ -48,7 +47,9 @@ struct PlateauFit {
   double cost = 0.0;                   // half the sum above, n in samples beside the plateaus
 };
 
-PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments, const Effect& effect,
+// filled: of each experiment.
+PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments,
+                             const std::vector<CutRecord>& filled, const Effect& effect,
                              PlateauFit start);
 
 }  // namespace howl

@@ -44,11 +44,11 @@ AcousticLocals Step(const CutRecord& record, const EffectFit& fit, const Acousti
 }
 
 // From the fit's own acoustics on, which lie near.
-Eigen::VectorXd Fill(const CutRecord& recorded, CutRecord filled, std::size_t e, EffectFit* fit) {
+Eigen::VectorXd Fill(const BesidePlateaus& beside, CutRecord filled, std::size_t e,
+                     EffectFit* fit) {
   AcousticLocals& locals = fit->experiments[e].acoustics;
   for (int i = 0; i < kMostFillings; ++i) {
-    const BesidePlateaus beside(recorded, filled);
-    const Eigen::ArrayXd error = beside.Error(*fit->effect, fit->values, locals);
+    const Eigen::ArrayXd error = beside.Error(filled, *fit->effect, fit->values, locals);
     const Eigen::VectorXd next = beside.Fill(error);
     const double change = (next - filled.pressure).squaredNorm();
     filled = WithPressure(std::move(filled), next);
@@ -58,16 +58,16 @@ Eigen::VectorXd Fill(const CutRecord& recorded, CutRecord filled, std::size_t e,
   return filled.pressure;
 }
 
-AcousticLocals FitAlone(const CutRecord& record, const BesidePlateaus& beside, const EffectFit& fit,
+AcousticLocals FitAlone(const BesidePlateaus& beside, const CutRecord& filled, const EffectFit& fit,
                         std::size_t e) {
   std::vector<AcousticLocals> starts = {fit.experiments[e].acoustics};
-  for (const AcousticLocals& other : AcousticStarts(record, *fit.effect, fit.values, kStarts)) {
+  for (const AcousticLocals& other : AcousticStarts(filled, *fit.effect, fit.values, kStarts)) {
     starts.push_back(other);
   }
   AcousticLocals best = starts[0];
   double least = std::numeric_limits<double>::infinity();
   for (const AcousticLocals& start : starts) {
-    const PlateauFit one = FitBesidePlateaus({beside}, *fit.effect, {{}, {start}, 0.0});
+    const PlateauFit one = FitBesidePlateaus({beside}, {filled}, *fit.effect, {{}, {start}, 0.0});
     if (!(one.cost < least)) continue;
     least = one.cost;
     best = one.locals[0];
@@ -75,30 +75,38 @@ AcousticLocals FitAlone(const CutRecord& record, const BesidePlateaus& beside, c
   return best;
 }
 
-}  // namespace
+std::vector<BesidePlateaus> AllBesidePlateaus(const std::vector<CutRecord>& recorded) {
+  return {recorded.begin(), recorded.end()};
+}
 
-Declipped DeclipAt(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
-                   EffectFit fit) {
+Declipped FillAll(const std::vector<BesidePlateaus>& beside, const std::vector<CutRecord>& filled,
+                  EffectFit fit) {
   Declipped out{{}, std::move(fit)};
-  for (std::size_t e = 0; e < recorded.size(); ++e) {
-    out.pressure.push_back(Fill(recorded[e], filled[e], e, &out.fit));
+  for (std::size_t e = 0; e < beside.size(); ++e) {
+    out.pressure.push_back(Fill(beside[e], filled[e], e, &out.fit));
   }
   return out;
 }
 
+}  // namespace
+
+Declipped DeclipAt(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
+                   EffectFit fit) {
+  return FillAll(AllBesidePlateaus(recorded), filled, std::move(fit));
+}
+
 Declipped DeclipAnew(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
                      EffectFit fit) {
-  std::vector<BesidePlateaus> beside;
-  for (std::size_t e = 0; e < recorded.size(); ++e) beside.emplace_back(recorded[e], filled[e]);
+  const std::vector<BesidePlateaus> beside = AllBesidePlateaus(recorded);
   PlateauFit best{fit.values, {}, 0.0};
   for (std::size_t e = 0; e < recorded.size(); ++e) {
-    best.locals.push_back(fit.values.empty() ? FitAlone(recorded[e], beside[e], fit, e)
+    best.locals.push_back(fit.values.empty() ? FitAlone(beside[e], filled[e], fit, e)
                                              : fit.experiments[e].acoustics);
   }
-  if (!fit.values.empty()) best = FitBesidePlateaus(beside, *fit.effect, std::move(best));
+  if (!fit.values.empty()) best = FitBesidePlateaus(beside, filled, *fit.effect, std::move(best));
   fit.values = best.values;
   for (std::size_t e = 0; e < recorded.size(); ++e) fit.experiments[e].acoustics = best.locals[e];
-  return DeclipAt(recorded, filled, std::move(fit));
+  return FillAll(beside, filled, std::move(fit));
 }
 
 }  // namespace howl
