@@ -18,24 +18,36 @@ constexpr double kSameMode = 0.75;          // of one cycle's frequency over ano
 constexpr double kNeighbourLogOmega = 0.1;  // on the grid of starts
 constexpr double kNeighbourLogXi = 0.8;
 
+// Row i: of node i, for the bins between nodes 1 and 2.
+Eigen::Matrix4d LagrangeWeights() {
+  Eigen::Matrix4d weights;
+  for (Eigen::Index k = 0; k < kStride; ++k) {
+    const double u = static_cast<double>(k) / static_cast<double>(kStride);
+    weights.col(k) << -u * (u - 1.0) * (u - 2.0) / 6.0, (u + 1.0) * (u - 1.0) * (u - 2.0) / 2.0,
+        -(u + 1.0) * u * (u - 2.0) / 2.0, (u + 1.0) * u * (u - 1.0) / 6.0;
+  }
+  return weights;
+}
+
 template <typename F>
 Eigen::VectorXcd OnBand(const CutRecord& record, F&& transfer) {
+  static const Eigen::Matrix4d weights = LagrangeWeights();
+  // Real and imaginary parts are the rows.
+  using Bins = Eigen::Matrix<double, 2, Eigen::Dynamic>;
   const Eigen::Index n = record.extended();
-  const Eigen::Index nodes = n / kStride + 4;
-  Eigen::VectorXcd coarse(nodes);
-  for (Eigen::Index i = 0; i < nodes; ++i) {
-    coarse[i] =
+  const Eigen::Index blocks = n / kStride + 1;
+  Bins nodes(2, blocks + 3);
+  for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
+    const Response at =
         transfer(record.frequency_hz[0] + static_cast<double>((i - 1) * kStride) * record.bin_hz);
+    nodes.col(i) << at.real(), at.imag();
   }
-  Eigen::VectorXcd fine(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::Index i = k / kStride;  // nodes i ... i + 3 around it
-    const double u = static_cast<double>(k % kStride) / static_cast<double>(kStride);
-    fine[k] = -u * (u - 1.0) * (u - 2.0) / 6.0 * coarse[i] +
-              (u + 1.0) * (u - 1.0) * (u - 2.0) / 2.0 * coarse[i + 1] -
-              (u + 1.0) * u * (u - 2.0) / 2.0 * coarse[i + 2] +
-              (u + 1.0) * u * (u - 1.0) / 6.0 * coarse[i + 3];
+  Eigen::VectorXcd fine(blocks * kStride);
+  Eigen::Map<Bins> bins(reinterpret_cast<double*>(fine.data()), 2, fine.size());
+  for (Eigen::Index i = 0; i < blocks; ++i) {
+    bins.middleCols<kStride>(i * kStride).noalias() = nodes.middleCols<4>(i).lazyProduct(weights);
   }
+  fine.conservativeResize(n);
   return fine;
 }
 
@@ -62,8 +74,11 @@ Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect,
                                   const AcousticLocals& locals) {
   const Acoustics<double> acoustics = ToAcoustics(locals);
   const auto path = [&](double f) {
-    return effect.Acoustics(acoustics, f, record.at, x) * effect.PressureInstrument(f, x) /
-           effect.HeatReleaseInstrument(f, x);
+    const Response k =
+        effect.Acoustics(acoustics, f, record.at, x) * effect.PressureInstrument(f, x);
+    // Complex quotients are slow, and most effects need none.
+    const Response h = effect.HeatReleaseInstrument(f, x);
+    return h == 1.0 ? k : k / h;
   };
   if (record.reference.acoustic.size() > 0) {
     Eigen::VectorXcd k = OnBand(record, path).cwiseProduct(record.reference.acoustic);

@@ -1,5 +1,6 @@
 #include "diagnosis/flame_cut.h"
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <vector>
@@ -15,6 +16,7 @@ namespace {
 constexpr double kRangeMargin = 1.001;
 constexpr double kEnds = 0.02;  // of the record
 constexpr double kRidge = 1e-10;
+constexpr std::size_t kPhasors = 32;
 
 double DelayOf(const CutRecord& record, const Effect& effect, EffectValues x, double tau_s) {
   return tau_s * effect.DelayFactor(record.at, x);
@@ -23,6 +25,24 @@ double DelayOf(const CutRecord& record, const Effect& effect, EffectValues x, do
 // At its null a delay that could move is a delay like any other.
 bool DelayMoves(const Effect& effect, EffectValues x) {
   return effect.ModulatesDelay() && effect.DelayPerAmplitude(x) != 0.0;
+}
+
+// e^(-tau s) on the first `count` bins of the extended band: sines of every kPhasors-th bin alone,
+// turned on by the same few angles.
+Eigen::VectorXcd DelayOnBand(const CutRecord& record, Eigen::Index count, double tau_s) {
+  const double step = -kRadPerSPerHz * record.bin_hz * tau_s;
+  std::array<Response, kPhasors> turns;
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    turns[k] = std::polar(1.0, step * static_cast<double>(k));
+  }
+  Eigen::VectorXcd out(count);
+  Response from;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto within = static_cast<std::size_t>(k) % kPhasors;
+    if (within == 0) from = std::polar(1.0, -kRadPerSPerHz * record.frequency_hz[k] * tau_s);
+    out[k] = from * turns[within];
+  }
+  return out;
 }
 
 // v in time. `delayed` by the experiment's delay, with its slow part.
@@ -79,11 +99,10 @@ Eigen::VectorXcd FlameMultiplier(const CutRecord& record, const Effect& effect, 
                                  double tau_s) {
   const Eigen::Index n = record.flame_count + 2 * kTapReach;
   const double tau = DelayMoves(effect, x) ? 0.0 : DelayOf(record, effect, x, tau_s);
-  Eigen::VectorXcd out(n);
+  Eigen::VectorXcd out = DelayOnBand(record, n, tau);
   for (Eigen::Index k = 0; k < n; ++k) {
     const double f = record.frequency_hz[k];
-    out[k] = effect.HeatReleaseInstrument(f, x) * effect.FlameOut(f, record.at, x) *
-             std::polar(1.0, -kRadPerSPerHz * f * tau);
+    out[k] *= effect.HeatReleaseInstrument(f, x) * effect.FlameOut(f, record.at, x);
   }
   if (record.reference.flame.size() > 0) out = out.cwiseProduct(record.reference.flame).eval();
   return out;

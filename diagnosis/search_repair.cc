@@ -19,9 +19,6 @@ namespace {
 constexpr const char* kPressureClipping = "p_clipping";
 constexpr int kMostRefills = 10;
 constexpr double kLeastRefill = 0.5;  // of log-likelihood
-// Of the best's gain, what a candidate must have under the base's filling: its own raises it, and
-// was not seen to double it.
-constexpr double kWorthRefilling = 0.3;
 
 void SetPressures(const std::vector<Eigen::VectorXd>& pressures,
                   std::vector<DiagnosisExperiment>* experiments) {
@@ -76,7 +73,8 @@ void Search::RepairPressure() {
   PressureRepair repair{
       Named(at_, *(*unit)[0]).candidate, std::move(records_), std::move(base_), {},
       std::move(at_.base_held_out),      *at_.experiments};
-  const Declipped whole = DeclipAnew(repair.recorded, repair.recorded, repair.recorded_base);
+  const Declipped whole =
+      DeclipAnew(repair.recorded, repair.recorded, repair.recorded_base, options_.threads);
   SetPressures(whole.pressure, &repair.experiments);
   repair.recorded_slack = ComputeSlack(repair.recorded, repair.recorded_base);
   records_ = RemakeCutRecords(repair.experiments, repair.recorded, lines_);
@@ -97,7 +95,7 @@ void Search::RepairPressure() {
 // to fillings of their own compare.
 Search::RefilledFit Search::Refill(const EffectFit& under_base) const {
   std::vector<DiagnosisExperiment> experiments = repair_->experiments;
-  Declipped whole = DeclipAnew(repair_->recorded, records_, under_base);
+  Declipped whole = DeclipAnew(repair_->recorded, records_, under_base, options_.threads);
   auto records = std::make_shared<std::vector<CutRecord>>();
   EffectFit fit = under_base;
   for (int i = 0; i < kMostRefills; ++i) {
@@ -106,19 +104,21 @@ Search::RefilledFit Search::Refill(const EffectFit& under_base) const {
     const double before = fit.cost();
     fit = Settle(*records, base_, whole.fit);
     if (std::abs(before - fit.cost()) < kLeastRefill) break;
-    whole = DeclipAt(repair_->recorded, *records, fit);
+    whole = DeclipAt(repair_->recorded, *records, fit, options_.threads);
   }
   return {std::move(fit), std::move(records)};
 }
 
 // The best form under the base's filling need not be the best under its own.
 Attempt Search::Refilled(const Attempt& attempt, const EffectForms& forms) const {
-  RefilledFit refilled = Refill(*attempt.fit);
-  for (const EffectPointer& form : forms) {
-    if (form == attempt.fit->effect) continue;
-    RefilledFit other = Refill(FitEffect(records_, form, base_));
-    if (other.fit.cost() < refilled.fit.cost()) refilled = std::move(other);
-  }
+  std::vector<RefilledFit> each(forms.size());
+  RunUnits(forms.size(), options_.threads, [&](std::size_t i) {
+    const bool fitted = forms[i] == attempt.fit->effect;
+    each[i] = Refill(fitted ? *attempt.fit : FitEffect(records_, forms[i], base_));
+  });
+  RefilledFit& refilled = *std::min_element(
+      each.begin(), each.end(),
+      [](const RefilledFit& a, const RefilledFit& b) { return a.fit.cost() < b.fit.cost(); });
   Setting at = at_;
   at.records = refilled.records.get();
   Attempt out = FromFit(at, std::move(refilled.fit));

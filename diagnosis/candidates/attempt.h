@@ -32,6 +32,8 @@ struct Attempt {
   // Evidence beside the likelihood: what slack is left over may be the effect's own crude form.
   bool confirmed = false;
   bool seen = false;  // in the samples themselves, without a model
+  // Its second brings no more than what is crude in the first's repair may bring.
+  bool may_be_feigned = false;
   // Where the effect was taken out of the samples: the records without it.
   std::vector<DiagnosisExperiment> repaired;
   // Where p's plateaus were filled in under this fit (search_repair.cc): the records it is a fit
@@ -51,6 +53,10 @@ struct Setting {
   // After one: a fit to what the base filled in, made a fit to what it fills in itself.
   std::function<EffectFit(const EffectFit&)> refit = {};
 };
+
+// Of the best's gain, what a fit must have under the base's filling to be made a fit to its own:
+// that raises it, and was not seen to double it.
+inline constexpr double kWorthRefilling = 0.3;
 
 // An effect with several forms (orders of a filter, say): the best of them.
 Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms);

@@ -10,6 +10,7 @@
 #include "diagnosis/band_signal.h"
 #include "diagnosis/fitter.h"
 #include "diagnosis/scaled_solve.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -119,16 +120,16 @@ Eigen::VectorXd BesidePlateaus::Fill(const Eigen::ArrayXd& error) const {
 
 PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments,
                              const std::vector<CutRecord>& filled, const Effect& effect,
-                             PlateauFit start) {
+                             PlateauFit start, int threads) {
   const auto d = static_cast<Eigen::Index>(start.values.size());
   const auto shared = kLocals * static_cast<Eigen::Index>(experiments.size());
   std::vector<Eigen::ArrayXd> errors(experiments.size());
   std::vector<double> squares(experiments.size());
   const auto evaluate = [&](const PlateauFit& at, std::vector<Eigen::ArrayXd>* to) {
-    for (std::size_t e = 0; e < experiments.size(); ++e) {
+    RunUnits(experiments.size(), threads, [&](std::size_t e) {
       (*to)[e] = experiments[e].Error(filled[e], effect, at.values, at.locals[e]);
       squares[e] = experiments[e].WeightedSquares((*to)[e]);
-    }
+    });
     return Cost(experiments, squares);
   };
   PlateauFit best = std::move(start);
@@ -136,10 +137,14 @@ PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments,
   std::vector<Eigen::ArrayXd> next(experiments.size());
   double damping = kFirstDamping;
   for (int i = 0; i < kMostSteps && damping < kMostDamping; ++i) {
+    std::vector<Normal> each(experiments.size());
+    RunUnits(experiments.size(), threads, [&](std::size_t e) {
+      each[e] =
+          Linearise(experiments[e], filled[e], effect, best.values, best.locals[e], errors[e]);
+    });
     Normal all{Eigen::MatrixXd::Zero(shared + d, shared + d), Eigen::VectorXd::Zero(shared + d)};
     for (std::size_t e = 0; e < experiments.size(); ++e) {
-      const Normal own =
-          Linearise(experiments[e], filled[e], effect, best.values, best.locals[e], errors[e]);
+      const Normal& own = each[e];
       const Eigen::Index at = kLocals * static_cast<Eigen::Index>(e);
       all.gram.block(at, at, kLocals, kLocals) = own.gram.topLeftCorner(kLocals, kLocals);
       all.gram.block(at, shared, kLocals, d) = own.gram.topRightCorner(kLocals, d);

@@ -47,10 +47,10 @@ struct PlateauFit {
   double cost = 0.0;                   // half the sum above, n in samples beside the plateaus
 };
 
-// filled: of each experiment.
+// filled: of each experiment. threads: 0 for as many as there are.
 PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments,
                              const std::vector<CutRecord>& filled, const Effect& effect,
-                             PlateauFit start);
+                             PlateauFit start, int threads);
 
 }  // namespace howl
 

@@ -9,6 +9,7 @@
 #include "diagnosis/real_fft.h"
 #include "diagnosis/real_gram.h"
 #include "diagnosis/scaled_solve.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -67,7 +68,8 @@ AcousticLocals FitAlone(const BesidePlateaus& beside, const CutRecord& filled, c
   AcousticLocals best = starts[0];
   double least = std::numeric_limits<double>::infinity();
   for (const AcousticLocals& start : starts) {
-    const PlateauFit one = FitBesidePlateaus({beside}, {filled}, *fit.effect, {{}, {start}, 0.0});
+    const PlateauFit one =
+        FitBesidePlateaus({beside}, {filled}, *fit.effect, {{}, {start}, 0.0}, 1);
     if (!(one.cost < least)) continue;
     least = one.cost;
     best = one.locals[0];
@@ -80,33 +82,34 @@ std::vector<BesidePlateaus> AllBesidePlateaus(const std::vector<CutRecord>& reco
 }
 
 Declipped FillAll(const std::vector<BesidePlateaus>& beside, const std::vector<CutRecord>& filled,
-                  EffectFit fit) {
-  Declipped out{{}, std::move(fit)};
-  for (std::size_t e = 0; e < beside.size(); ++e) {
-    out.pressure.push_back(Fill(beside[e], filled[e], e, &out.fit));
-  }
+                  EffectFit fit, int threads) {
+  Declipped out{std::vector<Eigen::VectorXd>(beside.size()), std::move(fit)};
+  RunUnits(beside.size(), threads,
+           [&](std::size_t e) { out.pressure[e] = Fill(beside[e], filled[e], e, &out.fit); });
   return out;
 }
 
 }  // namespace
 
 Declipped DeclipAt(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
-                   EffectFit fit) {
-  return FillAll(AllBesidePlateaus(recorded), filled, std::move(fit));
+                   EffectFit fit, int threads) {
+  return FillAll(AllBesidePlateaus(recorded), filled, std::move(fit), threads);
 }
 
 Declipped DeclipAnew(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
-                     EffectFit fit) {
+                     EffectFit fit, int threads) {
   const std::vector<BesidePlateaus> beside = AllBesidePlateaus(recorded);
-  PlateauFit best{fit.values, {}, 0.0};
-  for (std::size_t e = 0; e < recorded.size(); ++e) {
-    best.locals.push_back(fit.values.empty() ? FitAlone(beside[e], filled[e], fit, e)
-                                             : fit.experiments[e].acoustics);
+  PlateauFit best{fit.values, std::vector<AcousticLocals>(recorded.size()), 0.0};
+  RunUnits(recorded.size(), threads, [&](std::size_t e) {
+    best.locals[e] =
+        fit.values.empty() ? FitAlone(beside[e], filled[e], fit, e) : fit.experiments[e].acoustics;
+  });
+  if (!fit.values.empty()) {
+    best = FitBesidePlateaus(beside, filled, *fit.effect, std::move(best), threads);
   }
-  if (!fit.values.empty()) best = FitBesidePlateaus(beside, filled, *fit.effect, std::move(best));
   fit.values = best.values;
   for (std::size_t e = 0; e < recorded.size(); ++e) fit.experiments[e].acoustics = best.locals[e];
-  return FillAll(beside, filled, std::move(fit));
+  return FillAll(beside, filled, std::move(fit), threads);
 }
 
 }  // namespace howl

@@ -24,14 +24,16 @@ struct Declipped {
 
 // `filled`: the same records with their plateaus filled in before, or as recorded too.
 //
+// threads: 0 for as many as there are.
+//
 // Acoustics and the effect's values are fitted beside the plateaus: from several starts where there
 // are no values, else from those given.
 Declipped DeclipAnew(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
-                     EffectFit fit);
+                     EffectFit fit, int threads);
 
 // At the effect's values as given, from its acoustics on.
 Declipped DeclipAt(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
-                   EffectFit fit);
+                   EffectFit fit, int threads);
 
 }  // namespace howl
 

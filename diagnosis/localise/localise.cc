@@ -58,18 +58,12 @@ BlockSlack Paid(const Setting& at, const EffectFit& fit, LoopBlock block, std::s
   return out;
 }
 
-BlockSlack TryForm(const Setting& at, const EffectPointer& form) {
-  const auto paid = [&](const EffectFit& fit) {
-    return Paid(at, fit, form->block(), std::string(form->id()),
-                static_cast<double>(fit.values.size()));
-  };
-  const EffectFit fit = FitEffect(*at.records, form, *at.base);
-  const BlockSlack out = paid(fit);
-  const bool refit = at.refit && form->ChangesAcousticCut() && out.gain > 0.0;
-  return refit ? paid(at.refit(fit)) : out;
+BlockSlack OfForm(const Setting& at, const EffectFit& fit) {
+  return Paid(at, fit, fit.effect->block(), std::string(fit.effect->id()),
+              static_cast<double>(fit.values.size()));
 }
 
-BlockSlack TryMap(const Setting& at, bool pressure) {
+BlockSlack OfMap(const Setting& at, bool pressure) {
   const EffectFit fit = FitFreeMap(*at.records, pressure, *at.base);
   BlockSlack out =
       Paid(at, fit, pressure ? LoopBlock::kPressureInstrument : LoopBlock::kHeatReleaseInstrument,
@@ -114,10 +108,24 @@ std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLi
   if (at.records->size() > 2) {
     add(FreePoint((*at.records)[OddOne(*at.base)].at.phi_position));
   }
+  std::vector<EffectFit> fits(forms.size());
   std::vector<BlockSlack> out(forms.size() + 2);
   RunUnits(out.size(), threads, [&](std::size_t i) {
-    out[i] = i < forms.size() ? TryForm(at, forms[i]) : TryMap(at, i == forms.size());
+    if (i >= forms.size()) {
+      out[i] = OfMap(at, i == forms.size());
+      return;
+    }
+    fits[i] = FitEffect(*at.records, forms[i], *at.base);
+    out[i] = OfForm(at, fits[i]);
   });
+  if (at.refit) {
+    double best = 0.0;
+    for (const BlockSlack& slack : out) best = std::max(best, slack.gain);
+    RunUnits(forms.size(), threads, [&](std::size_t i) {
+      if (!forms[i]->ChangesAcousticCut() || out[i].gain <= kWorthRefilling * best) return;
+      out[i] = OfForm(at, at.refit(fits[i]));
+    });
+  }
   const AdditiveGain additive = FitFreeAdditive(*at.records, *at.base);
   const auto paid = [&](LoopBlock block, const std::string& form, double gain) {
     out.push_back({block, form, gain - PriceOfParameters(additive.parameters), false,

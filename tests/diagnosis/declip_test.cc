@@ -43,7 +43,7 @@ TEST(Declip, PutsBackWhatWasCutOffButItsNoise) {
   const std::vector<DiagnosisExperiment> rig = SimulateRig();
   const std::vector<CutRecord> whole = MakeCutRecords(rig);
   const std::vector<CutRecord> recorded = MakeCutRecords(Clipped(rig));
-  const Declipped declipped = DeclipAnew(recorded, recorded, FitBase(recorded));
+  const Declipped declipped = DeclipAnew(recorded, recorded, FitBase(recorded), 1);
   for (std::size_t e = 0; e < rig.size(); ++e) {
     const Plateaus plateaus = FindPlateaus(recorded[e].pressure);
     Eigen::ArrayXd on = plateaus.upper + plateaus.lower;
@@ -65,7 +65,7 @@ TEST(Declip, AcousticsAreThoseOfTheWholeRecord) {
   const std::vector<CutRecord> recorded = MakeCutRecords(Clipped(SimulateRig()));
   const EffectFit full = FitBase(whole);
   const EffectFit base = FitBase(recorded);
-  const Declipped declipped = DeclipAnew(recorded, recorded, base);
+  const Declipped declipped = DeclipAnew(recorded, recorded, base, 2);
   for (std::size_t e = 0; e < whole.size(); ++e) {
     const AcousticLocals& truth = full.experiments[e].acoustics;
     const AcousticLocals& found = declipped.fit.experiments[e].acoustics;
@@ -79,7 +79,7 @@ TEST(Declip, AcousticsAreThoseOfTheWholeRecord) {
 TEST(Declip, LeavesARecordWithoutPlateausAlone) {
   const std::vector<CutRecord> records = MakeCutRecords(SimulateRig());
   const EffectFit base = FitBase(records);
-  const Declipped declipped = DeclipAnew(records, records, base);
+  const Declipped declipped = DeclipAnew(records, records, base, 1);
   EXPECT_LT((declipped.pressure[0] - records[0].pressure).norm(),
             1e-12 * records[0].pressure.norm());
 }
