@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <string>
 
 #include "diagnosis/bootstrap/bootstrap.h"
+#include "diagnosis/reference_clipping.h"
+#include "diagnosis/sample_limits.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -73,7 +76,38 @@ void Search::TakeLinesLeftOver() {
   base_ = FitBase(records_);
 }
 
+// Gains are squares of misfits: what clipping feigns may lie in line with what chance leaves, so
+// it is taken off the misfit.
+void Search::TakeOffWhatClippingFeigns(bool pressure) {
+  DiagnosisOptions options = options_;
+  options.memory = nullptr;
+  options.progress = {};
+  const std::vector<DiagnosisExperiment> clipped =
+      ClippedAlike(options.reference, AsRecorded(at_), pressure);
+  Search alike(clipped, options);
+  alike.TryEach();
+  const double ratio = DataRatio(*at_.experiments, clipped);
+  for (Attempt& attempt : attempts_) {
+    double& gain = attempt.candidate.gain;
+    if (!attempt.fit || gain <= 0.0) continue;
+    for (const Attempt& other : alike.attempts_) {
+      if (other.candidate.effect != attempt.candidate.effect) continue;
+      const double feigned = ratio * std::max(other.candidate.gain, 0.0);
+      gain = std::pow(std::max(std::sqrt(gain) - std::sqrt(feigned), 0.0), 2);
+    }
+  }
+}
+
 void Search::TryAll() {
+  TryEach();
+  if (!reference_ || Stopped()) return;
+  if (repair_) TakeOffWhatClippingFeigns(true);
+  if (!reference_->heat_release_sharp_edge && HasSharpEdge(records_, false)) {
+    TakeOffWhatClippingFeigns(false);
+  }
+}
+
+void Search::TryEach() {
   origin_ = ExplainLines(records_, base_, lines_);
   fluctuation_ = EstimateGainFluctuation(records_, base_);
   if (reference_) {

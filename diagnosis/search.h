@@ -47,6 +47,9 @@ class Search {
   RefilledFit Refill(const EffectFit& under_base) const;
   Attempt Refilled(const Attempt& attempt, const EffectForms& forms) const;
   void RefillBest();
+  void TryEach();
+  // Against a reference: what saturation alone brings a transfer function is no evidence of it.
+  void TakeOffWhatClippingFeigns(bool pressure);
   void TryAll();
   void Bootstrap();
   // By the bootstrap if there was one; else, where the best is weak, by a few replicates of it.

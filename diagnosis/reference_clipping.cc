@@ -1,0 +1,45 @@
+#include "diagnosis/reference_clipping.h"
+
+#include <algorithm>
+
+#include "diagnosis/sample_limits.h"
+
+namespace howl {
+namespace {
+
+double Samples(const std::vector<DiagnosisExperiment>& experiments) {
+  double sum = 0.0;
+  for (const DiagnosisExperiment& each : experiments) {
+    sum += static_cast<double>(each.record.pressure.size());
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<DiagnosisExperiment> ClippedAlike(std::vector<DiagnosisExperiment> reference,
+                                              const std::vector<CutRecord>& rig, bool pressure) {
+  double upper = 0.0;
+  double lower = 0.0;
+  for (const CutRecord& record : rig) {
+    const Plateaus plateaus = FindPlateaus(pressure ? record.pressure : record.heat_release);
+    upper += plateaus.upper.mean() / static_cast<double>(rig.size());
+    lower += plateaus.lower.mean() / static_cast<double>(rig.size());
+  }
+  for (DiagnosisExperiment& each : reference) {
+    std::vector<double>& samples = pressure ? each.record.pressure : each.record.heat_release;
+    const auto x = Eigen::Map<const Eigen::VectorXd>(samples.data(),
+                                                     static_cast<Eigen::Index>(samples.size()));
+    const double low = SampleQuantile(x, lower);
+    const double high = SampleQuantile(x, 1.0 - upper);
+    for (double& value : samples) value = std::clamp(value, low, high);
+  }
+  return reference;
+}
+
+double DataRatio(const std::vector<DiagnosisExperiment>& rig,
+                 const std::vector<DiagnosisExperiment>& reference) {
+  return Samples(rig) / Samples(reference);
+}
+
+}  // namespace howl
