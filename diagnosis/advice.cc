@@ -15,13 +15,21 @@ std::string Advice(const Diagnosis& diagnosis, bool seen) {
     return "a stable operating point, or a loudspeaker's sweep, would give the transfer functions "
            "of both cuts without the cycle";
   }
+  // Alone or in a combination.
   const auto has = [&](std::string_view id) {
-    return diagnosis.effect == id ||
-           std::find(diagnosis.indistinguishable.begin(), diagnosis.indistinguishable.end(), id) !=
-               diagnosis.indistinguishable.end();
+    const auto names = [&](const std::string& effect) {
+      return effect.find(id) != std::string::npos;
+    };
+    return names(diagnosis.effect) || std::any_of(diagnosis.indistinguishable.begin(),
+                                                  diagnosis.indistinguishable.end(), names);
   };
   if (!seen && diagnosis.bootstrap_gains.empty() && diagnosis.candidates[0].gain < kNearNoise) {
     return "--bootstrap 19 tells whether noise alone, on a rig like this, gains as much";
+  }
+  const bool clipped_alone = diagnosis.effect == "p_clipping" || diagnosis.effect == "q_clipping";
+  if (clipped_alone || (diagnosis.indistinguishable.empty() && has("_clipping"))) {
+    return "record again within the sensor's range: what its plateaus cut off can hide a weaker "
+           "effect";
   }
   if (diagnosis.indistinguishable.empty()) return "the effect stands alone: no further experiment";
   if (has("delay_dispersion") || has("second_delay_path") || has("flame_lowpass")) {

@@ -22,6 +22,10 @@ constexpr double kClassProbability = 0.02;
 // of it as slack beside the first (results/trial): less is not worth the search.
 constexpr double kSlackOfASecond = 0.3;
 
+// Of clipped q with a second that its rough repair may feign as well, over clipped q alone: one of
+// 38 was true (results/trial).
+constexpr double kFeignedOdds = 0.03;
+
 bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
   return !first.seen && first.also.empty() &&
          after.acoustic_excess + after.flame_excess > kSlackOfASecond * LeastCompeting(first);
@@ -57,8 +61,8 @@ Diagnosis Search::Run() {
   const bool seen = (repair_ && out.kind == VerdictKind::kNone) ||
                     (!attempts_.empty() && (attempts_[0].seen || attempts_[0].without_lines));
   out.candidates = Candidates();
-  out.advice = Advice(out, seen);
   if (repair_) AddClipping(&out);
+  out.advice = Advice(out, seen);
   Calibrate(seen, &out);
   return out;
 }
@@ -71,8 +75,11 @@ Search::Judgement Search::Judge() {
     std::vector<Attempt> combined =
         TryDistinctEffects(at_, attempts_, units_, lines_, options_.threads);
     if (!combined.empty()) {
+      const double p_value = attempts_[0].candidate.p_value;
+      const bool again = combined[0].candidate.effect == attempts_[0].candidate.effect;
+      if (again) attempts_.erase(attempts_.begin());
       for (Attempt& each : combined) {
-        each.candidate.p_value = attempts_[0].candidate.p_value;
+        each.candidate.p_value = p_value;
         MeasureGap(&each);
       }
       attempts_.insert(attempts_.begin(), std::make_move_iterator(combined.begin()),
@@ -157,7 +164,9 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
     const double behind = attempts_[0].candidate.gain - attempt.candidate.gain;
     // What is seen in the samples leaves no room for another alone.
     const bool out_of_question = attempts_[0].seen && !weight.empty() && attempt.also.empty();
-    weight.push_back(out_of_question ? 0.0 : std::exp(-behind / temperature));
+    weight.push_back(out_of_question          ? 0.0
+                     : attempt.may_be_feigned ? kFeignedOdds
+                                              : std::exp(-behind / temperature));
     total += weight.back();
   }
   for (std::size_t i = 0; i < attempts_.size(); ++i) {

@@ -18,8 +18,9 @@ namespace howl {
 // One for each identifier of the catalogue: its forms.
 using EffectForms = std::vector<EffectPointer>;
 
-// The most probable combination, then those that the data can hardly tell from it; empty if there
-// is no more than one effect. attempts: the best first.
+// The most probable combination, then those that the data can hardly tell from it; the best alone
+// where the second may be feigned (Attempt); empty if there is no more than one effect. attempts:
+// the best first.
 std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Attempt>& attempts,
                                         const std::vector<EffectForms>& units,
                                         const std::vector<CoherentLine>& lines, int threads);

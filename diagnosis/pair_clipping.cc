@@ -28,13 +28,16 @@ std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
     if (effect.ChangesAcousticCut()) tried[i] = TryTransfer(at, units[i]);
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
+  // A mode on top of a mode mends the repair.
+  if (best.empty() || !best[0].fit->effect->IsOwnCause(best[0].fit->values)) return {};
   // Slack that is left in cut A tells how rough the repair is.
   const double least = std::max({kAfterRepairGain, kAfterRepairShare * first.candidate.gain,
                                  ComputeSlack(records, base).acoustic_excess});
-  if (best.empty() || best[0].candidate.gain < least) return {};
-  // A mode on top of a mode mends the repair.
-  if (!best[0].fit->effect->IsOwnCause(best[0].fit->values)) return {};
-  return JoinAll(first, std::move(best));
+  if (best[0].candidate.gain >= least) return JoinAll(first, std::move(best));
+  if (best[0].candidate.gain < LeastSecond(first)) return {};
+  Attempt both = Join(first, std::move(best[0]));
+  both.may_be_feigned = true;
+  return {first, std::move(both)};
 }
 
 // A clipped q is no wrong input to the flame, and Phi takes its flat top for saturation: cut B is

@@ -25,11 +25,12 @@ EffectPointer Find(std::string_view id) {
   return nullptr;
 }
 
-void AddHum(double frequency_hz, double amplitude, std::vector<DiagnosisExperiment>* rig) {
+void AddHum(double frequency_hz, double amplitude, std::vector<DiagnosisExperiment>* rig,
+            std::vector<double> Record::*channel = &Record::heat_release) {
   for (DiagnosisExperiment& experiment : *rig) {
     for (std::size_t i = 0; i < experiment.record.pressure.size(); ++i) {
       const double t = static_cast<double>(i) / experiment.record.sampling_hz;
-      experiment.record.heat_release[i] +=
+      (experiment.record.*channel)[i] +=
           amplitude * std::sin(2.0 * std::numbers::pi * frequency_hz * t + 0.3);
     }
   }
@@ -135,6 +136,25 @@ TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
   const Diagnosis diagnosis = DiagnoseAmong({"intermittency", "q_clipping", "channel_skew"}, rig);
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
   EXPECT_EQ(diagnosis.effect, "q_clipping+intermittency");
+}
+
+// With half of q lost, what its repair gets wrong looks like damping that moves with the amplitude:
+// clipping alone is the answer, and the two together are not excluded.
+TEST(Diagnose, WhatRepairedHeatReleaseMayFeignIsNotAsserted) {
+  std::vector<DiagnosisExperiment> rig = SimulateRig();
+  CutOff(0.75, &Record::heat_release, &rig);
+  const Diagnosis alone = DiagnoseAmong({"q_clipping", "nonlinear_damping"}, rig);
+  ASSERT_EQ(alone.kind, VerdictKind::kEffect);
+  EXPECT_EQ(alone.effect, "q_clipping");
+  EXPECT_EQ(alone.indistinguishable, std::vector<std::string>{"q_clipping+nonlinear_damping"});
+  EXPECT_GT(alone.candidates[0].probability, 0.9);
+
+  AddHum(350.0, 0.05, &rig, &Record::pressure);
+  const Diagnosis hum =
+      DiagnoseAmong({"q_clipping", "nonlinear_damping", "mains_hum", "external_tone"}, rig);
+  EXPECT_EQ(hum.effect, "mains_hum+q_clipping");
+  EXPECT_EQ(hum.indistinguishable,
+            std::vector<std::string>{"mains_hum+q_clipping+nonlinear_damping"});
 }
 
 TEST(Diagnose, AnExtraModeIsSeenBesideFewLevels) {
