@@ -12,6 +12,8 @@
 namespace howl {
 namespace {
 
+constexpr std::size_t kNumbersLength = 30;  // a column with longer cells is words, which may break
+
 std::string Text(double value, int digits = 5) { return Spelled(value, digits); }
 
 std::string WithInterval(const Estimate& estimate, double scale = 1.0) {
@@ -29,14 +31,21 @@ std::string Percent(double share) {
 
 std::string Table(const std::string& caption, const std::vector<std::string>& head,
                   const std::vector<std::vector<std::string>>& rows) {
+  std::vector<char> words(head.size(), 0);
+  for (const auto& row : rows) {
+    for (std::size_t k = 1; k < row.size(); ++k) words[k] |= row[k].size() > kNumbersLength;
+  }
+  const auto cell = [&](const std::string& tag, std::size_t k, const std::string& text) {
+    return "<" + tag + (words[k] ? " class=\"words\">" : ">") + EscapeHtml(text) + "</" +
+           tag.substr(0, 2) + ">";
+  };
   std::string out = "<div class=\"scroll\"><table><caption>" + caption + "</caption><thead><tr>";
-  for (const std::string& cell : head) out += "<th scope=\"col\">" + EscapeHtml(cell) + "</th>";
+  for (std::size_t k = 0; k < head.size(); ++k) out += cell("th scope=\"col\"", k, head[k]);
   out += "</tr></thead><tbody>";
   for (const auto& row : rows) {
     out += "<tr>";
     for (std::size_t k = 0; k < row.size(); ++k) {
-      out += (k == 0 ? "<th scope=\"row\">" : "<td>") + EscapeHtml(row[k]) +
-             (k == 0 ? "</th>" : "</td>");
+      out += cell(k == 0 ? "th scope=\"row\"" : "td", k, row[k]);
     }
     out += "</tr>";
   }
@@ -131,7 +140,20 @@ std::string DiagnosisSummary(const ReportInput& input) {
       first = false;
     }
   }
-  out += ".</p>\n";
+  out += ".";
+  const auto named = [&](const char* key) {
+    return verdict.contains(key) && verdict[key].is_string() ? verdict[key].get<std::string>()
+                                                             : std::string();
+  };
+  if (kind == "unknown" && !named("repaired").empty()) {
+    out += " " + EscapeHtml(named("repaired")) +
+           " is seen in the samples; unknown is what is left once it is repaired.";
+  }
+  if (kind == "unknown" && !named("together").empty()) {
+    out += " " + EscapeHtml(named("together")) +
+           " together would come nearest: two causes, or one that is not listed.";
+  }
+  out += "</p>\n";
   std::vector<std::vector<std::string>> rows;
   for (const auto& place : input.diagnosis.value("where", nlohmann::json::array())) {
     std::string names;
