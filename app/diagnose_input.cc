@@ -4,18 +4,15 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "app/record_input.h"
+#include "diagnosis/cut_record.h"
 #include "io/user_error.h"
 
 namespace howl {
-namespace {
-
-constexpr std::size_t kFewestSamples = 4096;
-
-}  // namespace
 
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) {
   const std::string file = config.source.string();
@@ -27,16 +24,18 @@ std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) 
                           " has pressure alone, expected both signals: the diagnosis cuts "
                           "the loop between them");
     }
-    if (named.record.pressure.size() < kFewestSamples) {
-      throw UserError(file, config.experiments.front().line, "record",
-                      named.name + " has " + std::to_string(named.record.pressure.size()) +
-                          " samples, expected at least " + std::to_string(kFewestSamples));
-    }
     experiments.push_back({named.name, named.phi, std::move(named.record)});
   }
   if (experiments.empty()) {
     throw UserError(file, config.experiments.front().line, "experiments",
                     "no experiment has a record, expected at least one to diagnose");
+  }
+  if (const std::optional<CutObstacle> obstacle = FindCutObstacle(experiments)) {
+    const std::string& name = experiments[obstacle->experiment].name;
+    const auto found =
+        std::find_if(config.experiments.begin(), config.experiments.end(),
+                     [&](const ExperimentConfig& each) { return each.experiment.name == name; });
+    throw UserError(file, found->record_line, "record", name + " " + obstacle->what);
   }
   return experiments;
 }

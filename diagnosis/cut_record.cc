@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdio>
 #include <numbers>
 
 #include "diagnosis/real_fft.h"
@@ -20,6 +21,9 @@ constexpr double kHighestOfSamplingAcoustic = 0.33;
 constexpr double kHighestOfSamplingFlame = 0.26;
 constexpr double kTaper = 0.3;  // of cut B's band
 constexpr double kLowestSearched_hz = 20.0;
+constexpr double kLeastSampling_hz = 5.0 * kLowestSearched_hz;
+constexpr std::size_t kFewestSamples = 4096;
+constexpr double kFewestCycles = 20.0;
 
 Eigen::VectorXd WithoutMean(const std::vector<double>& signal, Eigen::Index samples) {
   Eigen::VectorXd out = Eigen::Map<const Eigen::VectorXd>(signal.data(), samples);
@@ -69,11 +73,19 @@ Eigen::VectorXd UpperTaper(Eigen::Index count) {
   return taper;
 }
 
+// The lower median where there are two.
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 CutRecord Spectra(const DiagnosisExperiment& experiment) {
   CutRecord out;
   const Record& record = experiment.record;
   CHECK_EQ(record.pressure.size(), record.heat_release.size()) << experiment.name;
-  CHECK_GE(record.pressure.size(), 1024u) << experiment.name;
+  CHECK_GE(record.pressure.size(), kFewestSamples / 4) << experiment.name;  // a part of one
+  CHECK_GE(record.sampling_hz, kLeastSampling_hz) << experiment.name;
   out.name = experiment.name;
   out.samples = SmoothLength(static_cast<Eigen::Index>(record.pressure.size()));
   out.sampling_hz = record.sampling_hz;
@@ -151,6 +163,39 @@ Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& s
   return InverseFft(spectrum, record.samples).array().max(0.0);
 }
 
+std::optional<CutObstacle> FindCutObstacle(const std::vector<DiagnosisExperiment>& experiments) {
+  std::vector<double> cycles;
+  const auto text = [](const char* format, double is, double least) {
+    std::array<char, 160> out{};
+    std::snprintf(out.data(), out.size(), format, is, least);
+    return std::string(out.data());
+  };
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const Record& record = experiments[e].record;
+    if (record.pressure.size() < kFewestSamples) {
+      return CutObstacle{e, text("has %.0f samples, expected at least %.0f",
+                                 static_cast<double>(record.pressure.size()),
+                                 static_cast<double>(kFewestSamples))};
+    }
+    if (record.sampling_hz < kLeastSampling_hz) {
+      return CutObstacle{e, text("is sampled at %.6g Hz, expected at least %.0f Hz",
+                                 record.sampling_hz, kLeastSampling_hz)};
+    }
+    cycles.push_back(Spectra(experiments[e]).at.cycle_frequency_hz);
+  }
+  const double cycle_hz = Median(cycles);
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const Record& record = experiments[e].record;
+    const double count =
+        cycle_hz * static_cast<double>(record.pressure.size()) / record.sampling_hz;
+    if (count >= kFewestCycles) continue;
+    return CutObstacle{
+        e, text("has %.3g cycles of the rig's strongest line, expected at least %.0f", count,
+                kFewestCycles)};
+  }
+  return std::nullopt;
+}
+
 std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments) {
   CHECK(!experiments.empty());
   std::vector<CutRecord> records;
@@ -164,8 +209,7 @@ std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& ex
     low = std::min(low, experiment.phi);
     high = std::max(high, experiment.phi);
   }
-  std::nth_element(cycles.begin(), cycles.begin() + cycles.size() / 2, cycles.end());
-  const double cycle_hz = cycles[cycles.size() / 2];
+  const double cycle_hz = Median(cycles);
   double mean_amplitude = 0.0;
   double mean_rate = 0.0;
   double mean_ratio = 0.0;

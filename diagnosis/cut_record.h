@@ -14,6 +14,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,9 +94,16 @@ Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
 // or to its own.
 Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& sense);
 
-// Records of one rig. Both channels are needed, at one sampling rate each. The band goes from 0.15
-// to 8 (cut A) and 6.4 (cut B) times the cycle's frequency, and no further than 0.34 and 0.27 of
-// the sampling rate.
+// Why a record of a rig cannot be cut, for the user to read.
+struct CutObstacle {
+  std::size_t experiment = 0;
+  std::string what;
+};
+std::optional<CutObstacle> FindCutObstacle(const std::vector<DiagnosisExperiment>& experiments);
+
+// Records of one rig, that nothing keeps from being cut. Both channels are needed, at one sampling
+// rate each. The band goes from 0.15 to 8 (cut A) and 6.4 (cut B) times the cycle's frequency, and
+// no further than 0.34 and 0.27 of the sampling rate.
 std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments);
 
 // Cut A's input without the shrinkage.

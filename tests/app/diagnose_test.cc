@@ -99,6 +99,24 @@ TEST(Diagnose, AReferenceWithoutTheOperatingPoints) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "diagnosis.state"));
 }
 
+TEST(Diagnose, ARateInKilohertzIsAMistake) {
+  const TemporaryFolder folder;
+  SimulatedRig(folder, "rig", "1");
+  const std::string rig =
+      folder
+          .Write("kilohertz.yaml",
+                 "experiments:\n"
+                 "  - name: a\n"
+                 "    phi: 0.4\n"
+                 "    record: {file: rig/exp1.csv, pressure: p, heat_release: q, sampling_hz: 5}\n")
+          .string();
+  const std::string out = (folder.path() / "out").string();
+  const ProgramResult result = RunHowl("diagnose " + rig + " --out " + out);
+  EXPECT_EQ(result.status, 2);
+  EXPECT_EQ(result.err, rig + ":4: record: a is sampled at 5 Hz, expected at least 100 Hz\n");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(Diagnose, TooFewReplicatesOrAReferenceBesideThemAreMistakes) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");

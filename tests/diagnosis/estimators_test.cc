@@ -4,7 +4,10 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "diagnosis/cut_record.h"
 #include "diagnosis/flame_basis.h"
@@ -49,6 +52,33 @@ TEST(CutRecord, WindowIsTheFourthPowerOfASine) {
   for (Eigen::Index k = 0; k < 9; ++k) alternating[k] = k % 2 == 0 ? 1.0 : -1.0;
   EXPECT_NEAR(ApplyWindow(constant, 5).norm(), 0.0, 1e-15);
   EXPECT_NEAR(std::abs(ApplyWindow(alternating, 5)[0]), 1.0, 1e-15);
+}
+
+DiagnosisExperiment Sine(std::size_t samples, double sampling_hz, double frequency_hz) {
+  DiagnosisExperiment out{"sine", 0.5, {}};
+  out.record.sampling_hz = sampling_hz;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double angle =
+        2.0 * std::numbers::pi * frequency_hz * static_cast<double>(i) / sampling_hz;
+    out.record.pressure.push_back(std::sin(angle));
+    out.record.heat_release.push_back(std::cos(angle));
+  }
+  return out;
+}
+
+TEST(CutRecord, WhatCannotBeCutIsToldWhy) {
+  const auto obstacle = [](const std::vector<DiagnosisExperiment>& rig) {
+    const auto found = FindCutObstacle(rig);
+    return found ? std::to_string(found->experiment) + " " + found->what : std::string();
+  };
+  const DiagnosisExperiment good = Sine(5000, 5000.0, 200.0);
+  EXPECT_EQ(obstacle({good, good}), "");
+  EXPECT_EQ(obstacle({good, Sine(4000, 5000.0, 200.0)}),
+            "1 has 4000 samples, expected at least 4096");
+  EXPECT_EQ(obstacle({Sine(5000, 99.0, 30.0), good}),
+            "0 is sampled at 99 Hz, expected at least 100 Hz");
+  EXPECT_EQ(obstacle({Sine(5000, 25000.0, 50.0)}),
+            "0 has 10 cycles of the rig's strongest line, expected at least 20");
 }
 
 TEST(CutRecord, BinCorrelationIsThatOfTheTaps) {
