@@ -181,6 +181,9 @@ std::optional<CutObstacle> FindCutObstacle(const std::vector<DiagnosisExperiment
       return CutObstacle{e, text("is sampled at %.6g Hz, expected at least %.0f Hz",
                                  record.sampling_hz, kLeastSampling_hz)};
     }
+    if (record.pressure == record.heat_release) {
+      return CutObstacle{e, "has the same samples as p and as q, expected two signals"};
+    }
     cycles.push_back(Spectra(experiments[e]).at.cycle_frequency_hz);
   }
   const double cycle_hz = Median(cycles);

@@ -77,6 +77,9 @@ TEST(CutRecord, WhatCannotBeCutIsToldWhy) {
             "1 has 4000 samples, expected at least 4096");
   EXPECT_EQ(obstacle({Sine(5000, 99.0, 30.0), good}),
             "0 is sampled at 99 Hz, expected at least 100 Hz");
+  DiagnosisExperiment twice = good;
+  twice.record.heat_release = twice.record.pressure;
+  EXPECT_EQ(obstacle({twice}), "0 has the same samples as p and as q, expected two signals");
   EXPECT_EQ(obstacle({Sine(5000, 25000.0, 50.0)}),
             "0 has 10 cycles of the rig's strongest line, expected at least 20");
 }
