@@ -33,7 +33,9 @@ std::string Table(const std::string& caption, const std::vector<std::string>& he
                   const std::vector<std::vector<std::string>>& rows) {
   std::vector<char> words(head.size(), 0);
   for (const auto& row : rows) {
-    for (std::size_t k = 1; k < row.size(); ++k) words[k] |= row[k].size() > kNumbersLength;
+    for (std::size_t k = 1; k < row.size(); ++k) {
+      if (row[k].size() > kNumbersLength) words[k] = 1;
+    }
   }
   const auto cell = [&](const std::string& tag, std::size_t k, const std::string& text) {
     return "<" + tag + (words[k] ? " class=\"words\">" : ">") + EscapeHtml(text) + "</" +
