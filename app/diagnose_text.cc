@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/text_table.h"
+#include "io/results/verdict_remarks.h"
 
 namespace howl {
 namespace {
@@ -61,13 +62,8 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
           "verdict: unknown; no effect of the catalogue explains the gap (probability "
           "%.2f)\n",
           diagnosis.probability_unknown);
-      if (!diagnosis.repaired.empty()) {
-        std::printf("  %s is seen in the samples; unknown is what is left once it is repaired\n",
-                    diagnosis.repaired.c_str());
-      }
-      if (!diagnosis.together.empty()) {
-        std::printf("  %s together would come nearest: two causes, or one that is not listed\n",
-                    diagnosis.together.c_str());
+      for (const std::string& remark : RemarksOnUnknown(diagnosis.repaired, diagnosis.together)) {
+        std::printf("  %s\n", remark.c_str());
       }
       break;
     case VerdictKind::kEffect:

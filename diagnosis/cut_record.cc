@@ -10,6 +10,7 @@
 
 #include "diagnosis/real_fft.h"
 #include "diagnosis/sensor_noise.h"
+#include "estimation/statistics.h"
 
 namespace howl {
 namespace {
@@ -71,13 +72,6 @@ Eigen::VectorXd UpperTaper(Eigen::Index count) {
     taper[k] = 0.5 * (1.0 - std::cos(std::numbers::pi * std::min(to_edge, 1.0)));
   }
   return taper;
-}
-
-// The lower median where there are two.
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 CutRecord Spectra(const DiagnosisExperiment& experiment) {

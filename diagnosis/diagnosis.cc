@@ -76,6 +76,7 @@ Search::Judgement Search::Judge() {
         TryDistinctEffects(at_, attempts_, units_, lines_, options_.threads);
     if (!combined.empty()) {
       const double p_value = attempts_[0].candidate.p_value;
+      // The best alone stays on top of a combination that may be feigned.
       const bool again = combined[0].candidate.effect == attempts_[0].candidate.effect;
       if (again) attempts_.erase(attempts_.begin());
       for (Attempt& each : combined) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/cut_record.h"
+#include "estimation/statistics.h"
 
 namespace howl {
 namespace {
@@ -12,16 +13,10 @@ namespace {
 constexpr int kIterations = 40;
 constexpr double kConverged = 1e-5;
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 1.0;
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 double TypicalPower(const Eigen::VectorXcd& residual, Eigen::Index from) {
   std::vector<double> power;
   for (Eigen::Index k = from; k < residual.size(); ++k) power.push_back(std::norm(residual[k]));
-  return std::max(Median(power) / std::log(2.0), 1e-300);
+  return std::max((power.empty() ? 1.0 : Median(power)) / std::log(2.0), 1e-300);
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
     tried[i] = FromFit(at, Settle(*at.records, *at.base, *seconds[i]));
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
-  const double least = std::max(LeastCompeting(first), at.reference ? kNearNoise : 0.0);
+  const double least = std::max(LeastCompeting(first), NoiseBesideReference(at));
   if (best.empty() || best[0].candidate.gain - first.candidate.gain < least) {
     return std::nullopt;
   }

@@ -61,7 +61,7 @@ std::vector<Attempt> BesideClippedHeatRelease(const Attempt& first,
 std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
                                     const std::vector<EffectForms>& units,
                                     const std::vector<CoherentLine>& lines, int threads) {
-  const double least = at.reference ? kNearNoise : DetectionGain(true);
+  const double least = std::max(DetectionGain(true), NoiseBesideReference(at));
   std::vector<Attempt> pairs = BesideClippedHeatRelease(attempts[0], attempts, least);
   return pairs.empty() ? AfterRepair(at, attempts[0], units, lines, threads) : pairs;
 }

@@ -133,12 +133,12 @@ Eigen::VectorXd Share(const CutRecord& record, const Eigen::VectorXd& kappa, Eig
   return out;
 }
 
-double MeanSamples(const std::vector<DiagnosisExperiment>& experiments) {
+double Samples(const std::vector<DiagnosisExperiment>& experiments) {
   double sum = 0.0;
   for (const DiagnosisExperiment& each : experiments) {
     sum += static_cast<double>(each.record.pressure.size());
   }
-  return sum / static_cast<double>(experiments.size());
+  return sum;
 }
 
 // The bias by noise in q is the same in reference and rig, and no evidence.
@@ -149,6 +149,11 @@ std::vector<CutRecord> CutAsRecorded(const std::vector<DiagnosisExperiment>& exp
 }
 
 }  // namespace
+
+double DataRatio(const std::vector<DiagnosisExperiment>& rig,
+                 const std::vector<DiagnosisExperiment>& reference) {
+  return Samples(rig) / Samples(reference);
+}
 
 void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* to) {
   for (std::size_t e = 0; e < from.size(); ++e) {
@@ -201,10 +206,11 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
       std::all_of(reference.begin(), reference.end(), [](const DiagnosisExperiment& each) {
         return each.record.pressure.size() >= 2 * kFewestSamples;
       });
-  const double length_ratio = MeanSamples(rig) / MeanSamples(reference);
+  const double data_ratio = DataRatio(rig, reference);
+  const double length_ratio =
+      data_ratio * static_cast<double>(reference.size()) / static_cast<double>(rig.size());
   // Lengths of the predicted and the predicting record, over one another, in the self-test.
-  double fluctuation_scale =
-      length_ratio * static_cast<double>(rig.size()) / static_cast<double>(reference.size());
+  double fluctuation_scale = data_ratio;
   if (paired && halves) {
     std::vector<CutRecord> part[2];
     std::vector<ReferencePoint> described[2];
@@ -257,8 +263,6 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
   if (test.fluctuation_gains.empty()) {
     out.fluctuation_gain = 2.0 * fluctuation_scale * EstimateGainFluctuation(own, absorbed).gain;
   }
-  const double data_ratio =
-      length_ratio * static_cast<double>(rig.size()) / static_cast<double>(reference.size());
   const ClippingFit p = FitClipping(own, true, absorbed);
   const ClippingFit q = FitClipping(own, false, absorbed);
   out.pressure_clipping_gain = data_ratio * p.gain;

@@ -68,6 +68,10 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
                                const std::vector<DiagnosisExperiment>& rig,
                                std::vector<CutRecord>* records);
 
+// Samples of the rig over those of the reference: gains grow with them.
+double DataRatio(const std::vector<DiagnosisExperiment>& rig,
+                 const std::vector<DiagnosisExperiment>& reference);
+
 // The same records made anew from changed signals keep what the reference says of them.
 void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* to);
 // With the lines masked too.

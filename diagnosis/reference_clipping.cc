@@ -5,17 +5,6 @@
 #include "diagnosis/sample_limits.h"
 
 namespace howl {
-namespace {
-
-double Samples(const std::vector<DiagnosisExperiment>& experiments) {
-  double sum = 0.0;
-  for (const DiagnosisExperiment& each : experiments) {
-    sum += static_cast<double>(each.record.pressure.size());
-  }
-  return sum;
-}
-
-}  // namespace
 
 std::vector<DiagnosisExperiment> ClippedAlike(std::vector<DiagnosisExperiment> reference,
                                               const std::vector<CutRecord>& rig, bool pressure) {
@@ -35,11 +24,6 @@ std::vector<DiagnosisExperiment> ClippedAlike(std::vector<DiagnosisExperiment> r
     for (double& value : samples) value = std::clamp(value, low, high);
   }
   return reference;
-}
-
-double DataRatio(const std::vector<DiagnosisExperiment>& rig,
-                 const std::vector<DiagnosisExperiment>& reference) {
-  return Samples(rig) / Samples(reference);
 }
 
 }  // namespace howl

@@ -15,10 +15,6 @@ namespace howl {
 std::vector<DiagnosisExperiment> ClippedAlike(std::vector<DiagnosisExperiment> reference,
                                               const std::vector<CutRecord>& rig, bool pressure);
 
-// Samples of the rig over those of the reference: gains grow with them.
-double DataRatio(const std::vector<DiagnosisExperiment>& rig,
-                 const std::vector<DiagnosisExperiment>& reference);
-
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_REFERENCE_CLIPPING_H_

@@ -4,6 +4,8 @@
 #include <functional>
 #include <limits>
 
+#include "estimation/statistics.h"
+
 namespace howl {
 namespace {
 
@@ -151,9 +153,7 @@ FewLevels FindQuantisation(const std::vector<CutRecord>& records) {
     ++found;
     std::vector<double> steps;
     for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                     steps.end());
-    out.levels += (values.back() - values.front()) / steps[steps.size() / 2] + 1.0;
+    out.levels += (values.back() - values.front()) / Median(steps) + 1.0;
   }
   out.found = 2 * found > records.size();
   if (found > 0) out.levels /= static_cast<double>(found);

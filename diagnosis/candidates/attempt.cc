@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "diagnosis/sample_limits.h"
+#include "diagnosis/verdict.h"
 
 namespace howl {
 namespace {
@@ -36,6 +37,8 @@ bool ShowsInFlame(const Attempt& attempt) {
 const std::vector<CutRecord>& AsRecorded(const Setting& at) {
   return at.recorded ? *at.recorded : *at.records;
 }
+
+double NoiseBesideReference(const Setting& at) { return at.reference ? kNearNoise : 0.0; }
 
 bool ShowsLimits(const Setting& at, bool pressure) {
   const ReferenceModel* known = at.reference;

@@ -80,6 +80,10 @@ bool ShowsInFlame(const Attempt& attempt);
 // Levels are those of the samples as they were recorded.
 const std::vector<CutRecord>& AsRecorded(const Setting& at);
 
+// What a gain may be that is no evidence, where a reference stands in the model's place: no
+// replicate of it can be simulated. Zero without one.
+double NoiseBesideReference(const Setting& at);
+
 // In the channel's samples an edge of the density, or in p's few levels, that a reference has not.
 bool ShowsLimits(const Setting& at, bool pressure);
 

@@ -67,9 +67,11 @@ AcousticLocals FitAlone(const BesidePlateaus& beside, const CutRecord& filled, c
   }
   AcousticLocals best = starts[0];
   double least = std::numeric_limits<double>::infinity();
+  const std::vector<BesidePlateaus> one_beside = {beside};
+  const std::vector<CutRecord> one_filled = {filled};
   for (const AcousticLocals& start : starts) {
     const PlateauFit one =
-        FitBesidePlateaus({beside}, {filled}, *fit.effect, {{}, {start}, 0.0}, 1);
+        FitBesidePlateaus(one_beside, one_filled, *fit.effect, {{}, {start}, 0.0}, 1);
     if (!(one.cost < least)) continue;
     least = one.cost;
     best = one.locals[0];

@@ -8,6 +8,7 @@
 #include "io/report/figures/curves.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
+#include "io/results/verdict_remarks.h"
 
 namespace howl {
 namespace {
@@ -147,13 +148,10 @@ std::string DiagnosisSummary(const ReportInput& input) {
     return verdict.contains(key) && verdict[key].is_string() ? verdict[key].get<std::string>()
                                                              : std::string();
   };
-  if (kind == "unknown" && !named("repaired").empty()) {
-    out += " " + EscapeHtml(named("repaired")) +
-           " is seen in the samples; unknown is what is left once it is repaired.";
-  }
-  if (kind == "unknown" && !named("together").empty()) {
-    out += " " + EscapeHtml(named("together")) +
-           " together would come nearest: two causes, or one that is not listed.";
+  if (kind == "unknown") {
+    for (const std::string& remark : RemarksOnUnknown(named("repaired"), named("together"))) {
+      out += " " + EscapeHtml(remark) + ".";
+    }
   }
   out += "</p>\n";
   std::vector<std::vector<std::string>> rows;
