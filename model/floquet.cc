@@ -19,19 +19,21 @@ constexpr int kFirst = kFirstNode<kOrder>;  // -3
 constexpr int kLast = kFirst + kOrder - 1;  // 4
 constexpr int kMinDelaySteps = 2 * kLast;   // the scheme stays explicit
 
-// Rows are linear functionals of the initial state (x_0: 4; p'_0, p'_-1, ...: past).
+// Rows are linear functionals of the initial state (x_0: 4; p'_0, p'_-1, ...: past). Time is in
+// units of 1 / w, w = 2 pi omega, so that p and p' are of one size and the eigenvalues do not lose
+// digits to the frequency.
 class Monodromy {
  public:
-  Monodromy(const ClosedLoop& model, const LimitCycle& cycle, int steps)
-      : steps_(steps), step_s_(1.0 / (cycle.frequency_hz * steps)) {
+  Monodromy(const ClosedLoop& model, const LimitCycle& cycle, int steps) : steps_(steps) {
     const Acoustics<double>& a = model.loop.acoustics;
-    const double omega = kRadPerSPerHz * a.omega_hz;
-    omegas_ = {omega, a.harmonic_ratio * omega};
+    const double w = kRadPerSPerHz * a.omega_hz;
+    const double step = w / (cycle.frequency_hz * steps);
+    omegas_ = {1.0, a.harmonic_ratio};
     xi_ = a.xi;
-    direct_ = a.N + a.M;
-    modes_[0] = MakeModeStep<kOrder>(omegas_[0], a.xi, a.N, step_s_);
-    modes_[1] = MakeModeStep<kOrder>(omegas_[1], a.xi, a.M, step_s_);
-    const double delay = model.loop.tau_s / step_s_;
+    direct_ = (a.N + a.M) / w;
+    modes_[0] = MakeModeStep<kOrder>(omegas_[0], a.xi, a.N / w, step);
+    modes_[1] = MakeModeStep<kOrder>(omegas_[1], a.xi, a.M / w, step);
+    const double delay = model.loop.tau_s * cycle.frequency_hz * steps;
     delay_steps_ = static_cast<int>(std::ceil(delay));
     CHECK_GE(delay_steps_, kMinDelaySteps);
     delay_weights_ = LagrangeWeights<kOrder>(delay_steps_ - delay);
@@ -39,7 +41,7 @@ class Monodromy {
     slope_.resize(static_cast<std::size_t>(steps));
     for (int i = 0; i < steps; ++i) {
       const double v = EvaluateHarmonics(cycle.rate, 2.0 * std::numbers::pi * i / steps);
-      slope_[static_cast<std::size_t>(i)] = FlameSlope(model.flame, v);
+      slope_[static_cast<std::size_t>(i)] = w * FlameSlope(model.flame, v);
     }
   }
 
@@ -92,7 +94,6 @@ class Monodromy {
 
  private:
   int steps_;
-  double step_s_;
   std::array<double, 2> omegas_{};
   double xi_ = 0.0;
   double direct_ = 0.0;

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <complex>
 
+#include "model/cycle_scale.h"
+
 namespace howl::internal {
 namespace {
 
-constexpr int kChunk = 16 * kLoopBlock;  // steps between visits of the recorders
-constexpr double kAmplitudeMemory_s = 0.02;
+constexpr int kChunk = 16 * kLoopBlock;      // steps between visits of the recorders
+constexpr double kAmplitudeMemory_s = 0.02;  // of a first mode at the paper's 220 Hz
 
 bool SameLoop(const LoopParameters<double>& a, const LoopParameters<double>& b) {
   return a.acoustics.omega_hz == b.acoustics.omega_hz && a.acoustics.xi == b.acoustics.xi &&
@@ -45,6 +47,7 @@ class LaneGroup {
       most_delay_steps = std::max(most_delay_steps, c.delay_steps);
     }
     has_effects_ = W == 1 && !first.effects.empty();
+    memory_s_ /= CycleScale(first.model.loop.acoustics.omega_hz);
     if (has_effects_) {
       most_delay_steps *= 4;
       for (const auto& effect : first.effects) {
@@ -260,7 +263,7 @@ class LaneGroup {
       rate += rate_[at] * rate_[at];
       pressure += pressure_[at] * pressure_[at];
     }
-    const double keep = std::exp(-kLoopBlock * step_s_ / kAmplitudeMemory_s);
+    const double keep = std::exp(-kLoopBlock * step_s_ / memory_s_);
     if (step_ == 0) {  // the past is known
       rate_square_ = pressure_square_ = 0.0;
       for (int i = 0; i <= row_; ++i) {
@@ -337,6 +340,7 @@ class LaneGroup {
   LoopContext context_;
   double rate_square_ = 0.0;
   double pressure_square_ = 0.0;
+  double memory_s_ = kAmplitudeMemory_s;
 };
 
 }  // namespace

@@ -29,6 +29,18 @@ Complex64 Characteristic(const LoopParameters<double>& loop, double slope, Compl
   return d1 * d2 - slope * z * (a.N * d2 + a.M * d1) * std::exp(-loop.tau_s * s);
 }
 
+// Beyond a bound, so that no zero lies on the contour.
+constexpr double kBeyond = 1e-3;  // of w
+
+// The loop with time in units of 1 / w: all that follows is free of the frequency.
+LoopParameters<double> InUnitsOfW(LoopParameters<double> loop, double w) {
+  loop.acoustics.omega_hz = 1.0 / kRadPerSPerHz;
+  loop.acoustics.N /= w;
+  loop.acoustics.M /= w;
+  loop.tau_s *= w;
+  return loop;
+}
+
 // sup over the right half-plane of |s^2 / D|: its largest value on the imaginary axis.
 double LargestRateGain(double xi) {
   return xi < std::numbers::sqrt2 / 2.0 ? 1.0 / (2.0 * xi * std::sqrt(1.0 - xi * xi)) : 1.0;
@@ -38,7 +50,7 @@ double GrowthBound(const LoopParameters<double>& loop, double slope) {
   const Acoustics<double>& a = loop.acoustics;
   const double gain =
       std::abs(slope) * (std::abs(a.N) + std::abs(a.M)) * LargestRateGain(a.xi) * 1.01;
-  return std::max(std::log(gain) / loop.tau_s, 0.0) + 1.0;
+  return std::max(std::log(gain) / loop.tau_s, 0.0) + kBeyond;
 }
 
 Eigen::MatrixXd Generator(const LoopParameters<double>& loop, double slope, int n) {
@@ -65,16 +77,15 @@ Eigen::MatrixXd Generator(const LoopParameters<double>& loop, double slope, int 
 }
 
 std::optional<Complex64> Newton(const LoopParameters<double>& loop, double slope, Complex64 s) {
-  const double scale = kRadPerSPerHz * loop.acoustics.omega_hz;
   for (int i = 0; i < 40; ++i) {
     const ModeTransfer l = LoopTransfer(loop, s);
     // On log(k L) = 0: nearly linear in s, the delay dominating.
     Complex64 step = std::log(slope * l.value) * l.value / l.derivative;
     if (!std::isfinite(step.real()) || !std::isfinite(step.imag())) return std::nullopt;
-    const double limit = 0.2 * scale;
-    if (std::abs(step) > limit) step *= limit / std::abs(step);
+    constexpr double kLongest = 0.2;
+    if (std::abs(step) > kLongest) step *= kLongest / std::abs(step);
     s -= step;
-    if (std::abs(step) < 1e-14 * scale) {
+    if (std::abs(step) < 1e-14) {
       const bool solved = std::abs(slope * LoopTransfer(loop, s).value - 1.0) < 1e-8;
       return solved ? std::optional(s) : std::nullopt;
     }
@@ -124,14 +135,17 @@ int CountZeros(const LoopParameters<double>& loop, double slope, double growth_m
 
 }  // namespace
 
-PoleSet ClosedLoopPoles(const LoopParameters<double>& loop, double flame_slope,
+PoleSet ClosedLoopPoles(const LoopParameters<double>& loop_in_s, double slope_in_s,
                         const PoleOptions& options) {
-  CHECK_GT(loop.tau_s, 0.0);
-  CHECK_NE(flame_slope, 0.0);
-  const double w_max = kRadPerSPerHz * options.frequency_max_hz;
-  const double bound = std::max(GrowthBound(loop, flame_slope), options.growth_min + 1.0);
-  const double scale = kRadPerSPerHz * loop.acoustics.omega_hz;
-  const int zeros = CountZeros(loop, flame_slope, options.growth_min, bound, w_max);
+  CHECK_GT(loop_in_s.tau_s, 0.0);
+  CHECK_NE(slope_in_s, 0.0);
+  const double w = kRadPerSPerHz * loop_in_s.acoustics.omega_hz;
+  const LoopParameters<double> loop = InUnitsOfW(loop_in_s, w);
+  const double flame_slope = slope_in_s * w;
+  const double w_max = options.frequency_max;
+  const double growth_min = options.growth_min;
+  const double bound = std::max(GrowthBound(loop, flame_slope), growth_min + kBeyond);
+  const int zeros = CountZeros(loop, flame_slope, growth_min, bound, w_max);
 
   PoleSet set;
   // A polynomial resolves e^(j w theta) over tau once it has pi points a wave or so.
@@ -140,16 +154,15 @@ PoleSet ClosedLoopPoles(const LoopParameters<double>& loop, double flame_slope,
     const Eigen::VectorXcd eigenvalues = Generator(loop, flame_slope, n).eigenvalues();
     std::vector<Complex64> found;
     for (const Complex64& start : eigenvalues) {
-      if (start.imag() < -1e-6 * scale || start.imag() > 1.1 * w_max ||
-          start.real() < options.growth_min - scale) {
+      if (start.imag() < -1e-6 || start.imag() > 1.1 * w_max || start.real() < growth_min - 1.0) {
         continue;
       }
       const std::optional<Complex64> s = Newton(loop, flame_slope, start);
-      if (!s || s->real() < options.growth_min || s->imag() > w_max || s->imag() < -1e-9 * scale) {
+      if (!s || s->real() < growth_min || s->imag() > w_max || s->imag() < -1e-9) {
         continue;
       }
       const bool known = std::any_of(found.begin(), found.end(), [&](const Complex64& other) {
-        return std::abs(other - *s) < 1e-9 * scale;
+        return std::abs(other - *s) < 1e-9;
       });
       if (!known) found.push_back(*s);
     }
@@ -159,8 +172,8 @@ PoleSet ClosedLoopPoles(const LoopParameters<double>& loop, double flame_slope,
     int listed = 0;
     int real = 0;
     for (const Complex64& s : found) {
-      const bool is_real = std::abs(s.imag()) < 1e-9 * scale;
-      set.poles.push_back({s.real(), is_real ? 0.0 : s.imag() / kRadPerSPerHz});
+      const bool is_real = std::abs(s.imag()) < 1e-9;
+      set.poles.push_back({w * s.real(), is_real ? 0.0 : s.imag() * loop_in_s.acoustics.omega_hz});
       listed += is_real ? 1 : 2;
       real += is_real ? 1 : 0;
     }
@@ -171,13 +184,13 @@ PoleSet ClosedLoopPoles(const LoopParameters<double>& loop, double flame_slope,
   return set;
 }
 
-Pole RightmostPole(const LoopParameters<double>& loop, double flame_slope,
-                   double frequency_max_hz) {
-  for (double growth_min = -200.0; growth_min > -1e6; growth_min *= 4.0) {
-    const PoleSet set = ClosedLoopPoles(loop, flame_slope, {growth_min, frequency_max_hz});
+Pole RightmostPole(const LoopParameters<double>& loop, double flame_slope, double frequency_max) {
+  constexpr double kDeepest = -1e3;
+  for (double growth_min = PoleOptions().growth_min; growth_min > kDeepest; growth_min *= 4.0) {
+    const PoleSet set = ClosedLoopPoles(loop, flame_slope, {growth_min, frequency_max});
     if (!set.poles.empty()) return set.poles.front();
   }
-  LOG(FATAL) << "no pole up to " << frequency_max_hz << " Hz";
+  LOG(FATAL) << "no pole up to " << frequency_max << " times omega";
 }
 
 }  // namespace howl

@@ -6,11 +6,13 @@
 // Chebyshev points (Breda, Maset & Vermiglio 2005): with x the modes' states and w = p' over the
 // past tau seconds, x' = A x + B k w(-tau), dw/dt = dw/dtheta, w(0) = C x + (N + M) k w(-tau).
 // Then Newton on the characteristic equation, to rounding. Then a count by the argument principle
-// over the rectangle growth_min <= Re s <= bound, |Im s| <= 2 pi frequency_max, where `bound`
-// exceeds the real part of every pole: |k| sup|s G| e^(-tau bound) < 1. If the count and the list
-// differ, the discretisation is refined.
+// over the rectangle growth_min <= Re s <= bound, |Im s| <= frequency_max, where `bound` exceeds
+// the real part of every pole: |k| sup|s G| e^(-tau bound) < 1. If the count and the list differ,
+// the discretisation is refined.
 //
-// Growth rates in 1/s, frequencies in Hz.
+// Growth rates in 1/s, frequencies in Hz. What is searched is a share of the first mode's natural
+// frequency w = 2 pi omega, so that the same loop run slower or faster has the same poles for the
+// same work.
 #ifndef HOWL_MODEL_POLES_H_
 #define HOWL_MODEL_POLES_H_
 
@@ -26,8 +28,8 @@ struct Pole {
 };
 
 struct PoleOptions {
-  double growth_min = -200.0;
-  double frequency_max_hz = 2000.0;
+  double growth_min = -0.15;    // of w; lower rates are not looked for
+  double frequency_max = 10.0;  // of omega: three times the paper's second mode and more
 };
 
 struct PoleSet {
@@ -39,9 +41,10 @@ struct PoleSet {
 PoleSet ClosedLoopPoles(const LoopParameters<double>& loop, double flame_slope,
                         const PoleOptions& options = {});
 
-// Of the rightmost pole; the search widens until there is one.
+// Of the rightmost pole up to frequency_max, in units of omega; the search widens until there is
+// one.
 Pole RightmostPole(const LoopParameters<double>& loop, double flame_slope,
-                   double frequency_max_hz = 2000.0);
+                   double frequency_max = PoleOptions().frequency_max);
 
 }  // namespace howl
 

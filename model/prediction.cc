@@ -9,13 +9,14 @@ int LoopPrediction::attracting_cycles() const {
                                         [](const PredictedCycle& c) { return c.floquet.stable; }));
 }
 
-LoopPrediction PredictLoop(const ClosedLoop& model, double frequency_max_hz) {
+LoopPrediction PredictLoop(const ClosedLoop& model, double frequency_max) {
   const double slope = FlameSlope(model.flame, 0.0);
   LoopPrediction prediction;
+  const double frequency_max_hz = frequency_max * model.loop.acoustics.omega_hz;
   prediction.crossings = PhaseCrossings(model.loop, slope, frequency_max_hz);
   prediction.margins = Margins(model.loop, slope, frequency_max_hz);
   PoleOptions options;
-  options.frequency_max_hz = frequency_max_hz;
+  options.frequency_max = frequency_max;
   prediction.poles = ClosedLoopPoles(model.loop, slope, options);
   for (LimitCycle& cycle : LimitCycles(model, frequency_max_hz)) {
     FloquetMultipliers floquet = CycleStability(model, cycle);

@@ -28,7 +28,9 @@ struct LoopPrediction {
   int attracting_cycles() const;
 };
 
-LoopPrediction PredictLoop(const ClosedLoop& model, double frequency_max_hz = 2000.0);
+// Up to frequency_max, in units of omega.
+LoopPrediction PredictLoop(const ClosedLoop& model,
+                           double frequency_max = PoleOptions().frequency_max);
 
 // From combustion noise n to pressure and to heat release in a loop at rest, at j 2 pi f:
 // p / n = G / (1 - k L), q / n = 1 / (1 - k L), k = Phi'(0). With the noise's density S(f) the

@@ -9,13 +9,14 @@
 #include <numeric>
 #include <tuple>
 
+#include "model/cycle_scale.h"
 #include "model/harmonic_balance.h"
 #include "model/lane_group.h"
 
 namespace howl {
 namespace {
 
-constexpr double kMinInternalHz = 20000.0;
+constexpr double kMinInternalHz = 20000.0;  // of a first mode at the paper's 220 Hz
 constexpr double kDelaySteps = 48.0;
 
 }  // namespace
@@ -26,7 +27,8 @@ double InternalRate(const RigParameters& rig, double sampling_hz) {
   for (const auto& effect : rig.effects) {
     shortest_s = std::min(shortest_s, effect->ShortestDelay(tau_s));
   }
-  const double least = std::max(kMinInternalHz, kDelaySteps / shortest_s);
+  const double scale = CycleScale(rig.model.loop.acoustics.omega_hz);
+  const double least = std::max(kMinInternalHz * scale, kDelaySteps / shortest_s);
   return sampling_hz * std::max(1.0, std::ceil(least / sampling_hz - 1e-9));
 }
 

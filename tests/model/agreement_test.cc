@@ -86,7 +86,9 @@ TEST(Agreement, GrowthRateOfASimulatedStartIsTheRightmostPole) {
   int on_mode = 0;
   for (std::uint64_t i = 0; i < kRigs; ++i) {
     const ClosedLoop model = RandomRig(i);
-    const PoleSet set = ClosedLoopPoles(model.loop, model.flame.slope, {-400.0, 2500.0});
+    const double omega_hz = model.loop.acoustics.omega_hz;
+    const PoleSet set = ClosedLoopPoles(model.loop, model.flame.slope,
+                                        {-400.0 / (kTwoPi * omega_hz), 2500.0 / omega_hz});
     ASSERT_TRUE(set.complete) << i;
     ASSERT_FALSE(set.poles.empty()) << i;
     const Pole& first = set.poles.front();

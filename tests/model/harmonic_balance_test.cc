@@ -88,14 +88,14 @@ TEST(HarmonicBalance, ClippedFlameConvergesSlowlyButDoes) {
 
 TEST(Prediction, GathersWhatTheLoopWillDo) {
   // Between 0.625 and 0.923 two cycles attract; at 0.415 one; with less gain none, and rest does.
-  EXPECT_EQ(PredictLoop(SeedLoop(0.75), 900.0).attracting_cycles(), 2);
-  const LoopPrediction one = PredictLoop(SeedLoop(0.415), 900.0);
+  EXPECT_EQ(PredictLoop(SeedLoop(0.75), 4.2).attracting_cycles(), 2);
+  const LoopPrediction one = PredictLoop(SeedLoop(0.415), 4.2);
   EXPECT_EQ(one.attracting_cycles(), 1);
   EXPECT_FALSE(one.rest_is_stable());
   EXPECT_FALSE(one.margins.stable);
   ClosedLoop weak = SeedLoop(0.415);
   weak.flame.slope *= 0.8;
-  const LoopPrediction none = PredictLoop(weak, 900.0);
+  const LoopPrediction none = PredictLoop(weak, 4.2);
   EXPECT_TRUE(none.cycles.empty());
   EXPECT_TRUE(none.rest_is_stable());
   EXPECT_TRUE(none.margins.stable);
