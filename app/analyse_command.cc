@@ -65,7 +65,7 @@ void PrintLines(const AnalysisSet& set) {
   std::printf("\nstrongest lines (all in lines.csv):\n%s", table.Text().c_str());
 }
 
-void PrintTransfers(const AnalysisSet& set) {
+void PrintTransfers(const AnalysisSet& set, const ModelSpec& model) {
   TextTable table(
       {"experiment", "points", "omega Hz", "xi", "N", "M/N", "chi2/dof", "explained %", "noise %"});
   bool any = false;
@@ -74,13 +74,14 @@ void PrintTransfers(const AnalysisSet& set) {
     any = true;
     const TransferFit& fit = *analysis.transfer_fit;
     table.AddRow({analysis.name, std::to_string(fit.points.size()), WithStd(fit.omega_hz, 2),
-                  WithStd(fit.xi, 4), WithStd(fit.N, 0), Significant(fit.M.value / fit.N.value, 3),
+                  WithStd(fit.xi, 4), WithStd(fit.N, 0),
+                  model.modes == 2 ? Significant(fit.M.value / fit.N.value, 3) : "-",
                   Fixed(fit.chi_square_per_dof, 2), Fixed(kPerCent * fit.explained_power, 1),
                   Fixed(kPerCent * fit.noise_power, 1)});
   }
   if (any) {
-    std::printf("\nq-to-p transfer where p and q are coherent, two modes fitted:\n%s",
-                table.Text().c_str());
+    std::printf("\nq-to-p transfer where p and q are coherent, %s fitted:\n%s",
+                model.modes == 2 ? "two modes" : "one mode", table.Text().c_str());
   }
 }
 
@@ -117,7 +118,7 @@ int Run(const Options& options) {
   if (options.quiet) return kDone;
   PrintCharacteristics(set, config.operating_parameter);
   PrintLines(set);
-  PrintTransfers(set);
+  PrintTransfers(set, config.model);
   PrintGrowth(set);
   if (!AnyHeatRelease(set)) {
     std::printf("phase, gain, delay, flame curve and transfer need heat release: not available\n");

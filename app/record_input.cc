@@ -21,7 +21,7 @@ AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options
   analysis.characteristics.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
   if (config.analysis.method == CharacteristicsMethod::kSeed) analysis.flame_curve.max_harmonic = 1;
   analysis.delay_branch = config.analysis.delay_branch;
-  analysis.transfer_fit.harmonic_ratio = config.model.harmonic_ratio;
+  analysis.model = config.model;
   analysis.threads = options.threads;
   return analysis;
 }

@@ -27,7 +27,10 @@ void BM_AnalyseSixExperiments(benchmark::State& state) {
   const std::vector<NamedRecord> records = SixExperiments();
   AnalysisOptions options;
   options.threads = 1;
-  options.fit_transfer = state.range(0) != 0;
+  if (state.range(0) != 0) {
+    options.model = DefaultModelSpec();
+    options.model->modes = 2;
+  }
   for (auto _ : state) benchmark::DoNotOptimize(AnalyseRecords(records, options));
 }
 BENCHMARK(BM_AnalyseSixExperiments)

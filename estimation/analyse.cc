@@ -33,13 +33,10 @@ Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
                 options.lines);
   if (analysis.has_heat_release) {
     analysis.transfer = EstimateTransfer(spectrum, analysis.lines, options.transfer);
-    if (options.fit_transfer) {
-      TransferFitOptions fit_options = options.transfer_fit;
-      if (std::isfinite(f.value) && options.fit_max_harmonic > 0.0) {
-        fit_options.min_frequency_hz = options.fit_min_harmonic * f.value;
-        fit_options.max_frequency_hz = options.fit_max_harmonic * f.value;
-      }
-      TransferFit fit = FitTransfer(*analysis.transfer, fit_options);
+    if (options.model) {
+      const TransferBand band =
+          std::isfinite(f.value) ? TransferBandOf(*options.model, f.value) : TransferBand{};
+      TransferFit fit = FitTransfer(*analysis.transfer, *options.model, band);
       if (fit.available) analysis.transfer_fit = std::move(fit);
     }
   } else if (std::isfinite(f.value)) {
@@ -97,7 +94,7 @@ AnalysisSet AnalyseRecords(std::span<const NamedRecord> records, const AnalysisO
 
 namespace {
 
-// Neighbouring points share data, and where no two-mode model fits them, their scatter about the
+// Neighbouring points share data, and where the model does not fit them, their scatter about the
 // best one is the error to reckon with: both widen the points' variance, as they widen the fit's
 // standard deviations.
 std::vector<TransferPoint> WidenedPoints(const Analysis& analysis) {

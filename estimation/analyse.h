@@ -26,11 +26,9 @@ struct AnalysisOptions {
   LineOptions lines;
   FlameCurveOptions flame_curve;
   TransferOptions transfer;
-  TransferFitOptions transfer_fit;
-  bool fit_transfer = true;
-  // The transfer fit's band in multiples of the cycle's frequency (the second mode lies near the
-  // third); without a peak, or with a maximum of zero, transfer_fit's own band.
-  double fit_min_harmonic = 0.25, fit_max_harmonic = 5.0;
+  // Whose acoustics are fitted to the transfer: the model that fit and family are about, no other.
+  // Without one no transfer is fitted.
+  std::optional<ModelSpec> model;
   std::optional<int> delay_branch;  // else by consistency
   int threads = 0;                  // 0: all
 };

@@ -1,5 +1,6 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <glog/logging.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -59,29 +60,33 @@ LogParameters GridStart(std::span<const TransferPoint> points, double ratio, boo
 
 struct Solution {
   LogParameters x;
-  std::vector<double> residuals;
-  Eigen::MatrixXd normal;  // J^T J over the free parameters
+  Eigen::MatrixXd jacobian;  // of the whitened residuals over the free parameters
+  Eigen::VectorXd doubt;     // what a standard deviation of q's noise floor adds to the residuals
   double cost = 0.0;
   bool usable = false;
 };
 
-Solution Solve(std::span<const TransferPoint> points, const TransferFitOptions& options,
+Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
                const LogParameters& start) {
   Solution solution{.x = start};
   LogParameters& x = solution.x;
   ceres::Problem problem;
   for (const TransferPoint& point : points) {
-    problem.AddResidualBlock(
-        TransferPointResidual::CreateFull(point, {options.harmonic_ratio, false}), nullptr, &x[0],
-        &x[1], &x[2], &x[3]);
+    if (model.modes == 2) {
+      problem.AddResidualBlock(
+          TransferPointResidual::CreateFull(point, {model.harmonic_ratio, false}), nullptr, &x[0],
+          &x[1], &x[2], &x[3]);
+    } else {
+      problem.AddResidualBlock(TransferPointResidual::CreateReduced(point), nullptr, &x[0], &x[1],
+                               &x[2]);
+    }
   }
   // Guard rails: a mode outside the points' band or without its N is another model.
   problem.SetParameterLowerBound(&x[1], 0, std::log(1e-4));
   problem.SetParameterUpperBound(&x[1], 0, std::log(10.0));
-  if (options.second_mode) {
+  if (model.modes == 2) {
     problem.SetParameterLowerBound(&x[3], 0, x[2] + std::log(1e-6));
-  } else {
-    problem.SetParameterBlockConstant(&x[3]);
+    problem.SetParameterUpperBound(&x[3], 0, x[2] + std::log(1e6));
   }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
@@ -93,48 +98,72 @@ Solution Solve(std::span<const TransferPoint> points, const TransferFitOptions& 
   solution.usable = summary.IsSolutionUsable();
 
   ceres::CRSMatrix jacobian;
-  problem.Evaluate({}, &solution.cost, &solution.residuals, nullptr, &jacobian);
-  solution.normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);
+  std::vector<double> residuals;
+  problem.Evaluate({}, &solution.cost, &residuals, nullptr, &jacobian);
+  solution.jacobian = Eigen::MatrixXd::Zero(jacobian.num_rows, jacobian.num_cols);
   for (int row = 0; row < jacobian.num_rows; ++row) {
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(jacobian.num_cols);
     const auto r = static_cast<std::size_t>(row);
     for (int i = jacobian.rows[r]; i < jacobian.rows[r + 1]; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      gradient(jacobian.cols[k]) = jacobian.values[k];
+      solution.jacobian(row, jacobian.cols[k]) = jacobian.values[k];
     }
-    solution.normal += gradient * gradient.transpose();
+  }
+  // The residuals are L^-1 (G - H) with L L^T the point's covariance.
+  solution.doubt = Eigen::VectorXd::Zero(jacobian.num_rows);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const TransferPoint& point = points[k];
+    const Eigen::Vector2d h(point.re, point.im);
+    const Eigen::LLT<Eigen::Matrix2d> factor(point.Covariance());
+    solution.doubt.segment<2>(static_cast<Eigen::Index>(2 * k)) =
+        -factor.matrixL().solve(point.q_noise_bias / std::sqrt(3.0) * h);
   }
   return solution;
 }
 
+// The model's own error, relative to the size of G about the point: to |H| itself it would be
+// smallest where chance made |H| small.
 std::vector<TransferPoint> WithModelError(std::span<const TransferPoint> points, double error) {
+  constexpr std::size_t kReach = 4;  // points on either side
   std::vector<TransferPoint> result(points.begin(), points.end());
-  for (TransferPoint& point : result) {
-    const double variance = 0.5 * error * error * (point.re * point.re + point.im * point.im);
-    point.variance_re += variance;
-    point.variance_im += variance;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t first = k < kReach ? 0 : k - kReach;
+    const std::size_t last = std::min(k + kReach + 1, points.size());
+    double size = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      size += (points[i].re * points[i].re + points[i].im * points[i].im) /
+              static_cast<double>(last - first);
+    }
+    result[k].variance_re += 0.5 * error * error * size;
+    result[k].variance_im += 0.5 * error * error * size;
   }
   return result;
 }
 
 }  // namespace
 
-TransferFit FitTransfer(const Transfer& transfer, const TransferFitOptions& options) {
+TransferBand TransferBandOf(const ModelSpec& model, double frequency_hz) {
+  constexpr double kLowest = 0.25;
+  constexpr double kHighestOneMode = 2.0;         // halfway to the paper's next mode
+  constexpr double kHighestTwoModes = 5.0 / 3.0;  // over the second mode's frequency
+  const double highest =
+      model.modes == 2 ? kHighestTwoModes * model.harmonic_ratio : kHighestOneMode;
+  return {kLowest * frequency_hz, highest * frequency_hz};
+}
+
+TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model,
+                        const TransferBand& band) {
+  CHECK(model.modes == 1 || model.modes == 2) << model.modes;
+  const bool second_mode = model.modes == 2;
   TransferFit fit;
-  const auto within = [&](const TransferPoint& point) {
-    return point.frequency_hz >= options.min_frequency_hz &&
-           point.frequency_hz <= options.max_frequency_hz;
-  };
   std::vector<TransferPoint> points;
-  std::copy_if(transfer.points.begin(), transfer.points.end(), std::back_inserter(points), within);
+  std::copy_if(transfer.points.begin(), transfer.points.end(), std::back_inserter(points),
+               [&](const TransferPoint& point) { return band.Contains(point.frequency_hz); });
   if (points.size() < 4) return fit;
-  const int free = options.second_mode ? 4 : 3;
+  const int free = second_mode ? 4 : 3;
   const double dof = 2.0 * static_cast<double>(points.size()) - free;
   const auto solve = [&](double error) {
     const std::vector<TransferPoint> softened = WithModelError(points, error);
-    LogParameters start = GridStart(softened, options.harmonic_ratio, options.second_mode);
-    if (!options.second_mode) start[3] = start[2] + std::log(1e-9);
-    return Solve(softened, options, start);
+    return Solve(softened, model, GridStart(softened, model.harmonic_ratio, second_mode));
   };
   Solution solution = solve(0.0);
   fit.chi_square_per_dof = 2.0 * solution.cost / dof;
@@ -148,11 +177,17 @@ TransferFit FitTransfer(const Transfer& transfer, const TransferFitOptions& opti
   }
   const LogParameters& x = solution.x;
   fit.available = solution.usable;
-  fit.acoustics = {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]), std::exp(x[3]),
-                   options.harmonic_ratio};
+  fit.acoustics = {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]),
+                   second_mode ? std::exp(x[3]) : 0.0, model.harmonic_ratio};
+  // The points' own scatter averages out over them. The level of q's noise does not: it is one for
+  // all of them, and moves the parameters by what it adds to all residuals together.
+  const Eigen::MatrixXd inverse = (solution.jacobian.transpose() * solution.jacobian)
+                                      .completeOrthogonalDecomposition()
+                                      .pseudoInverse();
+  const Eigen::VectorXd moved = inverse * (solution.jacobian.transpose() * solution.doubt);
   fit.log_covariance.topLeftCorner(free, free) =
-      transfer.neighbour_inflation * std::max(2.0 * solution.cost / dof, 1.0) *
-      solution.normal.topLeftCorner(free, free).completeOrthogonalDecomposition().pseudoInverse();
+      transfer.neighbour_inflation * std::max(2.0 * solution.cost / dof, 1.0) * inverse +
+      moved * moved.transpose();
   const auto estimate = [&](int i) {
     const double value = std::exp(x[static_cast<std::size_t>(i)]);
     return Estimate{value, value * std::sqrt(fit.log_covariance(i, i))};
@@ -160,7 +195,7 @@ TransferFit FitTransfer(const Transfer& transfer, const TransferFitOptions& opti
   fit.omega_hz = estimate(0);
   fit.xi = estimate(1);
   fit.N = estimate(2);
-  fit.M = estimate(3);
+  fit.M = second_mode ? estimate(3) : Estimate{0.0, 0.0};
 
   double power = 0, missed = 0, noise = 0, explained = 0;
   for (const TransferPoint& point : transfer.points) {
@@ -171,7 +206,8 @@ TransferFit FitTransfer(const Transfer& transfer, const TransferFitOptions& opti
     const double misfit = std::sqrt(error.dot(point.Covariance().ldlt().solve(error)));
     const double size = point.re * point.re + point.im * point.im;
     fit.points.push_back({point.frequency_hz, g.re, g.im, misfit,
-                          std::sqrt(error.squaredNorm() / size), within(point)});
+                          std::sqrt(error.squaredNorm() / size),
+                          band.Contains(point.frequency_hz)});
     power += point.weight;
     missed += point.weight * error.squaredNorm() / size;
     noise += point.weight * (point.variance_re + point.variance_im) / size;

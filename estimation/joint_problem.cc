@@ -19,18 +19,14 @@
 #include "estimation/residuals/second_crossing.h"
 #include "estimation/residuals/transfer_point.h"
 #include "estimation/residuals/xi_increasing.h"
+#include "estimation/transfer.h"
 #include "estimation/unit_seed.h"
 
 namespace howl {
 namespace {
 
-constexpr double kStartXi = 0.1;      // a lightly damped mode
-constexpr double kStartMOverN = 0.4;  // the seed's figures 11 and 12 imply about this
-// The band of the transfer that the modes of the model cover, in multiples of the limit cycle's
-// frequency: one mode up to halfway to the next.
-constexpr double kTransferLowest = 0.25;
-constexpr double kTransferHighestOneMode = 2.0;
-constexpr double kTransferHighestTwoModes = 5.0;
+constexpr double kStartXi = 0.1;            // a lightly damped mode
+constexpr double kStartMOverN = 0.4;        // the seed's figures 11 and 12 imply about this
 constexpr double kMaxStartPhaseDeg = 85.0;  // the closed form needs less than 90
 
 ceres::LossFunction* CreateLoss(const ResidualBlock& block) {
@@ -276,12 +272,10 @@ void JointProblem::AddEqualities(int i, const ResidualSet& residuals) {
 void JointProblem::AddTransfer(int i, const ResidualSet& residuals) {
   const Experiment& experiment = experiments_[static_cast<std::size_t>(i)];
   const bool two_modes = model_.modes == 2;
-  const double low_hz = kTransferLowest * experiment.frequency_hz;
-  const double high_hz =
-      (two_modes ? kTransferHighestTwoModes : kTransferHighestOneMode) * experiment.frequency_hz;
+  const TransferBand band = TransferBandOf(model_, experiment.frequency_hz);
   const double model_std = residuals[ResidualKind::kTransfer].std;
   for (TransferPoint point : experiment.transfer) {
-    if (point.frequency_hz < low_hz || point.frequency_hz > high_hz) continue;
+    if (!band.Contains(point.frequency_hz)) continue;
     const double model_variance =
         model_std * model_std * (point.re * point.re + point.im * point.im);
     point.variance_re += model_variance;

@@ -2,11 +2,17 @@
 // holds whatever drives it, so that noise entering in the flame identifies G, in closed loop as in
 // open:
 //
-//   H(f) = S_qp(f) / (S_qq(f) - S_n / 2),     var Re H = var Im H = |H|^2 (1 - c) / (2 nu c)
+//   H(f) = S_qp(f) / (S_qq(f) - S_n / 2),     var Re H = var Im H = S_pp (1 - c) / (2 nu S_qq)
 //
 // c: coherence, nu: independent complex averages in the point. Noise of p's own only scatters H;
-// white noise of q's own biases it, and is at most the lowest level S_n of q's spectrum: half of
-// that is taken out, and the doubt adds to the variance along H. |H| / c bounds |H| from above.
+// white noise of q's own biases it, and is at most S_n, the least level of what of q is not
+// coherent with p: half of that is taken out, and the doubt adds to the variance along H. |H| / c
+// bounds |H| from above.
+//
+// Neither the choice of points nor their weights may look at H itself, or chance that makes H large
+// counts more than chance that makes it small: points are taken where their neighbours are
+// coherent, and the variance is that of what of p is not coherent with q, which does not depend on
+// the H that is found.
 //
 // Bins under the main lobe of a strong line are left out (the window keeps the line's leakage 92 dB
 // down elsewhere). Points are means over `bins_per_point` adjacent bins, at the mean frequency that
@@ -21,6 +27,7 @@
 #include <vector>
 
 #include "estimation/lines.h"
+#include "estimation/parameters.h"
 #include "estimation/spectrum.h"
 #include "estimation/statistics.h"
 #include "estimation/transfer_point.h"
@@ -33,7 +40,6 @@ struct TransferOptions {
   double min_frequency_hz = 20.0;
   double max_frequency_hz = 0.0;  // 0: 0.45 of the sampling rate
   double min_coherence = 0.1;
-  double false_alarm = 1e-3;   // of calling an incoherent point coherent
   double strong_line = 100.0;  // a narrow line this far over its floor is left out
 };
 
@@ -46,13 +52,19 @@ struct Transfer {
 Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const SpectralLine> lines,
                           const TransferOptions& options = {});
 
-struct TransferFitOptions {
-  double harmonic_ratio = kSeedHarmonicRatio;
-  bool second_mode = true;  // else M is held at a negligible share of N
-  // Points that take part. Two modes claim nothing far above the second one.
+// The frequencies at which a model with these modes claims to be the acoustics, about a limit cycle
+// at frequency_hz: one mode up to halfway to the next, two modes a little beyond the second. Fits
+// to the transfer keep to it, wherever they are made.
+struct TransferBand {
   double min_frequency_hz = 0.0;
   double max_frequency_hz = std::numeric_limits<double>::infinity();
+
+  bool Contains(double frequency_hz) const {
+    return min_frequency_hz <= frequency_hz && frequency_hz <= max_frequency_hz;
+  }
 };
+
+TransferBand TransferBandOf(const ModelSpec& model, double frequency_hz);
 
 struct TransferFitPoint {
   double frequency_hz = 0.0;
@@ -62,15 +74,15 @@ struct TransferFitPoint {
   bool fitted = true;           // within the fit's band
 };
 
-// Two-mode acoustics fitted to the transfer. Where the noise alone cannot explain what is left
-// (chi_square_per_dof above one and a half), a relative model error common to all points is added
-// to their variance until it does: then no few sharp points carry the fit, and the intervals are
-// those of a model that is only so good.
+// The model's acoustics fitted to the transfer: one mode or two, with the model's ratio. Where the
+// noise alone cannot explain what is left (chi_square_per_dof above one and a half), a relative
+// model error common to all points is added to their variance until it does: then no few sharp
+// points carry the fit, and the intervals are those of a model that is only so good.
 struct TransferFit {
   bool available = false;  // at least four points, and the solver converged
   Acoustics<double> acoustics{0, 0, 0, 0, kSeedHarmonicRatio};
-  Estimate omega_hz, xi, N, M;
-  // Of log omega_hz, log xi, log N, log M, model_error included.
+  Estimate omega_hz, xi, N, M;  // one mode: M is zero
+  // Of log omega_hz, log xi, log N, log M, model_error included; one mode: nothing of log M.
   Eigen::Matrix4d log_covariance = Eigen::Matrix4d::Zero();
   double chi_square_per_dof = 0.0;  // by the points' own variance, before model_error
   double model_error = 0.0;         // relative to |H|; zero where the noise explains the misfit
@@ -80,7 +92,10 @@ struct TransferFit {
   std::vector<TransferFitPoint> points;
 };
 
-TransferFit FitTransfer(const Transfer& transfer, const TransferFitOptions& options = {});
+// The model has no default: a fit with other modes than those that its result is compared with
+// rejects right models. `band`: the points that take part.
+TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model,
+                        const TransferBand& band = {});
 
 }  // namespace howl
 

@@ -58,6 +58,7 @@ Config LoadConfig(const std::filesystem::path& path) {
   ReadAnalysis(root, config);
   ReadSimulation(root, config);
   ReadEffects(root, config);
+  config.tree = tree;
   return config;
 }
 

@@ -15,6 +15,7 @@
 #include "estimation/parameters.h"
 #include "estimation/residual_spec.h"
 #include "estimation/solver_spec.h"
+#include "io/config/located_node.h"
 #include "io/config/simulation_spec.h"
 #include "io/record_spec.h"
 #include "model/effects/declared_effect.h"
@@ -40,6 +41,7 @@ struct Config {
   AnalysisSpec analysis;
   SimulationSpec simulation;
   std::vector<EffectDeclaration> effects;  // of the user's own
+  LocatedNode tree;                        // the file as it was written
 };
 
 // Throws UserError at the first mistake, in the order of the file's lines for what the schema

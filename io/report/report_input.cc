@@ -365,7 +365,6 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
     ReadRecords(input, LoadConfig(path), input.simulated);
     AnalysisOptions options;
     options.threads = threads;
-    options.fit_transfer = false;
     input.simulated_analysis = AnalyseRecords(input.simulated, options);
   });
   const bool empty = !input.run && input.analysis.is_null() && input.solution.is_null() &&

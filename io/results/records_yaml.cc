@@ -2,7 +2,42 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <set>
+
 namespace howl {
+namespace {
+
+// What states the problem, beside its experiments: the records are of the same one.
+constexpr const char* kSections[] = {"parameters", "residuals", "solver", "family", "analysis"};
+
+// As written, but for names of experiments that are not among the records.
+void Emit(const LocatedNode& node, const std::set<std::string>& left_out, YAML::Emitter& out) {
+  switch (node.kind) {
+    case LocatedNode::Kind::kList:
+      out << YAML::Flow << YAML::BeginSeq;
+      for (const LocatedNode& item : node.items) {
+        if (!left_out.contains(item.text)) Emit(item, left_out, out);
+      }
+      out << YAML::EndSeq;
+      break;
+    case LocatedNode::Kind::kMapping:
+      out << YAML::Flow << YAML::BeginMap;
+      for (const LocatedMember& member : node.members) {
+        out << YAML::Key << member.key << YAML::Value;
+        Emit(member.value, left_out, out);
+      }
+      out << YAML::EndMap;
+      break;
+    case LocatedNode::Kind::kNull:
+      out << YAML::Null;
+      break;
+    default:
+      if (node.quoted) out << YAML::DoubleQuoted;
+      out << node.text;
+  }
+}
+
+}  // namespace
 
 std::string RecordsYaml(const Config& config, const std::vector<Experiment>& experiments,
                         double sampling_hz) {
@@ -29,7 +64,17 @@ std::string RecordsYaml(const Config& config, const std::vector<Experiment>& exp
   out << YAML::Key << "model" << YAML::Value << YAML::Flow << YAML::BeginMap;
   out << YAML::Key << "modes" << YAML::Value << config.model.modes;
   out << YAML::Key << "harmonic_ratio" << YAML::Value << config.model.harmonic_ratio;
-  out << YAML::EndMap << YAML::EndMap;
+  out << YAML::EndMap;
+  std::set<std::string> left_out;
+  for (const ExperimentConfig& each : config.experiments) left_out.insert(each.experiment.name);
+  for (const Experiment& experiment : experiments) left_out.erase(experiment.name);
+  for (const char* const section : kSections) {
+    const LocatedMember* const member = config.tree.Find(section);
+    if (member == nullptr) continue;
+    out << YAML::Key << section << YAML::Value;
+    Emit(member->value, left_out, out);
+  }
+  out << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
 }
 

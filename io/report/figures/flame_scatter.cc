@@ -20,9 +20,7 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
   const auto shown = ReferenceRecord(input);
   if (!shown || shown->record->record.heat_release.empty()) return std::nullopt;
   const Record& record = shown->record->record;
-  AnalysisOptions options;
-  options.fit_transfer = false;
-  Analysis analysis = AnalyseRecord(record, options);
+  Analysis analysis = AnalyseRecord(record);
   if (analysis.characteristics.state == CycleState::kNoLimitCycle) return std::nullopt;
   const MeasuredPoint* point = input.Measured(shown->record->name);
   Estimate tau = point != nullptr ? point->tau_s : Estimate{};

@@ -25,7 +25,7 @@ std::vector<std::string> Chosen(const std::vector<std::string>& names) {
   return out;
 }
 
-// The two modes that analyse fitted to the transfer alone.
+// The modes that analyse fitted to the transfer alone.
 std::optional<LoopModel> TransferFitModel(const ReportInput& input, const std::string& name) {
   if (!input.analysis.contains("experiments")) return std::nullopt;
   for (const auto& each : input.analysis["experiments"]) {
@@ -100,7 +100,7 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
   figure.caption =
       "Where p and q are coherent the records show G beyond the limit cycle: measured transfer "
       "with "
-      "95 % intervals, the two modes fitted to it alone, and the joint fit." +
+      "95 % intervals, the model's modes fitted to it alone, and the joint fit." +
       std::string(names.size() < all.size()
                       ? " " + std::to_string(names.size()) + " of " + std::to_string(all.size()) +
                             " experiments; transfer.csv has all."

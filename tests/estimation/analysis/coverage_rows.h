@@ -75,7 +75,7 @@ inline RowResult RunCoverageRow(const CoverageRow& row, int records, std::uint64
     o.phase_deg = uniform(-45.0, 20.0);
     o.gain = uniform(10.0, 20.0);
     const SyntheticRecord truth = Synthesise(o, random());
-    const Analysis first = AnalyseRecord(truth.record, {.fit_transfer = false});
+    const Analysis first = AnalyseRecord(truth.record);
     const Characteristics& c = first.characteristics;
     if (c.state == CycleState::kNoLimitCycle) {
       ++result.cycles_missed;

@@ -26,7 +26,9 @@ class TurbulentCombustor : public ::testing::Test {
           {"p" + std::to_string(point), air, testing::CombustorRecord(*folder, point)});
       ASSERT_EQ(records.back().record.pressure.size(), 30000u) << point;
     }
-    AnalysisSet set = AnalyseRecords(records);
+    ModelSpec two_modes = DefaultModelSpec();
+    two_modes.modes = 2;
+    AnalysisSet set = AnalyseRecords(records, {.model = two_modes});
     analyses_ = new std::map<int, Analysis>;
     std::size_t i = 0;
     for (const auto& [point, air] : kAirSlpm) (*analyses_)[point] = std::move(set.analyses[i++]);

@@ -28,10 +28,16 @@ TransferPoint PointOf(const Acoustics<double>& acoustics, double frequency_hz,
   return point;
 }
 
+ModelSpec TwoModes() {
+  ModelSpec model = DefaultModelSpec();
+  model.modes = 2;
+  return model;
+}
+
 TEST(FitTransfer, RecoversTheRigFromExactPoints) {
   Transfer transfer;
   for (double f = 60.0; f < 1000.0; f += 10.0) transfer.points.push_back(PointOf(kRig, f, 0.01));
-  const TransferFit fit = FitTransfer(transfer);
+  const TransferFit fit = FitTransfer(transfer, TwoModes());
   ASSERT_TRUE(fit.available);
   EXPECT_NEAR(fit.omega_hz.value, 204.0, 1e-4);
   EXPECT_NEAR(fit.xi.value, 0.15, 1e-6);
@@ -54,7 +60,7 @@ TEST(FitTransfer, IntervalsCover) {
       point.im += std::sqrt(point.variance_im) * normal(random);
       transfer.points.push_back(point);
     }
-    const TransferFit fit = FitTransfer(transfer);
+    const TransferFit fit = FitTransfer(transfer, TwoModes());
     const auto holds = [](const Estimate& e, double truth) {
       return std::abs(e.value - truth) < kNormal95 * e.std ? 1 : 0;
     };
@@ -62,6 +68,41 @@ TEST(FitTransfer, IntervalsCover) {
                holds(fit.M, kRig.M);
   }
   EXPECT_GT(covered, 0.91 * 4 * kTrials);
+}
+
+// One mode in a config means one mode in the fit: a rig with one is found, and its M is not.
+TEST(FitTransfer, HasTheModelsModesAndNoOthers) {
+  const Acoustics<double> rig{204.0, 0.15, 5500.0, 0.0, kSeedHarmonicRatio};
+  Transfer transfer;
+  for (double f = 60.0; f < 1000.0; f += 10.0) transfer.points.push_back(PointOf(rig, f, 0.01));
+  const TransferFit fit = FitTransfer(transfer, DefaultModelSpec());
+  ASSERT_TRUE(fit.available);
+  EXPECT_NEAR(fit.omega_hz.value, 204.0, 1e-4);
+  EXPECT_NEAR(fit.xi.value, 0.15, 1e-6);
+  EXPECT_NEAR(fit.N.value, 5500.0, 1e-2);
+  EXPECT_EQ(fit.M.value, 0.0);
+  const auto ellipsoid = MakeTransferEllipsoid(fit);
+  ASSERT_TRUE(ellipsoid.has_value());
+  EXPECT_FALSE(ellipsoid->IsDetermined(3));
+  EXPECT_NEAR(TransferDistance(*ellipsoid, {.omega_hz = 204.0, .xi = 0.15, .N = 5500.0}), 0.0,
+              1e-3);
+}
+
+// What is not known of q's noise is the same at all points: it moves N by as much as if there were
+// one point, however many there are.
+TEST(FitTransfer, DoubtOfTheNoiseFloorDoesNotAverageOut) {
+  for (const double step_hz : {20.0, 1.0}) {
+    Transfer transfer;
+    for (double f = 60.0; f < 800.0; f += step_hz) {
+      TransferPoint point = PointOf(kRig, f, 0.01);
+      point.q_noise_bias = 0.03;
+      transfer.points.push_back(point);
+    }
+    const TransferFit fit = FitTransfer(transfer, TwoModes());
+    EXPECT_GT(fit.N.std / fit.N.value, 0.03 / std::sqrt(3.0)) << step_hz;
+    EXPECT_LT(fit.N.std / fit.N.value, 0.025) << step_hz;
+    EXPECT_LT(fit.omega_hz.std / fit.omega_hz.value, 0.01) << step_hz;
+  }
 }
 
 // A third mode that the model lacks: the fit has to say that it falls short, and where.
@@ -75,7 +116,7 @@ TEST(FitTransfer, ModelErrorIsReportedPointByPoint) {
     point.im += g.im;
     transfer.points.push_back(point);
   }
-  const TransferFit fit = FitTransfer(transfer);
+  const TransferFit fit = FitTransfer(transfer, TwoModes());
   EXPECT_GT(fit.chi_square_per_dof, 5.0);
   EXPECT_GT(fit.model_error, 0.05);
   const auto worst =
@@ -93,7 +134,7 @@ TEST(PracticeRigs, TransferGivesOmegaXiNAndM) {
     for (int e = 1; e <= 6; ++e) {
       const Record record = testing::PracticeRecord(*folder, rig, e);
       ASSERT_EQ(record.pressure.size(), 16000u) << rig;
-      const Analysis analysis = AnalyseRecord(record);
+      const Analysis analysis = AnalyseRecord(record, {.model = TwoModes()});
       const auto truth = [&](const char* key) {
         return testing::PracticeTruth(*folder, rig, e, key);
       };
@@ -127,7 +168,8 @@ TEST(PracticeRigs, TrueModelsLieWithinTheTransfersEllipsoids) {
   for (const char* rig :
        {"case002", "case006", "case008", "case015", "case019", "case022", "case023"}) {
     for (int e = 1; e <= 6; ++e) {
-      const Analysis analysis = AnalyseRecord(testing::PracticeRecord(*folder, rig, e));
+      const Analysis analysis =
+          AnalyseRecord(testing::PracticeRecord(*folder, rig, e), {.model = TwoModes()});
       ASSERT_TRUE(analysis.transfer_fit.has_value());
       const auto ellipsoid = MakeTransferEllipsoid(*analysis.transfer_fit);
       ASSERT_TRUE(ellipsoid.has_value()) << rig << e;
