@@ -9,9 +9,8 @@
 namespace howl {
 namespace {
 
-constexpr Range kLineBandHz{600.0, 900.0};
-constexpr double kMarginsUpToHz = 2000.0;
-constexpr double kGrowthRateStd = 1.0;  // 1/s
+constexpr double kMarginsUpTo = 10.0;           // of the cycle's frequency
+constexpr double kGrowthRateStd = 1.0 / 220.0;  // a period: 1 1/s of the paper's 220 Hz
 constexpr std::size_t kAdvisedMembers = 200;
 
 MemberPredictor GrowthRate(std::size_t i, double slope) {
@@ -44,14 +43,17 @@ std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
       predictions.push_back({experiment.name, PredictSampled(name, members, predictor, threads)});
     };
     const bool two_modes = problem.model.modes == 2;
+    const Range band_hz = LineBand(experiment.frequency_hz, problem.model.harmonic_ratio);
     if (two_modes) {
-      add("line_hz", [i](std::span<const LoopModel> m) { return CrossingNear(m[i], kLineBandHz); });
+      add("line_hz",
+          [i, band_hz](std::span<const LoopModel> m) { return CrossingNear(m[i], band_hz); });
     }
     if (!experiment.flame_slope) continue;
     const double slope = *experiment.flame_slope;
     add("growth_rate", GrowthRate(i, slope));
-    add("gain_margin_db", [i, slope](std::span<const LoopModel> m) {
-      return Finite(Margins(m[i].Loop(), slope, kMarginsUpToHz).gain_margin_db);
+    const double up_to_hz = kMarginsUpTo * experiment.frequency_hz;
+    add("gain_margin_db", [i, slope, up_to_hz](std::span<const LoopModel> m) {
+      return Finite(Margins(m[i].Loop(), slope, up_to_hz).gain_margin_db);
     });
     if (simulation.flame_is_given) {
       const Flame<double> flame{simulation.flame_shape, slope, simulation.saturation, 0.0};
@@ -60,8 +62,9 @@ std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
       });
     }
     if (two_modes) {
-      add("line_gain",
-          [i, slope](std::span<const LoopModel> m) { return LineGain(m[i], kLineBandHz, slope); });
+      add("line_gain", [i, slope, band_hz](std::span<const LoopModel> m) {
+        return LineGain(m[i], band_hz, slope);
+      });
     }
   }
   return predictions;
@@ -69,11 +72,13 @@ std::vector<ExperimentPrediction> PredictLoops(const FamilyProblem& problem,
 
 std::vector<Advice> AdviseMeasurements(const FamilyProblem& problem,
                                        std::span<const Member> members) {
-  std::vector<Measurement> measurements = DefaultMeasurements(problem.experiments);
+  std::vector<Measurement> measurements =
+      DefaultMeasurements(problem.experiments, problem.model.harmonic_ratio);
   for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
     const Experiment& experiment = problem.experiments[i];
     if (!experiment.flame_slope) continue;
-    measurements.push_back({"growth rate of " + experiment.name, "1/s", kGrowthRateStd,
+    measurements.push_back({"growth rate of " + experiment.name, "1/s",
+                            kGrowthRateStd * experiment.frequency_hz,
                             GrowthRate(i, *experiment.flame_slope)});
   }
   return Advise(Thinned(members, kAdvisedMembers), measurements);

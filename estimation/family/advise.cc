@@ -86,22 +86,33 @@ std::vector<Advice> Advise(std::span<const Member> members,
   return advice;
 }
 
+Range LineBand(double frequency_hz, double harmonic_ratio) {
+  constexpr double kBelow = 0.91;  // 600 Hz at the paper's 220 Hz and ratio of three
+  constexpr double kAbove = 1.36;  // 900 Hz
+  const double second_hz = harmonic_ratio * frequency_hz;
+  return {kBelow * second_hz, kAbove * second_hz};
+}
+
 std::vector<Measurement> DefaultMeasurements(const std::vector<Experiment>& experiments,
-                                             const MeasurementStds& stds,
-                                             const Range& line_band_hz) {
+                                             double harmonic_ratio, const MeasurementStds& stds) {
   std::vector<Measurement> measurements;
   const auto phase_of = [](const LoopModel& model, double frequency_hz) {
     return Angle(AcousticResponse(model.Loop().acoustics, frequency_hz)) * kDegPerRad;
   };
   std::vector<double> phis;
   phis.reserve(experiments.size());
-  for (const Experiment& experiment : experiments) phis.push_back(experiment.phi);
+  double mean_hz = 0.0;
+  for (const Experiment& experiment : experiments) {
+    phis.push_back(experiment.phi);
+    mean_hz += experiment.frequency_hz / static_cast<double>(experiments.size());
+  }
   std::sort(phis.begin(), phis.end());
   for (std::size_t k = 1; k < phis.size(); ++k) {
     if (!(phis[k] > phis[k - 1])) continue;
     const double phi = 0.5 * (phis[k] + phis[k - 1]);
     measurements.push_back({WithNumber("limit-cycle frequency at phi ", phi), "Hz",
-                            stds.frequency_hz, [experiments, phi](std::span<const LoopModel> m) {
+                            stds.frequency_relative * mean_hz,
+                            [experiments, phi](std::span<const LoopModel> m) {
                               return InterpolatedFrequency(experiments, m, phi);
                             }});
     measurements.push_back(
@@ -127,10 +138,10 @@ std::vector<Measurement> DefaultMeasurements(const std::vector<Experiment>& expe
              return std::log(Magnitude(AcousticResponse(m[i].Loop().acoustics, f)));
            }});
     }
-    measurements.push_back({"non-harmonic line" + of, "Hz", stds.line_hz,
-                            [i, line_band_hz](std::span<const LoopModel> m) {
-                              return CrossingNear(m[i], line_band_hz);
-                            }});
+    const Range band_hz = LineBand(experiments[i].frequency_hz, harmonic_ratio);
+    measurements.push_back(
+        {"non-harmonic line" + of, "Hz", stds.line_relative * 0.5 * (band_hz.lo + band_hz.hi),
+         [i, band_hz](std::span<const LoopModel> m) { return CrossingNear(m[i], band_hz); }});
   }
   return measurements;
 }

@@ -59,17 +59,21 @@ std::vector<Advice> Advise(std::span<const Member> members,
 struct MeasurementStds {
   double phase_deg = 0.5;
   double gain_relative = 0.01;
-  double frequency_hz = 0.5;
-  double line_hz = 2.0;
+  double frequency_relative = 0.5 / 220.0;  // 0.5 Hz of the paper's 220 Hz
+  double line_relative = 2.0 / 750.0;       // 2 Hz of the paper's 750 Hz
 };
+
+// Where the line that the paper sees near 750 Hz is looked for, in multiples of the limit cycle's
+// frequency: about the second mode, whose frequency is harmonic_ratio times the first's.
+Range LineBand(double frequency_hz, double harmonic_ratio);
 
 // The measurements that a rig offers: the limit cycle's frequency, and phase and gain of G there,
 // at a phi half-way between each two neighbours; the transfer from q to p at a second frequency,
-// half and 1.5 and twice the limit cycle's, of each experiment; the line near 750 Hz of each
+// half and 1.5 and twice the limit cycle's, of each experiment; the line of LineBand of each
 // experiment. A growth rate needs the loop's poles: add a Measurement with a predictor for it.
 std::vector<Measurement> DefaultMeasurements(const std::vector<Experiment>& experiments,
-                                             const MeasurementStds& stds = {},
-                                             const Range& line_band_hz = {600.0, 900.0});
+                                             double harmonic_ratio,
+                                             const MeasurementStds& stds = {});
 
 }  // namespace howl
 

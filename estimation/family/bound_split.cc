@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "model/units.h"
+
 namespace howl {
 
 namespace {
@@ -16,6 +18,7 @@ constexpr std::size_t kTransferTrials = 6;  // where contraction is dear
 
 // A variable that is split by ratios rather than by differences.
 constexpr double kDecadesFloor = 1e-3;
+constexpr double kEndless = 1e9;  // of a typical value: where a variable without an end ends
 bool SpansDecades(const Interval& x) { return x.upper() > 10.0 * x.lower(); }
 
 // The variables with the largest scores, best first.
@@ -28,15 +31,17 @@ class WidestVariables {
 
   explicit WidestVariables(std::size_t kept) : kept_(kept) {}
 
-  // `from`: the root's. Not kept where it is too fine.
-  void Offer(Interval& x, const Interval& from, double weight) {
+  // `from`: the root's; `typical`: a value of the variable's size, in its unit. Not kept where it
+  // is too fine.
+  void Offer(Interval& x, const Interval& from, double weight, double typical) {
     const double width = Width(x);
     if (!std::isfinite(width) || !(width > 4e-16 * std::abs(x.upper()))) return;
     double score = width / Width(from);
     if (SpansDecades(from)) {
-      const double floor = kDecadesFloor * (std::isfinite(from.upper()) ? from.upper() : 1e9);
+      const double end = kEndless * typical;
+      const double floor = kDecadesFloor * (std::isfinite(from.upper()) ? from.upper() : end);
       score = std::log((x.upper() + floor) / (x.lower() + floor)) /
-              std::log((std::min(from.upper(), 1e9) + floor) / (from.lower() + floor));
+              std::log((std::min(from.upper(), end) + floor) / (from.lower() + floor));
     }
     Scored next{weight * score, &x};
     if (next.score <= kFinest) return;
@@ -53,6 +58,23 @@ class WidestVariables {
   std::array<Scored, kTrials> widest_{};
 };
 
+// What a variable is about, of an experiment: the scale of one that has no end.
+double Typical(const Experiment& experiment, CellVariable variable) {
+  switch (variable) {
+    case kCellOmega:
+      return experiment.frequency_hz;
+    case kCellGain:
+      return experiment.gain;
+    case kCellN:
+    case kCellM:
+      return kRadPerSPerHz * experiment.frequency_hz * experiment.gain;
+    case kCellTau:
+      return 1.0 / experiment.frequency_hz;
+    default:
+      return 1.0;
+  }
+}
+
 void OfferAll(const BoundSetting& setting, const BoundQuantity& quantity, Cell& cell,
               WidestVariables& widest) {
   const CellContractor& contractor = setting.contractor;
@@ -60,7 +82,8 @@ void OfferAll(const BoundSetting& setting, const BoundQuantity& quantity, Cell& 
   const Cell& root = setting.root;
   if (contractor.HasWindow() && cell.boxes.size() > 1) {
     // Transfers fix each omega by itself.
-    widest.Offer(cell.window_hz, root.window_hz, has_transfer ? 0.05 : 1.0);
+    widest.Offer(cell.window_hz, root.window_hz, has_transfer ? 0.05 : 1.0,
+                 Typical(setting.problem.experiments[0], kCellOmega));
   }
   const double rest =
       quantity.expression ? 1e-3 : (contractor.TwoModes() && !has_transfer ? 0.4 : 0.1);
@@ -68,16 +91,18 @@ void OfferAll(const BoundSetting& setting, const BoundQuantity& quantity, Cell& 
     const bool own = quantity.DependsOn(i);
     ExperimentBox& box = cell.boxes[i];
     const ExperimentBox& from = root.boxes[i];
-    widest.Offer(box[kCellXi], from[kCellXi], own ? 1.0 : rest);
-    widest.Offer(box[kCellOmega], from[kCellOmega], own ? 1.0 : rest);
-    widest.Offer(box[kCellTangent], from[kCellTangent], own ? 0.7 : 0.5 * rest);
-    widest.Offer(box[kCellGain], from[kCellGain], own ? 0.3 : 0.1 * rest);
-    if (!contractor.Targets()[i].lines_hz.empty()) {
-      widest.Offer(box[kCellTau], from[kCellTau], own ? 0.4 : 0.1);
-    }
+    const auto offer = [&](CellVariable variable, double weight) {
+      widest.Offer(box[variable], from[variable], weight,
+                   Typical(setting.problem.experiments[i], variable));
+    };
+    offer(kCellXi, own ? 1.0 : rest);
+    offer(kCellOmega, own ? 1.0 : rest);
+    offer(kCellTangent, own ? 0.7 : 0.5 * rest);
+    offer(kCellGain, own ? 0.3 : 0.1 * rest);
+    if (!contractor.Targets()[i].lines_hz.empty()) offer(kCellTau, own ? 0.4 : 0.1);
     if (i == 0) {
       for (const CellVariable shared : contractor.Shared()) {
-        widest.Offer(box[shared], from[shared], 1.0);
+        offer(shared, 1.0);
       }
     }
   }

@@ -27,9 +27,12 @@ bool IsSupported(const LocalCoordinates& c) {
                       [](const ExperimentTarget& target) { return target.IsEmpty(); });
 }
 
-// Of ln M or ln (M / N).
+// Of ln M or ln (M / N). Without bounds of the user's: far from anything that the gain allows, in
+// units of 2 pi f |G| for M, which N is of the order of.
 Range SecondBox(const LocalCoordinates& c) {
-  Range second{std::log(1e-12), std::log(1e15)};
+  double unit = 1.0;
+  if (!c.relative) unit = c.targets[0].w_rad_s * c.problem.experiments[0].gain;
+  Range second{std::log(1e-16 * unit), std::log(1e11 * unit)};
   if (c.two_modes) {
     const Range range = c.problem.RangeOf(c.SecondKind());
     if (range.lo > 0.0) second.lo = std::log(range.lo);

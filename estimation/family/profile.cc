@@ -24,8 +24,9 @@ class Walker {
   Branch Walk(double best_value, const ConstrainedFit& best, double direction) const {
     Branch branch;
     const double bound = direction > 0.0 ? options_.bounds.hi : options_.bounds.lo;
-    double step = options_.first_step > 0.0 ? options_.first_step
-                                            : 0.01 * std::max(std::abs(best_value), 1e-12);
+    const double first =
+        options_.first_step > 0.0 ? options_.first_step : 0.01 * std::abs(best_value);
+    double step = first;
     ProfilePoint last{best_value, best.cost, !best.converged, best.parameters};
     branch.points.push_back(last);
     branch.end = best_value;
@@ -40,7 +41,7 @@ class Walker {
       const ProfilePoint point = At(value, last.parameters);
       if (!std::isfinite(point.cost)) {
         step *= 0.25;
-        if (step < 1e-9 * std::max(std::abs(last.value), 1e-12)) {
+        if (step < 1e-9 * std::max(std::abs(last.value), first)) {
           branch.reason = ProfileEnd::kFailed;
           return branch;
         }

@@ -15,6 +15,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInside = 1e-9;     // of a tolerance: what is built at its edge passes
 constexpr double kLargestXi = 20.0;  // where the search for a least xi gives up
+constexpr double kFarOff = 4.0;      // of a frequency: where there is no solution to be off by
 
 // Smallest x in [lo, hi] with function(x) <= 0, of a function that falls; function(lo) > 0.
 template <typename Function>
@@ -108,7 +109,7 @@ class Greedy {
   }
 
   Range Windows() const {
-    Range range{std::max(omega_.lo, 1e-3), omega_.hi};
+    Range range = omega_;
     double top = 0.0;
     for (const ExperimentTarget& target : targets_) top = std::max(top, target.frequency_hz);
     range.lo = std::max(range.lo, 0.2 * top);
@@ -164,7 +165,7 @@ class Greedy {
     for (const std::size_t i : order_) {
       const auto above = [&](double value) {
         const double lo = Reach(targets_[i], value, second).lo;
-        return std::isfinite(lo) ? lo - top : 1e3;
+        return std::isfinite(lo) ? lo - top : kFarOff * targets_[i].frequency_hz;
       };
       if (above(least) > 0.0) {
         if (!(above(xi_.hi) <= 0.0)) return false;
@@ -185,7 +186,7 @@ class Greedy {
       // Falls with falling xi, so that it is a falling function of -xi.
       const auto below = [&](double negative) {
         const double hi = Reach(targets_[i], -negative, second).hi;
-        return hi > 0.0 ? v - hi : 1e3;
+        return hi > 0.0 ? v - hi : kFarOff * targets_[i].frequency_hz;
       };
       if (below(-most) > 0.0) {
         double lo = low[i];

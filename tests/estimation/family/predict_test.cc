@@ -136,7 +136,7 @@ TEST(AdviseTest, SecondFrequencyBeatsAnotherPhi) {
   FamilyProblem problem{.experiments = R228()};
   const MemberSample sample = SampleMembers(problem, {.count = 500, .seed = 3});
   const std::vector<Advice> advice =
-      Advise(sample.members, DefaultMeasurements(problem.experiments));
+      Advise(sample.members, DefaultMeasurements(problem.experiments, 3.0));
   ASSERT_GT(advice.size(), 20u);
   EXPECT_NE(advice[0].name.find("q-to-p"), std::string::npos) << advice[0].name;
   EXPECT_NE(advice[0].name.find("Hz"), std::string::npos) << advice[0].name;
