@@ -73,7 +73,8 @@ std::optional<LimitCycle> ObservedCycle(const ClosedLoop& model, double frequenc
   return nearest;
 }
 
-Rig MakeRig(const Experiment& experiment, const LoopModel& model, const SimulationSpec& spec) {
+Rig MakeRig(const Experiment& experiment, const LoopModel& model, const SimulationSpec& spec,
+            const SimulationTimes& times) {
   Rig rig;
   const LoopParameters<double> loop = model.Loop();
   const double response = Magnitude(LoopResponse(loop, experiment.frequency_hz));
@@ -87,9 +88,9 @@ Rig MakeRig(const Experiment& experiment, const LoopModel& model, const Simulati
   rig.parameters.model = {loop, {spec.flame_shape, slope, spec.saturation, 0.0}};
   Noise& noise = rig.parameters.noise;
   const double combustion_std = spec.combustion_noise_relative * spec.saturation;
-  noise.combustion_corner_hz = spec.combustion_noise_corner_hz;
+  noise.combustion_corner_hz = times.combustion_noise_corner_hz;
   noise.combustion_density =
-      2.0 * combustion_std * combustion_std / (std::numbers::pi * spec.combustion_noise_corner_hz);
+      2.0 * combustion_std * combustion_std / (std::numbers::pi * noise.combustion_corner_hz);
   rig.heat_release_amplitude = spec.saturation;
   rig.pressure_amplitude =
       spec.saturation * response / (kRadPerSPerHz * experiment.frequency_hz);  // |G|
@@ -110,7 +111,7 @@ double Rate(const Rig& rig, const Experiment& experiment) {
 }
 
 // The config's effects, relative to the cycles that the rigs have without them.
-void AddEffects(const Config& config, const std::vector<Experiment>& experiments,
+void AddEffects(const Config& config, const std::vector<Experiment>& experiments, double duration_s,
                 std::vector<Rig>* rigs) {
   const auto count = static_cast<double>(rigs->size());
   double pressure = 0.0;
@@ -139,7 +140,7 @@ void AddEffects(const Config& config, const std::vector<Experiment>& experiments
     scale.heat_release_amplitude = rig.heat_release_amplitude;
     scale.mean_pressure_amplitude = pressure;
     scale.mean_rate_amplitude = rate;
-    scale.duration_s = config.simulation.duration_s;
+    scale.duration_s = duration_s;
     for (const SimulatedEffect& one : config.simulation.effects) {
       const std::string fault = one.effect->SimulationFault(rig.parameters, one.values);
       if (!fault.empty()) throw UserError(config.source.string(), one.line, one.key, fault);
@@ -167,26 +168,26 @@ int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
   const std::vector<Experiment> experiments = LoadExperiments(config, options);
   const std::vector<LoopModel> models = ModelsToSimulate(config, options, experiments);
+  const SimulationTimes times = MakeSimulationTimes(config.simulation, experiments);
   std::vector<Rig> rigs;
   std::vector<SimulationCase> cases;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    rigs.push_back(MakeRig(experiments[i], models[i], config.simulation));
+    rigs.push_back(MakeRig(experiments[i], models[i], config.simulation, times));
   }
-  AddEffects(config, experiments, &rigs);
+  AddEffects(config, experiments, times.duration_s, &rigs);
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     cases.push_back({rigs[i].parameters, UnitSeed(options.seed, experiments[i].name)});
   }
   const std::vector<SimulatedRecord> records =
-      SimulateBatch(cases, {.duration_s = config.simulation.duration_s,
-                            .sampling_hz = config.simulation.sampling_hz,
-                            .settle_s = config.simulation.settle_s,
+      SimulateBatch(cases, {.duration_s = times.duration_s,
+                            .sampling_hz = times.sampling_hz,
+                            .settle_s = times.settle_s,
                             .threads = options.threads});
   for (std::size_t i = 0; i < records.size(); ++i) {
     WriteRecordCsv(options.out / (experiments[i].name + ".csv"),
                    {records[i].sampling_hz, records[i].pressure, records[i].heat_release});
   }
-  WriteWholeFile(options.out / "records.yaml",
-                 RecordsYaml(config, experiments, config.simulation.sampling_hz));
+  WriteWholeFile(options.out / "records.yaml", RecordsYaml(config, experiments, times.sampling_hz));
   if (!options.quiet) {
     Print(experiments, rigs);
     std::printf("written: records and records.yaml, a config of their own, in %s\n",

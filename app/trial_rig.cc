@@ -37,9 +37,10 @@ RigSetting MakeRigSetting(const Config& config, const Options& options) {
   RigSetting setting;
   setting.experiments = LoadExperiments(config, options);
   setting.operating_parameter = config.operating_parameter;
-  setting.duration_s = config.simulation.duration_s;
-  setting.sampling_hz = config.simulation.sampling_hz;
-  setting.settle_s = config.simulation.settle_s;
+  const SimulationTimes times = MakeSimulationTimes(config.simulation, setting.experiments);
+  setting.duration_s = times.duration_s;
+  setting.sampling_hz = times.sampling_hz;
+  setting.settle_s = times.settle_s;
   const std::vector<NamedRecord> records = LoadRecords(config);
   if (!records.empty()) {
     // The shortest: a diagnosis is no better than that allows.

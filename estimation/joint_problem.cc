@@ -19,6 +19,7 @@
 #include "estimation/residuals/second_crossing.h"
 #include "estimation/residuals/transfer_point.h"
 #include "estimation/residuals/xi_increasing.h"
+#include "estimation/search_range.h"
 #include "estimation/transfer.h"
 #include "estimation/unit_seed.h"
 
@@ -128,7 +129,8 @@ void JointProblem::AddParameters() {
   for (const Experiment& experiment : experiments_) starts.push_back(StartModel(experiment));
   const auto add = [&](ParameterKind kind, int experiment, double start) {
     const ParameterSpec& spec = model_[kind];
-    CHECK(spec.min > 0.0 && spec.min < spec.max) << ParameterName(kind);
+    const SearchRange range = MakeSearchRange(kind, spec, experiments_);
+    CHECK(range.min > 0.0 && range.min < range.max) << ParameterName(kind);
     ParameterBlock block;
     block.name = std::string(ParameterName(kind));
     if (experiment != kShared) {
@@ -136,8 +138,8 @@ void JointProblem::AddParameters() {
     }
     block.experiment = experiment;
     block.kind = kind;
-    block.min_log = std::log(spec.min);
-    block.max_log = std::log(spec.max);
+    block.min_log = std::log(range.min);
+    block.max_log = std::log(range.max);
     block.initial_log = Clamp(std::log(spec.initial.value_or(start)), block);
     block.fixed = spec.fixed;
     parameters_.push_back(std::move(block));
@@ -303,8 +305,9 @@ void JointProblem::AddMean(ResidualKind prior, ParameterKind kind, const Residua
   mean.name = std::string(ParameterName(kind)) + "_mean";
   mean.kind = kind;
   mean.is_mean = true;
-  mean.min_log = std::log(model_[kind].min);
-  mean.max_log = std::log(model_[kind].max);
+  const SearchRange range = MakeSearchRange(kind, model_[kind], experiments_);
+  mean.min_log = std::log(range.min);
+  mean.max_log = std::log(range.max);
   mean.initial_log = log_sum / static_cast<double>(members.size());
   parameters_.push_back(mean);
   const int mean_index = static_cast<int>(parameters_.size()) - 1;

@@ -31,9 +31,9 @@ enum class ParameterScope { kExperiment, kShared };
 struct ParameterSpec {
   ParameterScope scope = ParameterScope::kExperiment;
   std::optional<double> initial;  // default: from the data, by the closed form
-  double min = 0.0;               // natural units; positive: the search runs in logarithms
-  double max = 0.0;
-  bool fixed = false;  // held at `initial`
+  double min = 0.0;               // natural units; zero and infinity: none of its own, so that
+  double max = 0.0;               // the search keeps to what the data suggest (search_range.h)
+  bool fixed = false;             // held at `initial`
 };
 
 struct ModelSpec {

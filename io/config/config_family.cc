@@ -66,7 +66,7 @@ void ReadAnalysis(const ConfigCursor& root, Config& config) {
   analysis->Read("min_frequency_hz", config.analysis.min_frequency_hz);
   analysis->Read("max_frequency_hz", config.analysis.max_frequency_hz);
   if (config.analysis.max_frequency_hz &&
-      *config.analysis.max_frequency_hz <= config.analysis.min_frequency_hz) {
+      *config.analysis.max_frequency_hz <= config.analysis.min_frequency_hz.value_or(0.0)) {
     analysis->Find("max_frequency_hz")
         ->Fail("is not above min_frequency_hz, expected min_frequency_hz < max_frequency_hz");
   }

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "io/config/config_sections.h"
@@ -28,8 +29,10 @@ void ReadParameter(const ConfigCursor& cursor, ParameterSpec& spec) {
                            (cursor.Find("max") ? "" : " (default)") + ", expected min < max");
   }
   if (spec.initial && !(*spec.initial >= spec.min && *spec.initial <= spec.max)) {
-    cursor.FailAt("initial", Number(*spec.initial) + " is outside the bounds, expected from " +
-                                 Number(spec.min) + " to " + Number(spec.max) + " (min, max)");
+    const std::string bounds = std::isinf(spec.max) ? "at least " + Number(spec.min) + " (min)"
+                                                    : "from " + Number(spec.min) + " to " +
+                                                          Number(spec.max) + " (min, max)";
+    cursor.FailAt("initial", Number(*spec.initial) + " is outside the bounds, expected " + bounds);
   }
   if (spec.fixed && !spec.initial) {
     cursor.FailAt("initial", "is missing, expected the value to hold, as fixed is true");

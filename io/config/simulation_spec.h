@@ -4,10 +4,13 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "estimation/experiment.h"
 #include "model/effects/effect.h"
 #include "model/flame.h"
 
@@ -33,20 +36,32 @@ struct SimulatedEffect {
 };
 
 struct SimulationSpec {
-  double duration_s = 3.2;  // the seed's 16 000 samples at 5 kHz
-  double sampling_hz = 5000.0;
-  double settle_s = 1.0;  // run and thrown away first
+  std::optional<double> duration_s;
+  std::optional<double> sampling_hz;
+  std::optional<double> settle_s;  // run and thrown away first
   FlameShape flame_shape = FlameShape::kTanh;
   double saturation = 1.0;                  // of the heat release, in units of q
   bool flame_is_given = false;              // by the config: shape or saturation
   double combustion_noise_relative = 0.01;  // rms over saturation
-  double combustion_noise_corner_hz = 500.0;
+  std::optional<double> combustion_noise_corner_hz;
   double sensor_noise_relative = 0.001;  // rms over the cycle's amplitude, in each channel
   // An experiment was seen in a limit cycle, so (1b) holds: a flame slope that gives less loop gain
   // than this is raised to it.
   double loop_gain_min = 1.1;
   std::vector<SimulatedEffect> effects;
 };
+
+// What the config leaves open follows the cycle (model/cycle_scale.h): as many periods, and as many
+// samples a period, whatever its frequency.
+struct SimulationTimes {
+  double duration_s = 3.2;  // the paper's 16 000 samples at 5 kHz, of a cycle at 220 Hz
+  double sampling_hz = 5000.0;
+  double settle_s = 1.0;
+  double combustion_noise_corner_hz = 500.0;
+};
+
+SimulationTimes MakeSimulationTimes(const SimulationSpec& spec,
+                                    std::span<const Experiment> experiments);
 
 }  // namespace howl
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -58,16 +59,11 @@ Defaults StructDefaults() {
       {"family.test.xi_increasing", Dump(config.family.test.xi_increasing)},
       {"family.test.transfer_distance_max", Dump(config.family.test.transfer_distance_max)},
       {"family.draw", Dump(config.family.draw == MemberDraw::kSpread ? "spread" : "uniform")},
-      {"simulate.duration_s", Dump(config.simulation.duration_s)},
-      {"simulate.sampling_hz", Dump(config.simulation.sampling_hz)},
-      {"simulate.settle_s", Dump(config.simulation.settle_s)},
       {"simulate.flame_shape", Dump(std::string(FlameShapeName(config.simulation.flame_shape)))},
       {"simulate.saturation", Dump(config.simulation.saturation)},
       {"simulate.combustion_noise_relative", Dump(config.simulation.combustion_noise_relative)},
-      {"simulate.combustion_noise_corner_hz", Dump(config.simulation.combustion_noise_corner_hz)},
       {"simulate.sensor_noise_relative", Dump(config.simulation.sensor_noise_relative)},
       {"simulate.loop_gain_min", Dump(config.simulation.loop_gain_min)},
-      {"analysis.min_frequency_hz", Dump(config.analysis.min_frequency_hz)},
       {"analysis.method", Dump(std::string(AnalysisMethodName(config.analysis.method)))},
   };
   for (const ParameterKind kind : kParameterKinds) {
@@ -75,8 +71,9 @@ Defaults StructDefaults() {
     const std::string key = "parameters." + std::string(ParameterName(kind));
     defaults[key + ".scope"] =
         Dump(spec.scope == ParameterScope::kShared ? "shared" : "experiment");
-    defaults[key + ".min"] = Dump(spec.min);
-    defaults[key + ".max"] = Dump(spec.max);
+    // None of its own where a parameter has a dimension: the data suggest it.
+    if (spec.min > 0.0) defaults[key + ".min"] = Dump(spec.min);
+    if (std::isfinite(spec.max)) defaults[key + ".max"] = Dump(spec.max);
     defaults[key + ".fixed"] = Dump(spec.fixed);
   }
   for (const ResidualKind kind : kResidualKinds) {
