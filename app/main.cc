@@ -2,10 +2,12 @@
 
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
+#include "app/command_line.h"
 #include "app/interruption.h"
 #include "app/progress_line.h"
 #include "estimation/parallel.h"
@@ -34,7 +36,7 @@ void PrintHelp() {
   std::printf("\nOptions of every command:\n");
   PrintOptions(CommonOptions());
   std::printf(
-      "\nhowl COMMAND --help explains one command.\n"
+      "\nhowl help COMMAND (or howl COMMAND --help) explains one command.\n"
       "Exit status: 0 done; 1 the answer is negative; 2 bad input.\n");
 }
 
@@ -49,39 +51,44 @@ void PrintCommandHelp(const Command& command) {
   PrintOptions(CommonOptions());
 }
 
-const Command* FindCommand(const std::string& name) {
-  for (const Command& command : Commands()) {
-    if (command.name == name) return &command;
-  }
-  return nullptr;
+// What glog has to say is asked for by --v or --vmodule, or it is an error.
+void LogAsAsked() {
+  const bool asked = FLAGS_v > 0 || !FLAGS_vmodule.empty();
+  FLAGS_minloglevel = asked ? google::GLOG_INFO : google::GLOG_ERROR;
 }
 
 int Run(const std::vector<std::string>& words) {
-  if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
-    PrintHelp();
-    return kDone;
-  }
-  if (words[0] == "--version") {
+  CommandLine line(words);
+  std::optional<std::string> word = line.NextWord();
+  const bool asks = word == "help";  // howl help [COMMAND]
+  if (asks) word = line.NextWord();
+  if (line.WantsVersion()) {
     std::printf("howl %s\n", std::string(Version()).c_str());
     return kDone;
   }
-  const Command* command = FindCommand(words[0]);
-  if (command == nullptr) {
-    throw UsageError(words[0] + ": no such command, expected one that howl --help lists");
-  }
-  const Options options = ParseOptions({words.begin() + 1, words.end()}, command->options);
-  if (options.help) {
-    PrintCommandHelp(*command);
+  if (!word) {
+    PrintHelp();
     return kDone;
   }
-  if (options.config.empty()) {
-    throw UsageError(command->name + ": no config given, expected howl " + command->name +
-                     " CONFIG");
+  const Command& command = FindCommand(*word);
+  line.SetCommand(command);
+  const std::optional<std::string> config = line.NextWord();
+  if (const auto second = config ? line.NextWord() : std::nullopt) {
+    throw UsageError(*second + ": a second config, expected one, after " + *config);
   }
-  ProgressLine progress(command->name, options.quiet);
+  if (asks || line.WantsHelp()) {
+    PrintCommandHelp(command);
+    return kDone;
+  }
+  if (!config) {
+    throw UsageError(command.name + ": no config given, expected howl " + command.name + " CONFIG");
+  }
+  const Options options = line.Finish(*config);
+  LogAsAsked();
+  ProgressLine progress(command.name, options.quiet);
   ObserveUnits([&](std::size_t done, std::size_t total) { progress.Show(done, total); });
-  const int status = command->run(options);
-  if (command->writes_results) NoteRun(options.out, options.config, command->name, options.seed);
+  const int status = command.run(options);
+  if (command.writes_results) NoteRun(options.out, options.config, command.name, options.seed);
   return status;
 }
 
@@ -91,7 +98,6 @@ int Run(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
-  FLAGS_minloglevel = google::GLOG_ERROR;
   try {
     return howl::Run({argv + 1, argv + argc});
   } catch (const howl::Interrupted& stop) {

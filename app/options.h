@@ -8,7 +8,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace howl {
 
@@ -27,10 +26,9 @@ struct OptionHelp {
 struct Options {
   std::filesystem::path config;
   std::filesystem::path out;  // default: out/ and the config's name without its ending
-  int threads = 0;            // 0: as many as the machine has
+  int threads = 0;            // at least 1
   std::uint64_t seed = 1;
   bool quiet = false;
-  bool help = false;
   std::map<std::string, std::string> own;  // the command's own options; a switch maps to ""
 
   bool Has(const std::string& name) const { return own.contains(name); }
@@ -39,12 +37,6 @@ struct Options {
   std::optional<double> Number(const std::string& name) const;
   std::optional<int> Count(const std::string& name, int min, int max) const;
 };
-
-// The options that every command has.
-const std::vector<OptionHelp>& CommonOptions();
-
-// `words` follow the command. Throws UsageError.
-Options ParseOptions(const std::vector<std::string>& words, const std::vector<OptionHelp>& own);
 
 }  // namespace howl
 

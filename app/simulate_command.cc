@@ -7,6 +7,8 @@
 
 #include "app/command.h"
 #include "app/problem_input.h"
+#include "app/simulate_start.h"
+#include "app/simulate_sweep.h"
 #include "app/text_table.h"
 #include "estimation/family/membership.h"
 #include "estimation/joint_fit.h"
@@ -27,8 +29,8 @@ struct Rig {
   RigParameters parameters;
   double loop_gain = 0.0;
   bool slope_raised = false;
-  bool on_cycle = false;
-  double pressure_amplitude = 0.0;  // of the cycle; saturation's at rest
+  std::string origin;               // "on the cycle at 219.9 Hz"
+  double pressure_amplitude = 0.0;  // of the observed cycle; saturation's where there is none
   double heat_release_amplitude = 0.0;
 };
 
@@ -61,20 +63,9 @@ std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& opt
   return models;
 }
 
-// The cycle nearest to the one that was observed.
-std::optional<LimitCycle> ObservedCycle(const ClosedLoop& model, double frequency_hz) {
-  std::optional<LimitCycle> nearest;
-  for (const LimitCycle& cycle : LimitCycles(model, 2.0 * frequency_hz)) {
-    if (!nearest || std::abs(cycle.frequency_hz - frequency_hz) <
-                        std::abs(nearest->frequency_hz - frequency_hz)) {
-      nearest = cycle;
-    }
-  }
-  return nearest;
-}
-
-Rig MakeRig(const Experiment& experiment, const LoopModel& model, const SimulationSpec& spec,
+Rig MakeRig(const Config& config, const Experiment& experiment, const LoopModel& model,
             const SimulationTimes& times) {
+  const SimulationSpec& spec = config.simulation;
   Rig rig;
   const LoopParameters<double> loop = model.Loop();
   const double response = Magnitude(LoopResponse(loop, experiment.frequency_hz));
@@ -94,9 +85,11 @@ Rig MakeRig(const Experiment& experiment, const LoopModel& model, const Simulati
   rig.heat_release_amplitude = spec.saturation;
   rig.pressure_amplitude =
       spec.saturation * response / (kRadPerSPerHz * experiment.frequency_hz);  // |G|
-  if (const auto cycle = ObservedCycle(rig.parameters.model, experiment.frequency_hz)) {
-    rig.on_cycle = true;
-    rig.parameters.past = PastOnCycle(*cycle);
+  const auto cycle = ObservedCycle(rig.parameters.model, experiment.frequency_hz);
+  const SimulationOrigin origin = FindOrigin(config, experiment, rig.parameters.model, cycle);
+  rig.origin = origin.text;
+  if (origin.cycle) rig.parameters.past = PastOnCycle(*origin.cycle);
+  if (cycle) {
     rig.pressure_amplitude = cycle->pressure_amplitude();
     rig.heat_release_amplitude = cycle->heat_release_amplitude();
     noise.pressure_sensor_std = spec.sensor_noise_relative * cycle->pressure_amplitude();
@@ -155,8 +148,8 @@ void Print(const std::vector<Experiment>& experiments, const std::vector<Rig>& r
   for (std::size_t i = 0; i < rigs.size(); ++i) {
     any_raised = any_raised || rigs[i].slope_raised;
     table.AddRow({experiments[i].name,
-                  Fixed(rigs[i].loop_gain, 3) + (rigs[i].slope_raised ? " *" : ""),
-                  rigs[i].on_cycle ? "on the cycle" : "at rest", experiments[i].name + ".csv"});
+                  Fixed(rigs[i].loop_gain, 3) + (rigs[i].slope_raised ? " *" : ""), rigs[i].origin,
+                  experiments[i].name + ".csv"});
   }
   std::printf("%s", table.Text().c_str());
   if (any_raised) {
@@ -169,10 +162,11 @@ int Run(const Options& options) {
   const std::vector<Experiment> experiments = LoadExperiments(config, options);
   const std::vector<LoopModel> models = ModelsToSimulate(config, options, experiments);
   const SimulationTimes times = MakeSimulationTimes(config.simulation, experiments);
+  if (config.simulation.sweep) CheckSweep(config, times);
   std::vector<Rig> rigs;
   std::vector<SimulationCase> cases;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    rigs.push_back(MakeRig(experiments[i], models[i], config.simulation, times));
+    rigs.push_back(MakeRig(config, experiments[i], models[i], times));
   }
   AddEffects(config, experiments, times.duration_s, &rigs);
   for (std::size_t i = 0; i < experiments.size(); ++i) {
@@ -188,10 +182,22 @@ int Run(const Options& options) {
                    {records[i].sampling_hz, records[i].pressure, records[i].heat_release});
   }
   WriteWholeFile(options.out / "records.yaml", RecordsYaml(config, experiments, times.sampling_hz));
+  std::vector<SweepResult> sweeps;
+  if (config.simulation.sweep) {
+    std::vector<SweptRig> swept;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      swept.push_back({experiments[i].name, cases[i], experiments[i].frequency_hz});
+    }
+    sweeps = RunSweeps(config, times, std::move(swept), options.threads);
+    WriteWholeFile(options.out / "sweep.csv", SweepCsv(*config.simulation.sweep, sweeps));
+  }
   if (!options.quiet) {
     Print(experiments, rigs);
-    std::printf("written: records and records.yaml, a config of their own, in %s\n",
-                options.out.c_str());
+    if (config.simulation.sweep) {
+      std::printf("%s", SweepText(*config.simulation.sweep, sweeps).c_str());
+    }
+    std::printf("written: %srecords and records.yaml, a config of their own, in %s\n",
+                config.simulation.sweep ? "sweep.csv, " : "", options.out.c_str());
   }
   return kDone;
 }
@@ -203,10 +209,13 @@ Command SimulateCommand() {
       "simulate",
       "simulate the fitted loop into records",
       "Fits the config (or takes a listed member of its family), closes the loop with a flame\n"
-      "that saturates, and integrates it with noise, each experiment from its observed cycle on.\n"
+      "that saturates, and integrates it with noise, each experiment from its observed cycle on,\n"
+      "or from the one that `simulate: start` names.\n"
       "Writes NAME.csv (p,q) for each experiment and records.yaml, a config that analyse, fit\n"
       "and family take as it is. The config's `simulate:` has duration, sampling, flame, noise,\n"
-      "and `effects:`, any of the catalogue of howl diagnose, which records.yaml does not tell.",
+      "and `effects:`, any of the catalogue of howl diagnose, which records.yaml does not tell.\n"
+      "With `sweep:` a parameter goes slowly there and back in one more run: sweep.csv, and where\n"
+      "the loop jumps on the way up and on the way down.",
       {{"--member", "K", "member K of family.csv, which howl family wrote to DIR, not the fit"}},
       Run};
 }

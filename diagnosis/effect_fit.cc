@@ -1,5 +1,7 @@
 #include "diagnosis/effect_fit.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -115,6 +117,8 @@ EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& 
       fitter.SetNoise(base);
       fitter.Descend(&fit, kFirstRoundIterations);
       fitter.RefitNoise(&fit);
+      VLOG(2) << effect->id() << (own_locals ? ", a start: cost " : ", a scanned start: cost ")
+              << fit.cost();
       kept.push_back(std::move(fit));
       KeepBest(kStartsKept, &kept);
     }

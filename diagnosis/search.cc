@@ -1,5 +1,7 @@
 #include "diagnosis/search.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -108,6 +110,7 @@ void Search::TryAll() {
 }
 
 void Search::TryEach() {
+  VLOG(1) << "base: cost " << base_.cost() << ", tau " << base_.tau_s << " s";
   origin_ = ExplainLines(records_, base_, lines_);
   fluctuation_ = EstimateGainFluctuation(records_, base_);
   if (reference_) {
@@ -121,6 +124,8 @@ void Search::TryEach() {
   RunUnits(units_.size(), options_.threads, [&](std::size_t i) {
     if (Stopped()) return;
     attempts_[i] = Try(units_[i]);
+    VLOG(1) << attempts_[i].candidate.effect << ": gains " << attempts_[i].candidate.gain
+            << " nats over the base, " << attempts_[i].parameters << " parameters";
     const std::size_t now = done += WorkOf(units_[i]);
     if (options_.progress) {
       const std::lock_guard<std::mutex> lock(progress_lock);

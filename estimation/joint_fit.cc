@@ -46,6 +46,8 @@ StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver, st
   result.iterations = static_cast<int>(summary.iterations.size());
   result.termination = std::string(ceres::TerminationTypeToString(summary.termination_type)) +
                        ": " + summary.message;
+  VLOG(2) << "start " << number << ": cost " << summary.initial_cost << " to " << result.cost
+          << " in " << result.iterations << " iterations; " << result.termination;
   return result;
 }
 
@@ -148,6 +150,9 @@ JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::
     const bool same = std::abs(start.cost - best->cost) <= kSameCost * best->cost + kZeroCost;
     fit.starts_at_best += start.converged && same ? 1 : 0;
   }
+  VLOG(1) << "joint fit: " << problem.residuals().size() << " residual blocks, "
+          << problem.parameters().size() << " parameters; cost " << fit.cost << ", reached by "
+          << fit.starts_at_best << " of " << fit.starts << " starts; " << fit.termination;
   fit.logs = best->logs;
   fit.models = problem.Models(fit.logs);
   fit.identifiability = IdentifiabilityAt(problem, fit.logs);

@@ -91,6 +91,16 @@ void LoopSchedule::Parameters(const LoopContext& at, LoopParameters<double>* loo
   flame->offset = mix(b.from->flame.offset, b.to->flame.offset);
 }
 
+double LoopSchedule::ShortestDelay(double tau_s) const {
+  for (const Point& point : points_) tau_s = std::min(tau_s, point.loop.tau_s);
+  return tau_s;
+}
+
+double LoopSchedule::LongestDelay(double tau_s) const {
+  for (const Point& point : points_) tau_s = std::max(tau_s, point.loop.tau_s);
+  return tau_s;
+}
+
 void LoopSchedule::Delay(const LoopContext& at, std::span<double> tau_s) {
   for (std::size_t i = 0; i < tau_s.size(); ++i) {
     const Between b = Find(at.time_s + static_cast<double>(i) * at.step_s);

@@ -69,6 +69,8 @@ class LoopSchedule final : public LoopEffect {
                   Flame<double>* flame) override;
   bool MovesDelay() const override { return true; }
   void Delay(const LoopContext& at, std::span<double> tau_s) override;
+  double ShortestDelay(double tau_s) const override;
+  double LongestDelay(double tau_s) const override;
 
  private:
   struct Between {

@@ -1,5 +1,7 @@
 #include "estimation/family/bound_step.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -30,9 +32,16 @@ void Start(const BoundSetting& setting, double scale, BoundSearch& search) {
   }
 }
 
-void Finish(BoundSearch& search, SearchState state) {
+void Finish(const BoundSetting& setting, BoundSearch& search, SearchState state) {
   search.state = state;
   search.outer = OuterSoFar(search);
+  const BoundQuantity& quantity = search.quantity;
+  VLOG(2) << (quantity.sign > 0.0 ? "highest " : "lowest ")
+          << setting.problem.experiments[quantity.experiment].name << "."
+          << (quantity.expression ? "expression" : FamilyParameterName(quantity.parameter))
+          << ": a member at " << quantity.sign * search.inner << ", none beyond "
+          << quantity.sign * search.outer << "; " << search.cells << " boxes"
+          << (state == SearchState::kClosed ? "" : ", all that it may take");
   (state == SearchState::kClosed ? search.counts.undecided : search.counts.pending) +=
       search.heap.size();
   search.heap.clear();
@@ -72,9 +81,9 @@ void StepBound(const BoundSetting& setting, const BoundLimits& limits, BoundSear
     return Start(setting, tolerance / (0.5 * limits.width), search);
   }
   if (search.heap.empty() || search.heap.front().bound <= search.inner + tolerance) {
-    return Finish(search, SearchState::kClosed);
+    return Finish(setting, search, SearchState::kClosed);
   }
-  if (search.cells >= limits.max_cells) return Finish(search, SearchState::kBudget);
+  if (search.cells >= limits.max_cells) return Finish(setting, search, SearchState::kBudget);
   SplitFarthest(setting, search);
 }
 

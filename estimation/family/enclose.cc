@@ -1,5 +1,7 @@
 #include "estimation/family/enclose.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <istream>
@@ -89,7 +91,14 @@ bool Enclosure::Run(const std::function<bool()>& interrupted) {
       StepBound(impl_->setting, impl_->limits, search);
     }
   });
-  return IsComplete();
+  const bool complete = IsComplete();
+  if (complete) {
+    const CellCounts cells = Counts();
+    VLOG(1) << "bounds: " << impl_->searches.size() << " ends; of the boxes " << cells.inside
+            << " hold members alone, " << cells.outside << " none, "
+            << cells.undecided + cells.pending << " are undecided";
+  }
+  return complete;
 }
 
 bool Enclosure::IsComplete() const {

@@ -81,6 +81,45 @@ SimulatedEffect ReadEffect(const ConfigCursor& item, const std::string& key) {
   return out;
 }
 
+void ReadStart(const ConfigCursor& simulation, SimulationSpec& spec) {
+  simulation.Read("start_frequency_hz", spec.start_frequency_hz);
+  if (const auto frequency = simulation.Find("start_frequency_hz")) {
+    spec.start_line = frequency->Line();
+  }
+  const auto start = simulation.Find("start");
+  if (!start) return;
+  spec.start_line = start->Line();
+  for (const SimulationStart each : kSimulationStarts) {
+    if (start->Node().text == SimulationStartName(each)) spec.start = each;
+  }
+  if (spec.start_frequency_hz) {
+    simulation.FailAt("start_frequency_hz", "stands beside start, expected only one of the two");
+  }
+}
+
+SweepSpec ReadSweep(const ConfigCursor& cursor, const Config& config) {
+  SweepSpec sweep;
+  sweep.line = cursor.Line();
+  for (const SweptParameter each : kSweptParameters) {
+    if (cursor.Find("parameter")->Node().text == SweptParameterName(each)) sweep.parameter = each;
+  }
+  cursor.Read("from", sweep.from);
+  cursor.Read("to", sweep.to);
+  cursor.Read("one_way_s", sweep.one_way_s);
+  cursor.Read("steps", sweep.steps);
+  cursor.Read("combustion_noise_relative", sweep.combustion_noise_relative);
+  if (sweep.from == sweep.to) cursor.FailAt("to", "is from, expected another value");
+  const bool of_second_mode = sweep.parameter == SweptParameter::kM ||
+                              sweep.parameter == SweptParameter::kMOverN ||
+                              sweep.parameter == SweptParameter::kHarmonicRatio;
+  if (of_second_mode && config.model.modes == 1) {
+    cursor.FailAt("parameter",
+                  "belongs to the second mode, but the model has one; expected modes: 2 under "
+                  "model");
+  }
+  return sweep;
+}
+
 }  // namespace
 
 void ReadSimulation(const ConfigCursor& root, Config& config) {
@@ -101,6 +140,8 @@ void ReadSimulation(const ConfigCursor& root, Config& config) {
   simulation->Read("combustion_noise_corner_hz", spec.combustion_noise_corner_hz);
   simulation->Read("sensor_noise_relative", spec.sensor_noise_relative);
   simulation->Read("loop_gain_min", spec.loop_gain_min);
+  ReadStart(*simulation, spec);
+  if (const auto sweep = simulation->Find("sweep")) spec.sweep = ReadSweep(*sweep, config);
   if (const auto effects = simulation->Find("effects")) {
     for (const ConfigCursor& item : effects->Items()) {
       spec.effects.push_back(

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "io/config/config_table.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -97,6 +98,9 @@ std::string ReadConfigText(const std::filesystem::path& path) {
     throw UserError(file, 0, "", "the file cannot be read, expected a readable config (YAML)");
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));
+  // Before its size and its bytes, which such a file has wrong as well.
+  const std::string record = DescribeRecordAsConfig(file, text);
+  if (!record.empty()) throw UserError(file, 1, "experiments", record);
   int number = 1;
   for (std::size_t begin = 0; begin < text.size(); ++number) {
     const std::string_view line = LineAt(text, begin);

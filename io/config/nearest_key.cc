@@ -47,12 +47,14 @@ std::size_t Distance(const std::string& word, const std::string& candidate) {
 }  // namespace
 
 std::optional<std::string> NearestKey(const std::string& word,
-                                      const std::vector<std::string>& candidates) {
+                                      const std::vector<std::string>& candidates,
+                                      std::size_t slips_of_two) {
   constexpr std::size_t kLongestWord = 64;
   if (word.size() > kLongestWord) return std::nullopt;
   const std::string lower = LowerCase(word);
-  // One slip in a short word, two in a longer one, then one for every three letters.
-  const std::size_t limit = lower.size() <= 2 ? 0 : std::max<std::size_t>(1, lower.size() / 3);
+  const std::size_t limit = lower.size() < 2    ? 0
+                            : lower.size() == 2 ? slips_of_two
+                                                : std::max<std::size_t>(1, lower.size() / 3);
   std::size_t smallest = limit + 1;
   std::optional<std::string> nearest;
   for (const std::string& candidate : candidates) {

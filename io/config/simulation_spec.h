@@ -3,6 +3,7 @@
 #define HOWL_IO_CONFIG_SIMULATION_SPEC_H_
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include "estimation/experiment.h"
 #include "model/effects/effect.h"
 #include "model/flame.h"
+#include "model/sweep.h"
 
 namespace howl {
 
@@ -35,6 +37,26 @@ struct SimulatedEffect {
   std::string key;  // of the config
 };
 
+// Where a simulation comes from.
+enum class SimulationStart : std::uint8_t { kObservedCycle, kUpperCycle, kRest };
+inline constexpr std::array kSimulationStarts = {
+    SimulationStart::kObservedCycle, SimulationStart::kUpperCycle, SimulationStart::kRest};
+constexpr std::string_view SimulationStartName(SimulationStart start) {
+  constexpr std::array<std::string_view, kSimulationStarts.size()> kNames = {"observed", "upper",
+                                                                             "rest"};
+  return kNames[static_cast<std::size_t>(start)];
+}
+
+struct SweepSpec {
+  SweptParameter parameter = SweptParameter::kMOverN;
+  double from = 0.0;
+  double to = 0.0;
+  double one_way_s = 40.0;
+  int steps = 50;
+  std::optional<double> combustion_noise_relative;  // none: the simulation's
+  int line = 0;
+};
+
 struct SimulationSpec {
   std::optional<double> duration_s;
   std::optional<double> sampling_hz;
@@ -48,6 +70,10 @@ struct SimulationSpec {
   // An experiment was seen in a limit cycle, so (1b) holds: a flame slope that gives less loop gain
   // than this is raised to it.
   double loop_gain_min = 1.1;
+  SimulationStart start = SimulationStart::kObservedCycle;
+  std::optional<double> start_frequency_hz;  // the cycle nearest to it
+  int start_line = 0;
+  std::optional<SweepSpec> sweep;
   std::vector<SimulatedEffect> effects;
 };
 

@@ -237,41 +237,5 @@ TEST(Regress, StoredResultsAreReproducedAndAMovedValueIsNamed) {
   EXPECT_THAT(run.out, testing::HasSubstr("1 values moved"));
 }
 
-TEST(CommandLine, MistakesAreOneLineAndStatusTwo) {
-  const std::string config = Config("r228");
-  for (const std::string& arguments : std::vector<std::string>{
-           "nonsense", "fit", "fit " + config + " --threads 0", "fit " + config + " --threads",
-           "fit " + config + " --seed -3", "fit " + config + " --nonsense",
-           "fit " + config + " " + config, "fit /nowhere/a.yaml",
-           "fit " + config + " --out /proc/nowhere", "fit " + config + " --quiet=3"}) {
-    const ProgramResult run = RunHowl(arguments);
-    EXPECT_EQ(run.status, 2) << arguments;
-    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << arguments << "\n" << run.err;
-    EXPECT_EQ(run.out, "") << arguments;
-  }
-}
-
-TEST(CommandLine, HelpExplainsEveryCommand) {
-  const ProgramResult help = RunHowl("--help");
-  EXPECT_EQ(help.status, 0);
-  for (const std::string command : {"fit", "family", "list", "regress"}) {
-    EXPECT_THAT(help.out, testing::HasSubstr("  " + command + " "));
-    const ProgramResult own = RunHowl(command + " --help");
-    EXPECT_EQ(own.status, 0);
-    EXPECT_THAT(own.out, testing::HasSubstr("howl " + command + " CONFIG"));
-    EXPECT_THAT(own.out, testing::HasSubstr("--threads"));
-  }
-}
-
-TEST(CommandLine, QuietPrintsNothing) {
-  const TemporaryFolder folder;
-  for (const std::string command : {"fit ", "family "}) {
-    const ProgramResult run =
-        RunHowl(command + Config("r228_reliable") + " --quiet --out " + folder.path().string());
-    EXPECT_EQ(run.status, 0);
-    EXPECT_EQ(run.out + run.err, "");
-  }
-}
-
 }  // namespace
 }  // namespace howl

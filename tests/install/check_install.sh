@@ -8,7 +8,11 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cmake --install "$build_folder" --prefix "$scratch/prefix" >/dev/null
 "$scratch/prefix/bin/howl" --version
-cmake -S "$source_folder/tests/install" -B "$scratch/build" -G Ninja \
-  -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
+configure() {
+  cmake -S "$source_folder/tests/install" -B "$scratch/$1" -G Ninja -DHOWL_CONSUMER_LANGUAGES="$2" \
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
+}
+configure with_c "C;CXX"
+configure build CXX
 cmake --build "$scratch/build"
 "$scratch/build/consumer"

@@ -54,6 +54,27 @@ std::vector<Malformed> Cases() {
                    "ELF\x02\x01\x00\x00",
                    17),
        2, "title", "0x7f", "UTF-8"},
+      // A record in the config's place, whatever its size.
+      {"Csv", "t,p,q\n0,1.5,-2\n0.0002,1.4,-2.1\n0.0004,1.2,-2.2\n", 1, "experiments",
+       "a table of numbers", "pressure: p, heat_release: q, sampling_hz"},
+      {"CsvOfMegabytes",
+       [] {
+         std::string text = "p,q\n";
+         for (int i = 0; i < 500'000; ++i) text += std::to_string(i) + ",0.125\n";
+         return text;
+       }(),
+       1, "experiments", "a table of numbers", "pressure: p, heat_release: q"},
+      {"TableWithoutHeader", "1 2e-3\n3 -4\n5 6\n", 1, "experiments", "a table of numbers",
+       "pressure: 1, heat_release: 2"},
+      {"OneColumn", "1.5\n2.5\n3.5\n4.5\n", 1, "experiments", "a table of numbers",
+       "pressure: 1, sampling_hz"},
+      {"SemicolonsAndTabs", "Zeit [s];\"p\"\r\n0;1\r\n1;2\r\n2;3\r\n", 1, "experiments",
+       "a table of numbers", "record: {file: "},
+      {"Hdf5", std::string("\x89HDF\r\n\x1a\n\0\0", 10), 1, "experiments", "an HDF5 file",
+       "record: {file: "},
+      {"Matlab", "MATLAB 5.0 MAT-file, Platform: GLNXA64", 1, "experiments", "a MATLAB file",
+       "record: {file: "},
+      {"Gzip", "\x1f\x8b\x08", 1, "experiments", "a gzip file", "record: {file: "},
       {"NotUtf8", "title: caf\xe9\n" + kGood, 1, "title", "0xe9 at column 11", "UTF-8"},
       {"Utf16",
        std::string("\xff\xfe"

@@ -1,0 +1,16 @@
+// A record given as the config: what it is, and the config that it belongs into.
+#ifndef HOWL_IO_CONFIG_CONFIG_TABLE_H_
+#define HOWL_IO_CONFIG_CONFIG_TABLE_H_
+
+#include <string>
+#include <string_view>
+
+namespace howl {
+
+// What stands in the place of a config, and what was expected; empty where `text`, the beginning of
+// the file, is no table of numbers and no file of MATLAB, HDF5 or gzip. `file`: its path.
+std::string DescribeRecordAsConfig(const std::string& file, std::string_view text);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_CONFIG_CONFIG_TABLE_H_
