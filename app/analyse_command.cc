@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -5,6 +6,7 @@
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "app/vanishing_text.h"
+#include "estimation/half_width.h"
 #include "io/results/analysis_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
@@ -14,13 +16,18 @@ namespace {
 
 constexpr double kPerCent = 100.0;
 constexpr std::size_t kShownLines = 4;
+constexpr int kMostFurtherDecimals = 3;
 
-// "219.87±0.02"
-std::string WithStd(const Estimate& estimate, int decimals) {
+// "219.87±0.02": the half width of the 95 % interval, with more decimals where it would be zero.
+std::string WithInterval(const Estimate& estimate, int decimals) {
   if (!std::isfinite(estimate.value)) return "-";
-  std::string text = Fixed(estimate.value, decimals);
-  if (std::isfinite(estimate.std)) text += "±" + Fixed(estimate.std, decimals);
-  return text;
+  const double half = HalfWidth95(estimate);
+  if (!std::isfinite(half)) return Fixed(estimate.value, decimals);
+  if (half > 0.0) {
+    const int needed = static_cast<int>(std::ceil(-std::log10(half)));
+    decimals = std::clamp(needed, decimals, decimals + kMostFurtherDecimals);
+  }
+  return Fixed(estimate.value, decimals) + "±" + Fixed(half, decimals);
 }
 
 std::string StateText(const Analysis& analysis) {
@@ -36,7 +43,7 @@ void PrintCharacteristics(const AnalysisSet& set, const std::string& operating_p
     const Characteristics& cycle = analysis.characteristics;
     const bool has_cycle = cycle.state != CycleState::kNoLimitCycle;
     const auto shown = [&](const Estimate& estimate, int decimals) {
-      return has_cycle ? WithStd(estimate, decimals) : std::string("-");
+      return has_cycle ? WithInterval(estimate, decimals) : std::string("-");
     };
     Estimate tau_ms = analysis.tau_s.value_or(Estimate{});
     tau_ms.value *= 1e3;
@@ -45,7 +52,7 @@ void PrintCharacteristics(const AnalysisSet& set, const std::string& operating_p
                   shown(cycle.frequency_hz, 2), shown(cycle.phase_deg, 2), shown(cycle.gain, 3),
                   shown(tau_ms, 3), shown(analysis.loop_gain.value_or(Estimate{}), 3)});
   }
-  std::printf("%s", table.Text().c_str());
+  std::printf("%s:\n%s", kPlusMinusLegend, table.Text().c_str());
 }
 
 void PrintLines(const AnalysisSet& set) {
@@ -54,7 +61,7 @@ void PrintLines(const AnalysisSet& set) {
     std::size_t shown = 0;
     for (const SpectralLine& line : analysis.lines) {
       if (++shown > kShownLines) break;
-      table.AddRow({analysis.name, WithStd(line.frequency_hz, 2),
+      table.AddRow({analysis.name, WithInterval(line.frequency_hz, 2),
                     line.harmonic > 0 ? std::to_string(line.harmonic) : "no",
                     Significant(line.p_amplitude, 3), Significant(line.q_amplitude, 3),
                     line.width_hz < line.resolution_hz ? "< " + Significant(line.resolution_hz, 2)
@@ -62,7 +69,8 @@ void PrintLines(const AnalysisSet& set) {
                     analysis.has_heat_release ? Fixed(line.coherence, 2) : "-"});
     }
   }
-  std::printf("\nstrongest lines (all in lines.csv):\n%s", table.Text().c_str());
+  std::printf("\nstrongest lines (all in lines.csv; %s):\n%s", kPlusMinusLegend,
+              table.Text().c_str());
 }
 
 void PrintTransfers(const AnalysisSet& set, const ModelSpec& model) {
@@ -73,15 +81,16 @@ void PrintTransfers(const AnalysisSet& set, const ModelSpec& model) {
     if (!analysis.transfer_fit) continue;
     any = true;
     const TransferFit& fit = *analysis.transfer_fit;
-    table.AddRow({analysis.name, std::to_string(fit.points.size()), WithStd(fit.omega_hz, 2),
-                  WithStd(fit.xi, 4), WithStd(fit.N, 0),
+    table.AddRow({analysis.name, std::to_string(fit.points.size()), WithInterval(fit.omega_hz, 2),
+                  WithInterval(fit.xi, 4), WithInterval(fit.N, 0),
                   model.modes == 2 ? Significant(fit.M.value / fit.N.value, 3) : "-",
                   Fixed(fit.chi_square_per_dof, 2), Fixed(kPerCent * fit.explained_power, 1),
                   Fixed(kPerCent * fit.noise_power, 1)});
   }
   if (any) {
-    std::printf("\nq-to-p transfer where p and q are coherent, %s fitted:\n%s",
-                model.modes == 2 ? "two modes" : "one mode", table.Text().c_str());
+    std::printf("\nq-to-p transfer where p and q are coherent, %s fitted (%s):\n%s",
+                model.modes == 2 ? "two modes" : "one mode", kPlusMinusLegend,
+                table.Text().c_str());
   }
 }
 
@@ -89,9 +98,10 @@ void PrintGrowth(const AnalysisSet& set) {
   for (const Analysis& analysis : set.analyses) {
     if (!analysis.growth) continue;
     const Growth& growth = *analysis.growth;
-    std::printf("%s: grows at %s 1/s near %s Hz, from %.2f to %.2f s\n", analysis.name.c_str(),
-                WithStd(growth.rate_per_s, 3).c_str(), WithStd(growth.frequency_hz, 2).c_str(),
-                growth.start_s, growth.end_s);
+    std::printf("%s: grows at %s 1/s near %s Hz, from %.2f to %.2f s (%s)\n", analysis.name.c_str(),
+                WithInterval(growth.rate_per_s, 3).c_str(),
+                WithInterval(growth.frequency_hz, 2).c_str(), growth.start_s, growth.end_s,
+                kPlusMinusLegend);
   }
 }
 
@@ -141,7 +151,8 @@ Command AnalyseCommand() {
           "frequency, q-to-p phase and gain, delay, flame curve and loop gain; all significant\n"
           "spectral lines; whether the record is stationary; and the q-to-p transfer wherever the\n"
           "two are coherent. Writes characteristics.csv, lines.csv, transfer.csv, flame_curve.csv\n"
-          "and analysis.json. Standard deviations are 95 % intervals' half widths over 1.96.",
+          "and analysis.json. What is printed after a ± is half of a 95 % interval; the files'\n"
+          "columns _std are standard deviations, that half width over 1.96.",
           {},
           Run};
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/text_table.h"
+#include "estimation/half_width.h"
 
 namespace howl {
 namespace {
@@ -121,15 +122,15 @@ void PrintTransfer(const FamilyRun& run) {
     return;
   }
   if (run.members.empty()) return;
-  std::printf("the broadband q-to-p transfer of %zu experiments is part of the test",
-              volume.experiments);
+  std::string text = "the broadband q-to-p transfer of " + std::to_string(volume.experiments) +
+                     " experiments is part of the test";
   if (volume.ln_ratio) {
-    std::printf(": it leaves exp(%s +- %s) of the volume", Fixed(*volume.ln_ratio, 1).c_str(),
-                Fixed(volume.ln_std, 1).c_str());
+    text += ": it leaves exp(" + Fixed(*volume.ln_ratio, 1) + " ± " +
+            Fixed(HalfWidth95(volume.ln_std), 1) + ") of the volume (" + kPlusMinusLegend + ")";
   } else if (!volume.finite_without) {
-    std::printf("; without it the volume is not finite (give xi a least value and M a largest)");
+    text += "; without it the volume is not finite (give xi a least value and M a largest)";
   }
-  std::printf("\n");
+  std::printf("%s\n", Wrapped(text, 2).c_str());
   if (run.transfer->without.empty()) return;
   TextTable table({"experiment", "omega Hz", "xi", "N"});
   for (std::size_t i = 0; i < run.problem.experiments.size(); ++i) {

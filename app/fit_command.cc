@@ -5,6 +5,7 @@
 #include "app/text_table.h"
 #include "app/vanishing_text.h"
 #include "estimation/family/membership.h"
+#include "estimation/half_width.h"
 #include "estimation/joint_fit.h"
 #include "io/config/config.h"
 #include "io/results/solution_json.h"
@@ -42,6 +43,12 @@ void PrintModels(const JointProblem& problem, const JointFit& fit) {
 }
 
 void PrintShared(const JointProblem& problem, const JointFit& fit) {
+  bool any_free = false;
+  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+    any_free =
+        any_free || (problem.parameters()[i].experiment == kShared && !fit.parameters[i].fixed);
+  }
+  if (any_free) std::printf("shared parameters (%s):\n", kPlusMinusLegend);
   for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
     if (problem.parameters()[i].experiment != kShared) continue;
     const FitParameter& parameter = fit.parameters[i];
@@ -49,7 +56,8 @@ void PrintShared(const JointProblem& problem, const JointFit& fit) {
     if (parameter.fixed) {
       std::printf(" (fixed)\n");
     } else {
-      std::printf(" +- %s %%%s\n", Significant(kPerCent * parameter.std_relative, 2).c_str(),
+      std::printf(" ± %s %%%s\n",
+                  Significant(kPerCent * HalfWidth95(parameter.std_relative), 2).c_str(),
                   parameter.at_bound ? " (at its bound)" : "");
     }
   }

@@ -16,6 +16,7 @@
 #include "io/records/records.h"
 #include "io/results/family_csv.h"
 #include "io/results/records_yaml.h"
+#include "io/results/simulation_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 #include "model/harmonic_balance.h"
@@ -24,10 +25,14 @@
 namespace howl {
 namespace {
 
+constexpr int kMostMembers = 100000000;
+
 // The loop of one experiment, ready to run, and what was decided about it.
 struct Rig {
   RigParameters parameters;
-  double loop_gain = 0.0;
+  double loop_gain = 0.0;        // at rest, as it runs
+  double model_loop_gain = 0.0;  // with the measured slope
+  double flame_slope = 0.0;      // as it runs, without effects
   bool slope_raised = false;
   std::string origin;               // "on the cycle at 219.9 Hz"
   double pressure_amplitude = 0.0;  // of the observed cycle; saturation's where there is none
@@ -37,7 +42,7 @@ struct Rig {
 // The stable solution's models, or one listed member's.
 std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& options,
                                         const std::vector<Experiment>& experiments) {
-  const auto number = options.Count("--member", 1, 100000000);
+  const auto number = options.Count("--member", 1, kMostMembers);
   if (!number) {
     const JointProblem problem(experiments, config.model, config.residuals);
     return SolveJoint(problem, config.solver, options.seed, options.threads).models;
@@ -70,12 +75,14 @@ Rig MakeRig(const Config& config, const Experiment& experiment, const LoopModel&
   const LoopParameters<double> loop = model.Loop();
   const double response = Magnitude(LoopResponse(loop, experiment.frequency_hz));
   double slope = experiment.flame_slope.value_or(0.0);
-  rig.loop_gain = response * std::abs(slope);
+  rig.model_loop_gain = response * std::abs(slope);
+  rig.loop_gain = rig.model_loop_gain;
   if (rig.loop_gain < spec.loop_gain_min) {
     rig.loop_gain = spec.loop_gain_min;
     slope = -rig.loop_gain / response;
     rig.slope_raised = true;
   }
+  rig.flame_slope = slope;
   rig.parameters.model = {loop, {spec.flame_shape, slope, spec.saturation, 0.0}};
   Noise& noise = rig.parameters.noise;
   const double combustion_std = spec.combustion_noise_relative * spec.saturation;
@@ -142,6 +149,17 @@ void AddEffects(const Config& config, const std::vector<Experiment>& experiments
   }
 }
 
+std::string LoopsText(const Options& options, const std::vector<Experiment>& experiments,
+                      const std::vector<Rig>& rigs) {
+  std::vector<SimulatedLoop> loops;
+  for (std::size_t i = 0; i < rigs.size(); ++i) {
+    const Rig& rig = rigs[i];
+    loops.push_back({experiments[i].name, rig.model_loop_gain, rig.loop_gain, rig.flame_slope,
+                     rig.slope_raised});
+  }
+  return SimulationJson(options.Count("--member", 1, kMostMembers), loops).dump(2) + "\n";
+}
+
 void Print(const std::vector<Experiment>& experiments, const std::vector<Rig>& rigs) {
   TextTable table({"experiment", "loop gain", "starts", "file"});
   bool any_raised = false;
@@ -182,6 +200,7 @@ int Run(const Options& options) {
                    {records[i].sampling_hz, records[i].pressure, records[i].heat_release});
   }
   WriteWholeFile(options.out / "records.yaml", RecordsYaml(config, experiments, times.sampling_hz));
+  WriteWholeFile(options.out / "simulation.json", LoopsText(options, experiments, rigs));
   std::vector<SweepResult> sweeps;
   if (config.simulation.sweep) {
     std::vector<SweptRig> swept;
@@ -196,8 +215,9 @@ int Run(const Options& options) {
     if (config.simulation.sweep) {
       std::printf("%s", SweepText(*config.simulation.sweep, sweeps).c_str());
     }
-    std::printf("written: %srecords and records.yaml, a config of their own, in %s\n",
-                config.simulation.sweep ? "sweep.csv, " : "", options.out.c_str());
+    std::printf(
+        "written: %srecords, records.yaml (a config of their own) and simulation.json in %s\n",
+        config.simulation.sweep ? "sweep.csv, " : "", options.out.c_str());
   }
   return kDone;
 }
@@ -211,9 +231,10 @@ Command SimulateCommand() {
       "Fits the config (or takes a listed member of its family), closes the loop with a flame\n"
       "that saturates, and integrates it with noise, each experiment from its observed cycle on,\n"
       "or from the one that `simulate: start` names.\n"
-      "Writes NAME.csv (p,q) for each experiment and records.yaml, a config that analyse, fit\n"
-      "and family take as it is. The config's `simulate:` has duration, sampling, flame, noise,\n"
-      "and `effects:`, any of the catalogue of howl diagnose, which records.yaml does not tell.\n"
+      "Writes NAME.csv (p,q) for each experiment, records.yaml, a config that analyse, fit and\n"
+      "family take as it is, and simulation.json, which says where a slope was raised. The\n"
+      "config's `simulate:` has duration, sampling, flame, noise, and `effects:`, any of the\n"
+      "catalogue of howl diagnose, which neither file tells.\n"
       "With `sweep:` a parameter goes slowly there and back in one more run: sweep.csv, and where\n"
       "the loop jumps on the way up and on the way down.",
       {{"--member", "K", "member K of family.csv, which howl family wrote to DIR, not the fit"}},

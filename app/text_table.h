@@ -25,6 +25,9 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
+// What every table and line with a ± says beside it.
+inline constexpr const char* kPlusMinusLegend = "±: half of a 95 % interval";
+
 // `digits` significant digits, no exponent where it can be avoided; "-" for NaN.
 std::string Significant(double value, int digits = 5);
 // Fixed number of decimals; "-" for NaN.

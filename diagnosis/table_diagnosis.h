@@ -24,6 +24,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "estimation/experiment.h"
+#include "estimation/statistics.h"
 #include "model/acoustics.h"
 
 namespace howl {
@@ -36,7 +37,7 @@ struct TableLimits {
   double xi_max = 1.0;
   double M_max = std::numeric_limits<double>::infinity();
   double M_over_N_max = std::numeric_limits<double>::infinity();
-  double line_sigmas = 1.96;
+  double line_sigmas = kNormal95;
 };
 
 struct LagInterval {

@@ -4,11 +4,10 @@
 #include <utility>
 
 #include "diagnosis/candidates/attempt.h"
+#include "estimation/half_width.h"
 
 namespace howl {
 namespace {
-
-constexpr double kTwoSigma = 1.96;
 
 std::vector<ExperimentFit> HoldOutAll(const Setting& at, const EffectFit& fit) {
   std::vector<ExperimentFit> out;
@@ -25,10 +24,10 @@ std::vector<ExperimentFit> HoldOutAll(const Setting& at, const EffectFit& fit) {
 }
 
 EstimatedParameter WithError(const EffectParameter& p, double value, double error) {
-  EstimatedParameter out{p.name, value, value - kTwoSigma * error, value + kTwoSigma * error,
+  EstimatedParameter out{p.name, value, value - HalfWidth95(error), value + HalfWidth95(error),
                          p.unit};
   if (p.scale == ParameterScale::kLogarithmic && value > 0.0) {
-    const double factor = std::exp(std::min(kTwoSigma * error / value, 20.0));
+    const double factor = std::exp(std::min(HalfWidth95(error) / value, 20.0));
     out.low = value / factor;
     out.high = value * factor;
   }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "estimation/statistics.h"
+
 namespace howl {
 
 struct Tally {
@@ -27,7 +29,7 @@ struct Tally {
 
  private:
   double Bound(double side) const {
-    constexpr double kZ = 1.959963984540054;
+    constexpr double kZ = kNormal95;
     if (total == 0) return side < 0.0 ? 0.0 : 1.0;
     const double n = total;
     const double p = right / n;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "tests/app/program.h"
@@ -50,6 +51,11 @@ TEST(FamilyTransfer, NarrowsTheFamilyAroundTheRig) {
   EXPECT_TRUE(transfer["finite_without"]);
   EXPECT_LT(transfer["ln_volume_ratio"].get<double>(), -5.0);
   EXPECT_LT(transfer["least_distance"].get<double>(), 4.0);
+  // Half of a 95 % interval, as its line says.
+  std::smatch printed;
+  ASSERT_TRUE(std::regex_search(run.out, printed, std::regex("exp\\(-[0-9.]+ ± ([0-9.]+)\\)")));
+  EXPECT_NEAR(std::stod(printed[1]), 1.96 * transfer["ln_volume_ratio_std"].get<double>(), 0.051);
+  EXPECT_NE(run.out.find("±: half of a 95 % interval"), std::string::npos);
 
   const auto off =
       folder.Write("without.yaml", PracticeConfig(root, "transfer_distance_max: null")).string();
