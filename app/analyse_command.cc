@@ -110,10 +110,11 @@ int Run(const Options& options) {
                     "no experiment has a record, expected at least one to analyse");
   }
   const AnalysisSet set = AnalyseRecords(records, MakeAnalysisOptions(config, options));
-  WriteWholeFile(options.out / "characteristics.csv", CharacteristicsCsv(set));
-  WriteWholeFile(options.out / "lines.csv", LinesCsv(set));
-  WriteWholeFile(options.out / "transfer.csv", TransferCsv(set));
-  WriteWholeFile(options.out / "flame_curve.csv", FlameCurveCsv(set));
+  WriteWholeFile(options.out / "characteristics.csv",
+                 CharacteristicsCsv(set, config.operating_parameter));
+  WriteWholeFile(options.out / "lines.csv", LinesCsv(set, config.operating_parameter));
+  WriteWholeFile(options.out / "transfer.csv", TransferCsv(set, config.operating_parameter));
+  WriteWholeFile(options.out / "flame_curve.csv", FlameCurveCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / "analysis.json", AnalysisJson(set).dump(2) + "\n");
   if (options.quiet) return kDone;
   PrintCharacteristics(set, config.operating_parameter);
