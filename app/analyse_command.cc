@@ -2,10 +2,12 @@
 #include <cstdio>
 
 #include "app/command.h"
+#include "app/health_text.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "app/vanishing_text.h"
 #include "io/results/analysis_files.h"
+#include "io/results/health_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -14,6 +16,8 @@ namespace {
 
 constexpr double kPerCent = 100.0;
 constexpr std::size_t kShownLines = 4;
+constexpr const char* kSound =
+    "every record has a steady limit cycle, and no mistake of sign, order or sampling rate shows";
 
 // "219.87±0.02"
 std::string WithStd(const Estimate& estimate, int decimals) {
@@ -109,13 +113,17 @@ int Run(const Options& options) {
     throw UserError(config.source.string(), config.experiments.front().line, "experiments",
                     "no experiment has a record, expected at least one to analyse");
   }
-  const AnalysisSet set = AnalyseRecords(records, MakeAnalysisOptions(config, options));
+  const AnalysisOptions analysis_options = MakeAnalysisOptions(config, options);
+  const AnalysisSet set = AnalyseRecords(records, analysis_options);
+  const Health health = CheckAnalysis(records, set, analysis_options, RateSources(config));
+  nlohmann::ordered_json analysis = AnalysisJson(set);
+  analysis["health"] = HealthJson(health);
   WriteWholeFile(options.out / "characteristics.csv",
                  CharacteristicsCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / "lines.csv", LinesCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / "transfer.csv", TransferCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / "flame_curve.csv", FlameCurveCsv(set, config.operating_parameter));
-  WriteWholeFile(options.out / "analysis.json", AnalysisJson(set).dump(2) + "\n");
+  WriteWholeFile(options.out / "analysis.json", analysis.dump(2) + "\n");
   if (options.quiet) return kDone;
   PrintCharacteristics(set, config.operating_parameter);
   PrintLines(set);
@@ -125,6 +133,7 @@ int Run(const Options& options) {
     std::printf("phase, gain, delay, flame curve and transfer need heat release: not available\n");
   }
   std::printf("%s", VanishingText(set.vanishing_phi, config.operating_parameter).c_str());
+  std::printf("%s", HealthText(health, kSound, "analysis.json").c_str());
   const std::string written =
       "written: characteristics.csv, lines.csv, transfer.csv, flame_curve.csv and analysis.json "
       "in " +
