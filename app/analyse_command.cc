@@ -133,12 +133,12 @@ int Run(const Options& options) {
     std::printf("phase, gain, delay, flame curve and transfer need heat release: not available\n");
   }
   std::printf("%s", VanishingText(set.vanishing_phi, config.operating_parameter).c_str());
-  std::printf("%s", HealthText(health, kSound, "analysis.json").c_str());
   const std::string written =
       "written: characteristics.csv, lines.csv, transfer.csv, flame_curve.csv and analysis.json "
       "in " +
       options.out.string();
   std::printf("%s\n", Wrapped(written, 2).c_str());
+  std::printf("%s", HealthText(health, kSound, "analysis.json").c_str());
   return kDone;
 }
 

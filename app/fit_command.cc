@@ -124,8 +124,8 @@ int Run(const Options& options) {
                 fit.converged ? "converged" : fit.termination.c_str());
     std::printf("%s", VanishingText(vanishing_phi, config.operating_parameter).c_str());
     PrintIdentifiability(fit);
-    std::printf("%s", HealthText(health, kSound, "solution.json").c_str());
     std::printf("written: %s\n", path.c_str());
+    std::printf("%s", HealthText(health, kSound, "solution.json").c_str());
   }
   return fit.converged ? kDone : kNegativeAnswer;
 }
