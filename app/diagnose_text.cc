@@ -22,6 +22,7 @@ std::string ParameterText(const Candidate& candidate) {
     if (!text.empty()) text += ", ";
     text += parameter.name + " " + Significant(parameter.value, 4);
     if (!parameter.unit.empty()) text += " " + parameter.unit;
+    if (parameter.at_bound) text += " (at bound)";
   }
   return text;
 }
@@ -35,6 +36,19 @@ std::string MovedText(const Diagnosis& diagnosis) {
     text += p.name + " " + Significant(p.without, 4) + " for " + Significant(p.with, 4);
   }
   return text.empty() ? text : text + "\n";
+}
+
+// Said where the best candidate stands at a bound: its size is then the search's, not the data's.
+std::string BoundText(const Diagnosis& diagnosis) {
+  if (diagnosis.candidates.empty()) return "";
+  const Candidate& best = diagnosis.candidates.front();
+  std::string names;
+  for (const EstimatedParameter& parameter : best.parameters) {
+    if (parameter.at_bound) names += (names.empty() ? "" : ", ") + parameter.name;
+  }
+  if (names.empty()) return "";
+  return best.effect + ": at a bound of the search: " + names +
+         "; the data ask for more than the catalogue allows, or for none of it\n";
 }
 
 // Cells of the map that are more than noise.
@@ -98,6 +112,7 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
                   ParameterText(candidate)});
   }
   std::printf("%s", table.Text().c_str());
+  std::printf("%s", BoundText(diagnosis).c_str());
   std::printf("%s", MovedText(diagnosis).c_str());
   std::printf("next: %s\n", diagnosis.advice.c_str());
 }

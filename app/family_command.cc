@@ -14,7 +14,8 @@ namespace {
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
   const FamilyRun run = RunFamily(config, options);
-  WriteWholeFile(options.out / "family.csv", FamilyCsv(run.problem.experiments, run.members));
+  WriteWholeFile(options.out / "family.csv",
+                 FamilyCsv(run.problem.experiments, run.members, config.operating_parameter));
   WriteWholeFile(options.out / "tradeoff.csv", TradeoffCsv(run.tradeoff));
   WriteWholeFile(options.out / "family.json",
                  FamilyJson({.problem = run.problem,

@@ -1,13 +1,18 @@
 #include <cstdio>
 
 #include "app/command.h"
+#include "app/health_text.h"
 #include "app/problem_input.h"
+#include "app/record_input.h"
 #include "app/text_table.h"
 #include "app/vanishing_text.h"
 #include "estimation/family/membership.h"
 #include "estimation/half_width.h"
+#include "estimation/health/fit_health.h"
+#include "estimation/health/mistake_search.h"
 #include "estimation/joint_fit.h"
 #include "io/config/config.h"
+#include "io/results/health_json.h"
 #include "io/results/solution_json.h"
 #include "io/whole_file.h"
 
@@ -15,6 +20,9 @@ namespace howl {
 namespace {
 
 constexpr double kPerCent = 100.0;
+constexpr const char* kSound =
+    "no parameter at a bound, no residual beyond 3 standard deviations, and no mistake of sign, "
+    "order or unit would fit much better undone";
 
 void PrintModels(const JointProblem& problem, const JointFit& fit) {
   const bool two_modes = problem.model().modes == 2;
@@ -81,13 +89,40 @@ double CostPerDegreeOfFreedom(const JointFit& fit) {
   return residuals > determined ? fit.cost / static_cast<double>(residuals - determined) : 0.0;
 }
 
+Health CheckAll(const Config& config, const Options& options, const ProblemInput& input,
+                const JointProblem& problem, const JointFit& fit) {
+  Health health;
+  if (input.analysis) {
+    health = CheckAnalysis(input.records, *input.analysis, MakeAnalysisOptions(config, options),
+                           RateSources(config));
+  }
+  const Health of_fit = CheckFit(problem, fit);
+  health.insert(health.end(), of_fit.begin(), of_fit.end());
+  std::vector<std::string> recorded;
+  for (const ExperimentConfig& each : config.experiments) {
+    if (each.record) recorded.push_back(each.experiment.name);
+  }
+  const Health mistakes = FindMistakes(problem, config.residuals, fit,
+                                       {.recorded = recorded,
+                                        .solver = config.solver,
+                                        .seed = options.seed,
+                                        .threads = options.threads});
+  health.insert(health.end(), mistakes.begin(), mistakes.end());
+  return health;
+}
+
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
-  const JointProblem problem(LoadExperiments(config, options), config.model, config.residuals);
+  const ProblemInput input = LoadInput(config, options);
+  RequireExperiments(config, options, input);
+  const JointProblem problem(input.experiments, config.model, config.residuals);
   const JointFit fit = SolveJoint(problem, config.solver, options.seed, options.threads);
   const VanishingPhi vanishing_phi = EstimateVanishingPhi(problem.experiments());
   const std::filesystem::path path = options.out / "solution.json";
-  WriteWholeFile(path, SolutionJson(problem, fit, vanishing_phi).dump(2) + "\n");
+  const Health health = CheckAll(config, options, input, problem, fit);
+  nlohmann::ordered_json solution = SolutionJson(problem, fit, vanishing_phi);
+  solution["health"] = HealthJson(health);
+  WriteWholeFile(path, solution.dump(2) + "\n");
   if (!options.quiet) {
     PrintModels(problem, fit);
     PrintShared(problem, fit);
@@ -98,6 +133,7 @@ int Run(const Options& options) {
     std::printf("%s", VanishingText(vanishing_phi, config.operating_parameter).c_str());
     PrintIdentifiability(fit);
     std::printf("written: %s\n", path.c_str());
+    std::printf("%s", HealthText(health, kSound, "solution.json").c_str());
   }
   return fit.converged ? kDone : kNegativeAnswer;
 }
@@ -110,7 +146,10 @@ Command FitCommand() {
       "fit acoustics and delay to all experiments together",
       "Minimises all residuals of the config over all experiments in one problem, from several\n"
       "starts, and reports which directions in parameter space the data leave undetermined.\n"
-      "Writes solution.json. Exit status 1 when no start converged.",
+      "Ends with what speaks against the fit: parameters at bounds, residuals beyond 3 standard\n"
+      "deviations, and mistakes in the data that would fit much better undone. Writes\n"
+      "solution.json. Exit status 1 when no start converged, or a parameter stands where the\n"
+      "search ends.",
       {},
       Run};
 }

@@ -10,18 +10,23 @@ namespace howl {
 namespace {
 
 // Why a record gives fit and family nothing.
-const char* Shortcoming(const Analysis& analysis) {
-  if (!analysis.has_heat_release) return "has no heat release";
-  return "shows no limit cycle";
+std::string Shortcoming(const Analysis& analysis, const AnalysisOptions& options) {
+  if (!analysis.has_heat_release) return analysis.name + " has no heat release: left out";
+  std::string text = analysis.name + " shows no limit cycle: left out";
+  for (const Finding& finding : CheckState(analysis, options.characteristics)) {
+    text += " (" + finding.text + ")";
+  }
+  return text;
 }
 
 }  // namespace
 
 ProblemInput LoadInput(const Config& config, const Options& options) {
   ProblemInput input;
-  const std::vector<NamedRecord> records = LoadRecords(config);
-  if (!records.empty()) {
-    input.analysis = AnalyseRecords(records, MakeAnalysisOptions(config, options));
+  input.records = LoadRecords(config);
+  const AnalysisOptions analysis_options = MakeAnalysisOptions(config, options);
+  if (!input.records.empty()) {
+    input.analysis = AnalyseRecords(input.records, analysis_options);
   }
   std::size_t next = 0;
   for (const ExperimentConfig& each : config.experiments) {
@@ -33,7 +38,7 @@ ProblemInput LoadInput(const Config& config, const Options& options) {
     std::optional<Experiment> experiment = ToExperiment(analysis);
     if (!experiment) {
       if (!options.quiet) {
-        std::fprintf(stderr, "%s %s: left out\n", analysis.name.c_str(), Shortcoming(analysis));
+        std::fprintf(stderr, "%s\n", Shortcoming(analysis, analysis_options).c_str());
       }
       continue;
     }
@@ -44,12 +49,23 @@ ProblemInput LoadInput(const Config& config, const Options& options) {
   return input;
 }
 
+void RequireExperiments(const Config& config, const Options& options, const ProblemInput& input) {
+  if (!input.experiments.empty()) return;
+  std::string why;
+  for (std::size_t i = 0; i < input.records.size() && why.empty(); ++i) {
+    for (const Finding& finding :
+         CheckSampling(input.records[i], input.analysis->analyses[i],
+                       MakeAnalysisOptions(config, options), RateSources(config)[i])) {
+      why = "; " + finding.text;
+    }
+  }
+  throw UserError(config.source.string(), config.experiments.front().line, "experiments",
+                  "no record shows a limit cycle in p and q, expected at least one" + why);
+}
+
 std::vector<Experiment> LoadExperiments(const Config& config, const Options& options) {
   ProblemInput input = LoadInput(config, options);
-  if (input.experiments.empty()) {
-    throw UserError(config.source.string(), config.experiments.front().line, "experiments",
-                    "no record shows a limit cycle in p and q, expected at least one");
-  }
+  RequireExperiments(config, options, input);
   return std::move(input.experiments);
 }
 

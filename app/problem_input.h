@@ -16,11 +16,15 @@ namespace howl {
 struct ProblemInput {
   std::vector<Experiment> experiments;  // that fit and family can take; may be empty
   std::optional<AnalysisSet> analysis;  // when the config has records
+  std::vector<NamedRecord> records;     // that were analysed
 };
 
 // Published numbers as they are; records analysed first. An experiment whose record shows no limit
 // cycle or has no heat release is left out, and a line on standard error says so.
 ProblemInput LoadInput(const Config& config, const Options& options);
+
+// Throws UserError when no experiment is left, with what the analysis says of the first.
+void RequireExperiments(const Config& config, const Options& options, const ProblemInput& input);
 
 // The experiments alone. Throws UserError when none is left.
 std::vector<Experiment> LoadExperiments(const Config& config, const Options& options);

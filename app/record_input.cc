@@ -14,6 +14,16 @@ std::vector<NamedRecord> LoadRecords(const Config& config) {
   return records;
 }
 
+std::vector<RateSource> RateSources(const Config& config) {
+  std::vector<RateSource> sources;
+  for (const ExperimentConfig& each : config.experiments) {
+    if (!each.record) continue;
+    const bool by_times = each.record->time && !each.record->sampling_hz;
+    sources.push_back(by_times ? RateSource::kTimeColumn : RateSource::kNumber);
+  }
+  return sources;
+}
+
 AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options) {
   AnalysisOptions analysis;
   analysis.characteristics.method = config.analysis.method;

@@ -6,12 +6,17 @@
 
 #include "app/options.h"
 #include "estimation/analyse.h"
+#include "estimation/health/analysis_health.h"
 #include "io/config/config.h"
 
 namespace howl {
 
 // The experiments that have a record, in the config's order. Throws UserError for bad data.
 std::vector<NamedRecord> LoadRecords(const Config& config);
+
+// Of each experiment that has a record: whether a number gives its sampling rate, or the steps of
+// its time column.
+std::vector<RateSource> RateSources(const Config& config);
 
 AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options);
 

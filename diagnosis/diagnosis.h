@@ -34,6 +34,7 @@ struct EstimatedParameter {
   double low = 0.0;  // 95 %; NaN where no error was estimated
   double high = 0.0;
   std::string unit;
+  bool at_bound = false;  // of the search: the value is that of the bound, not of the data
 };
 
 struct Candidate {

@@ -181,7 +181,8 @@ Diagnosis Verdict(const TableDiagnosis& table) {
             "there"
           : "check the table: no lag of the q sensor makes frequency, phase, gain and line agree";
   if (!table.lag.any) return out;
-  const EstimatedParameter lag{"lag_deg", kNaN, table.lag.low_deg, table.lag.high_deg, "deg"};
+  EstimatedParameter lag{"lag_deg", kNaN, table.lag.low_deg, table.lag.high_deg, "deg"};
+  lag.at_bound = table.lag.low_deg <= -kLargestLag_deg || table.lag.high_deg >= kLargestLag_deg;
   const double per_deg = 1.0 / (360.0 * table.mean_frequency_hz);
   out.candidates = {
       Explains("q_sensor_lowpass", {{"cutoff_hz", kNaN, table.cutoff_min_hz, kNaN, "Hz"}, lag}),

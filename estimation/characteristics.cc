@@ -14,7 +14,7 @@ namespace {
 using Complexes = std::vector<std::complex<double>>;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMinBlockPeriods = 8.0;
+constexpr double kMinBlockPeriods = kFewestPeriods;
 constexpr double kBlocksPerRecord = 24.0;
 constexpr double kLeastDiffusion = 5e-12;  // rad^2 a period: a steadier phase counts as this steady
 
@@ -23,6 +23,7 @@ struct Peak {
   double noise_psd = 0.0;  // floor beside it
   double power = 0.0;      // mean square
   bool significant = false;
+  PeakTest test;
 };
 
 // The largest peak of p's spectrum in the search range, refined by the main lobe's centroid.
@@ -33,7 +34,12 @@ Peak FindPeak(const CrossSpectrum& spectrum, const CharacteristicsOptions& optio
   const int last =
       std::min(static_cast<int>(top / spectrum.bin_hz), static_cast<int>(spectrum.pp.size()) - 3);
   Peak peak;
-  if (first >= last) return peak;
+  peak.test.low_hz = lowest_hz;
+  peak.test.high_hz = std::min(top, last * spectrum.bin_hz);
+  if (first >= last) {
+    peak.test.high_hz = std::min(peak.test.high_hz, peak.test.low_hz);
+    return peak;
+  }
   const auto begin = spectrum.pp.begin();
   const int bin = static_cast<int>(std::max_element(begin + first, begin + last + 1) - begin);
   double sum = 0.0, moment = 0.0;
@@ -47,6 +53,9 @@ Peak FindPeak(const CrossSpectrum& spectrum, const CharacteristicsOptions& optio
   peak.noise_psd = floor[static_cast<std::size_t>(bin)];
   const double threshold = PeakThreshold(spectrum.degrees_of_freedom, last - first + 1, 0.01);
   peak.significant = spectrum.pp[static_cast<std::size_t>(bin)] > threshold * peak.noise_psd;
+  peak.test.frequency_hz = peak.frequency_hz;
+  peak.test.over_floor = spectrum.pp[static_cast<std::size_t>(bin)] / peak.noise_psd;
+  peak.test.threshold = threshold;
   return peak;
 }
 
@@ -170,15 +179,10 @@ void Classify(const CharacteristicsOptions& options, double duration_s, Characte
   result->state = fluctuation > options.no_cycle_fluctuation       ? CycleState::kNoLimitCycle
                   : fluctuation > options.intermittent_fluctuation ? CycleState::kIntermittent
                                                                    : CycleState::kLimitCycle;
-  // Drift counts when it is significant (three standard deviations: four tests a record) and large
-  // enough to matter: a fifth of the amplitude, or half a percent of the frequency.
-  const auto drifts = [](const Estimate& e, double enough) {
-    return std::abs(e.value) > 3.0 * e.std && std::abs(e.value) > enough;
-  };
-  result->stationary =
-      result->state == CycleState::kLimitCycle &&
-      !drifts(result->amplitude_drift_per_s, 0.2 / duration_s) &&
-      !drifts(result->frequency_drift_hz_per_s, 0.005 * result->frequency_hz.value / duration_s);
+  result->stationary = result->state == CycleState::kLimitCycle &&
+                       !Drifts(result->amplitude_drift_per_s, kMostAmplitudeDrift / duration_s) &&
+                       !Drifts(result->frequency_drift_hz_per_s,
+                               kMostFrequencyDrift * result->frequency_hz.value / duration_s);
 }
 
 }  // namespace
@@ -238,6 +242,7 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
                                ? options.min_frequency_hz
                                : LowestSearched(record.sampling_hz, duration_s);
   const Peak peak = FindPeak(spectrum, options, lowest_hz, record.sampling_hz);
+  result.peak = peak.test;
   if (!peak.significant || duration_s * peak.frequency_hz < kMinBlockPeriods) return result;
 
   // Blocks: 24 to a record, but at least eight periods, long enough for ten times the noise's

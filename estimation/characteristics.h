@@ -20,6 +20,7 @@
 #ifndef HOWL_ESTIMATION_CHARACTERISTICS_H_
 #define HOWL_ESTIMATION_CHARACTERISTICS_H_
 
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -45,7 +46,27 @@ struct CharacteristicsOptions {
 enum class CycleState { kLimitCycle, kIntermittent, kNoLimitCycle };
 std::string_view CycleStateName(CycleState state);  // as in files
 
+// The highest peak of p's spectrum in the search range, and what it takes to be one.
+struct PeakTest {
+  double low_hz = 0.0, high_hz = 0.0;  // the range; empty where low_hz >= high_hz
+  double frequency_hz = 0.0;
+  double over_floor = 0.0;  // the spectrum there over the noise beside it
+  double threshold = 0.0;   // of over_floor
+};
+
+inline constexpr double kFewestPeriods = 8.0;  // of the cycle, in a record
+// Over the record, beyond which it is not stationary: of the amplitude, and of the frequency.
+inline constexpr double kMostAmplitudeDrift = 0.2;
+inline constexpr double kMostFrequencyDrift = 0.005;
+
+// Drift counts when it is significant (three standard deviations: four tests a record) and large
+// enough to matter.
+inline bool Drifts(const Estimate& rate, double enough) {
+  return std::abs(rate.value) > 3.0 * rate.std && std::abs(rate.value) > enough;
+}
+
 struct Characteristics {
+  PeakTest peak;
   CycleState state = CycleState::kNoLimitCycle;
   Estimate frequency_hz;
   Estimate phase_deg;  // from q to p: negative when p lags q; absent (NaN) without q

@@ -9,6 +9,7 @@
 
 #include "estimation/residuals/transfer_point.h"
 #include "estimation/transfer.h"
+#include "estimation/transfer_search.h"
 
 namespace howl {
 namespace {
@@ -82,8 +83,8 @@ Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
     }
   }
   // Guard rails: a mode outside the points' band or without its N is another model.
-  problem.SetParameterLowerBound(&x[1], 0, std::log(1e-4));
-  problem.SetParameterUpperBound(&x[1], 0, std::log(10.0));
+  problem.SetParameterLowerBound(&x[1], 0, std::log(kTransferXiMin));
+  problem.SetParameterUpperBound(&x[1], 0, std::log(kTransferXiMax));
   if (model.modes == 2) {
     problem.SetParameterLowerBound(&x[3], 0, x[2] + std::log(1e-6));
     problem.SetParameterUpperBound(&x[3], 0, x[2] + std::log(1e6));

@@ -17,6 +17,8 @@ namespace {
 constexpr double kSameCost = 1e-6;
 constexpr double kZeroCost = 1e-12;
 constexpr double kAtBound = 1e-6;
+// Nothing is learned from how near to the end of the search a parameter came.
+constexpr double kAtGuardRail = 1e-3;
 
 struct StartResult {
   std::vector<double> logs;
@@ -77,6 +79,15 @@ Eigen::MatrixXd Jacobian(const JointProblem& problem, std::vector<double> logs) 
   return dense;
 }
 
+// A bound that no one set (FitParameter).
+bool IsGuardRail(const JointProblem& problem, ParameterKind kind, bool upper) {
+  static const ModelSpec defaults = DefaultModelSpec();
+  const bool second_mode = kind == ParameterKind::kM || kind == ParameterKind::kMOverN;
+  if (second_mode && !upper) return false;
+  return upper ? problem.model()[kind].max == defaults[kind].max
+               : problem.model()[kind].min == defaults[kind].min;
+}
+
 void DescribeParameters(const JointProblem& problem, JointFit& fit) {
   std::size_t column = 0;
   for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
@@ -87,12 +98,29 @@ void DescribeParameters(const JointProblem& problem, JointFit& fit) {
     parameter.fixed = block.fixed;
     if (!block.fixed) {
       parameter.std_relative = fit.identifiability.log_std[column++];
-      parameter.at_bound =
-          fit.logs[i] - block.min_log < kAtBound || block.max_log - fit.logs[i] < kAtBound;
+      const double below = block.max_log - fit.logs[i];
+      const double above = fit.logs[i] - block.min_log;
+      const bool upper = below < above;
+      const double distance = std::min(below, above);
+      const bool guard_rail = IsGuardRail(problem, block.kind, upper);
+      parameter.at_bound = distance < (guard_rail ? kAtGuardRail : kAtBound);
+      parameter.at_guard_rail = parameter.at_bound && guard_rail;
+      parameter.bound = parameter.at_bound ? std::exp(upper ? block.max_log : block.min_log) : 0.0;
       fit.free_names.push_back(block.name);
     }
     fit.parameters.push_back(std::move(parameter));
   }
+}
+
+// The solver is content on a guard rail; the fit is not one.
+void RefuseGuardRails(JointFit& fit) {
+  std::string names;
+  for (const FitParameter& parameter : fit.parameters) {
+    if (parameter.at_guard_rail) names += (names.empty() ? "" : ", ") + parameter.name;
+  }
+  if (names.empty()) return;
+  fit.converged = false;
+  fit.termination = "GUARD_RAIL: the data drive " + names + " out of every model";
 }
 
 void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
@@ -157,6 +185,7 @@ JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::
   fit.models = problem.Models(fit.logs);
   fit.identifiability = IdentifiabilityAt(problem, fit.logs);
   DescribeParameters(problem, fit);
+  RefuseGuardRails(fit);
   DescribeResiduals(problem, fit);
   return fit;
 }

@@ -18,6 +18,11 @@ struct FitParameter {
   double value = 0.0;         // natural units
   double std_relative = 0.0;  // standard deviation of the logarithm; infinite: not determined
   bool at_bound = false;
+  // At a bound that no one set: a default that only keeps the search among numbers. Where a fit
+  // ends there, the data drive the parameter out of every model, and it is no fit. A second mode
+  // of vanishing size is not such an end: it is the model with one mode.
+  bool at_guard_rail = false;
+  double bound = 0.0;  // the one that it stands at, natural units
   bool fixed = false;
 };
 
@@ -28,8 +33,8 @@ struct FitResidual {
 };
 
 struct JointFit {
-  bool converged = false;
-  std::string termination;  // Ceres' word, then its message
+  bool converged = false;   // the solver did, and no parameter stands on a guard rail
+  std::string termination;  // Ceres' word, then its message; or GUARD_RAIL and who stands there
   double cost = 0.0;
   int iterations = 0;
   int starts = 0;

@@ -96,6 +96,10 @@ void PayForParameters(Attempt* attempt);
 // Of several effects that together were tried: the p-value of the largest.
 double PValue(double gain, double parameters, std::size_t catalogue);
 
+// True within a millionth of the search's range from either of its ends; the range of logarithms
+// where the parameter's scale is logarithmic.
+bool StandsAtBound(const EffectParameter& parameter, double value);
+
 // A value whose error nothing here estimates: it has no interval.
 EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit);
 

@@ -12,6 +12,7 @@ Attempt TryDeclaredMap(const Setting& at, const DeclaredEffect& effect) {
   for (std::size_t j = 0; j < map.values.size(); ++j) {
     const EffectParameter& p = effect.parameters()[j];
     out.candidate.parameters.push_back(WithoutError(p.name, map.values[j], p.unit));
+    out.candidate.parameters.back().at_bound = StandsAtBound(p, map.values[j]);
   }
   out.held_out = std::move(map.held_out);
   return out;

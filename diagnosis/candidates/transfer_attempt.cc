@@ -31,6 +31,7 @@ EstimatedParameter WithError(const EffectParameter& p, double value, double erro
     out.low = value / factor;
     out.high = value * factor;
   }
+  out.at_bound = StandsAtBound(p, value);
   return out;
 }
 

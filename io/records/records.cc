@@ -10,10 +10,18 @@
 #include "io/records/number_text.h"
 #include "io/records/table_source.h"
 #include "io/records/time_column.h"
+#include "io/records/time_unit.h"
 #include "io/user_error.h"
 
 namespace howl {
 namespace {
+
+// A factor of a thousand is told from one by far less.
+constexpr double kSameRate = 0.01;
+
+std::string UnitName(double unit_s) {
+  return unit_s == 1.0 ? "s" : unit_s == 1e-3 ? "ms" : unit_s == 1e-6 ? "us" : "ns";
+}
 
 struct Part {
   std::size_t first = 0;
@@ -30,8 +38,9 @@ class Loader {
  private:
   void CheckSpec() const;
   Part ChoosePart(std::size_t rows, double step_s) const;
-  double CheckTime(std::span<const double> time, std::size_t first, double step_s,
-                   double resolution_s) const;
+  double TimeUnit(double step) const;
+  double CheckTime(std::span<const double> time, std::size_t first, double step, double resolution,
+                   double unit_s) const;
   void Take(std::vector<double>& column, const ColumnName& name, Part part, double scale) const;
 
   [[noreturn]] void FailConfig(const std::string& key, const std::string& what) const {
@@ -93,20 +102,29 @@ Part Loader::ChoosePart(std::size_t rows, double step_s) const {
   return part;
 }
 
-// The rate in Hz; `first` is the row of time[0].
-double Loader::CheckTime(std::span<const double> time, std::size_t first, double step_s,
-                         double resolution_s) const {
-  const auto fault = FindTimeFault(time, step_s, resolution_s);
+// Seconds in a unit of the times: by the column's name, or by the rate that sampling_hz gives
+// beside them; else the times are in seconds.
+double Loader::TimeUnit(double step) const {
+  if (const auto unit_s = TimeUnitOfName(table_->NameOf(*spec_.time))) return *unit_s;
+  if (!spec_.sampling_hz) return 1.0;
+  return TimeUnitOfRates(1.0 / step, *spec_.sampling_hz, kSameRate).value_or(1.0);
+}
+
+// The rate in Hz; `first` is the row of time[0]. Times, step and resolution in units of unit_s.
+double Loader::CheckTime(std::span<const double> time, std::size_t first, double step,
+                         double resolution, double unit_s) const {
+  const auto fault = FindTimeFault(time, step, resolution, unit_s);
   if (fault) FailData(first + fault->row, *spec_.time, fault->what);
-  const double rate_hz = SamplingRateHz(time, resolution_s);
+  const double rate_hz = SamplingRateHz(time, resolution) * (1.0 / unit_s);
   if (!spec_.sampling_hz) return rate_hz;
-  const double span_s = time.back() - time.front();
-  const double tolerance = kSamplingRateTolerance + resolution_s / span_s;
+  const double span = time.back() - time.front();
+  const double tolerance = kSamplingRateTolerance + resolution / span;
   if (std::abs(rate_hz / *spec_.sampling_hz - 1.0) > tolerance) {
     FailData(first, *spec_.time,
-             "two sampling rates, " + NumberText(rate_hz, 6) + " Hz by the times in s and " +
-                 NumberText(*spec_.sampling_hz) + " Hz by sampling_hz (" + config_file_ + ":" +
-                 std::to_string(config_line_) + "), expected one");
+             "two sampling rates, " + NumberText(rate_hz, 6) + " Hz by the times in " +
+                 UnitName(unit_s) + " and " + NumberText(*spec_.sampling_hz) +
+                 " Hz by sampling_hz (" + config_file_ + ":" + std::to_string(config_line_) +
+                 "), expected one");
   }
   return *spec_.sampling_hz;
 }
@@ -150,8 +168,6 @@ Record Loader::Load() {
     throw UserError(spec_.file.string(), rows > 0 ? table_->LineOf(rows - 1) : 0, "",
                     std::to_string(rows) + few);
   }
-  double step_s = spec_.sampling_hz ? 1.0 / *spec_.sampling_hz : 0.0;
-  double resolution_s = 0.0;
   Part part;
   Record record;
   if (spec_.time) {
@@ -161,18 +177,19 @@ Record Loader::Load() {
         FailData(i, *spec_.time, NumberText(time[i]) + ", expected a finite time in s");
       }
     }
-    resolution_s = TimeResolution(time);
-    step_s = TypicalStep(time, resolution_s);
-    if (step_s <= 0.0) {
+    const double resolution = TimeResolution(time);
+    const double step = TypicalStep(time, resolution);
+    if (step <= 0.0) {
       FailData(0, *spec_.time, "the times do not grow, expected even steps in s");
     }
-    part = ChoosePart(rows, step_s);
+    const double unit_s = TimeUnit(step);
+    part = ChoosePart(rows, step * unit_s);
     record.sampling_hz = CheckTime(std::span(time).subspan(part.first, part.count), part.first,
-                                   step_s, resolution_s);
+                                   step, resolution, unit_s);
     columns.pop_back();
   } else {
     record.sampling_hz = *spec_.sampling_hz;
-    part = ChoosePart(rows, step_s);
+    part = ChoosePart(rows, 1.0 / *spec_.sampling_hz);
   }
   if (part.count < kFewestSamples) {
     FailConfig(spec_.duration_s ? "duration_s" : "start_s",

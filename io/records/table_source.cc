@@ -67,6 +67,14 @@ std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file) {
   return OpenTextTable(file);
 }
 
+std::string TableSource::NameOf(const ColumnName& name) const {
+  const std::size_t channel = name.rfind(':');
+  const bool is_channel =
+      channel != std::string::npos && ColumnNumber(name.substr(channel + 1)) > 0;
+  if (is_channel) return name.substr(0, channel);
+  return ColumnNumber(name) > 0 ? std::string() : name;
+}
+
 std::string DisplayName(const ColumnName& name) {
   return ColumnNumber(name) > 0 ? "column " + name : name;
 }

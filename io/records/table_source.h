@@ -26,6 +26,9 @@ class TableSource {
   // through: the caller knows which rows matter. Throws UserError for everything else.
   virtual Columns Read(const std::vector<ColumnName>& names) = 0;
 
+  // What the file itself calls the column: of a number, the header's name. Empty where it has none.
+  virtual std::string NameOf(const ColumnName& name) const;
+
   // The line of a row (both from 0 and 1 respectively), or 0 where the format has no lines.
   virtual int LineOf(std::size_t /*row*/) const { return 0; }
 };

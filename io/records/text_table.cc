@@ -28,6 +28,9 @@ class TextTable final : public TableSource {
   }
 
   Columns Read(const std::vector<ColumnName>& names) override;
+  std::string NameOf(const ColumnName& name) const override {
+    return layout_.names.empty() ? std::string() : layout_.names[Find(name)];
+  }
   int LineOf(std::size_t row) const override { return rows_ ? rows_->LineOf(row) : 0; }
 
  private:

@@ -96,17 +96,20 @@ double TypicalStep(std::span<const double> time_s, double resolution_s) {
 }
 
 std::optional<TimeFault> FindTimeFault(std::span<const double> time_s, double step_s,
-                                       double resolution_s) {
+                                       double resolution_s, double unit_s) {
+  const auto describe = [&](const char* what, double step) {
+    return Describe(what, step * unit_s, step_s * unit_s);
+  };
   // Both ends of a step are rounded, each by half the resolution; a little for the arithmetic.
   const double rounding = 1.01 * resolution_s;
   for (std::size_t i = 1; i < time_s.size(); ++i) {
     const double step = time_s[i] - time_s[i - 1];
     const double excess = step - step_s;
     if (std::abs(excess) <= kJitter * step_s + rounding && step >= 0.0) continue;
-    if (step < 0.0) return TimeFault{i, Describe("time goes backwards by a step", step, step_s)};
-    if (step == 0.0) return TimeFault{i, Describe("time stands still, a step", step, step_s)};
+    if (step < 0.0) return TimeFault{i, describe("time goes backwards by a step", step)};
+    if (step == 0.0) return TimeFault{i, describe("time stands still, a step", step)};
     const bool gap = excess > kGap * step_s + rounding;
-    return TimeFault{i, Describe(gap ? "a time gap" : "an uneven time step", step, step_s)};
+    return TimeFault{i, describe(gap ? "a time gap" : "an uneven time step", step)};
   }
   return std::nullopt;
 }

@@ -22,10 +22,11 @@ struct TimeFault {
   std::string what;
 };
 
-// The first row whose step is no sampling period within 10 % and the resolution: a gap, jitter, or
-// time that stands still or goes backwards. Steps of two resolutions or less cannot be told apart.
+// Times may be in any unit, of unit_s seconds: what is printed is in seconds. The first row whose
+// step is no sampling period within 10 % and the resolution: a gap, jitter, or time that stands
+// still or goes backwards. Steps of two resolutions or less cannot be told apart.
 std::optional<TimeFault> FindTimeFault(std::span<const double> time_s, double step_s,
-                                       double resolution_s);
+                                       double resolution_s, double unit_s = 1.0);
 
 // f = (n - 1) / (t_(n-1) - t_0), and the shortest decimal number among those that the resolution
 // cannot tell from it (10000 and not 10000.0017).

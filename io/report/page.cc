@@ -1,6 +1,7 @@
 #include "io/report/page.h"
 
 #include "io/report/browser_data.h"
+#include "io/report/health_section.h"
 #include "io/report/page_tables.h"
 #include "io/report/render.h"
 #include "model/version.h"
@@ -180,7 +181,7 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
          "<link rel=\"icon\" href=\"data:,\">\n<title>" +
          title + "</title>\n<style>" + (has_browser ? std::string(kPlotStyle) : std::string()) +
          kPageStyle + "</style>\n</head>\n<body>\n<header><h1>" + title + "</h1><p class=\"run\">" +
-         RunText(input) + "</p><nav>" + contents + "</nav></header>\n<main>\n" +
+         RunText(input) + "</p><nav>" + contents + "</nav></header>\n<main>\n" + HealthHtml(input) +
          MissingHtml(input) + body + "</main>\n" +
          (has_browser ? std::string("<footer>Plots of the browser: uPlot, MIT License.</footer>\n")
                       : std::string()) +

@@ -232,6 +232,7 @@ std::string DiagnosisSummary(const ReportInput& input) {
       }
       const std::string unit = value.value("unit", "");
       if (!unit.empty()) parameters += " " + unit;
+      if (value.value("at_bound", false)) parameters += " at a bound of the search";
     }
     rows.push_back({candidate.value("effect", ""),
                     Text(100.0 * NumberAt(candidate, "shrinkage"), 3),

@@ -102,10 +102,12 @@ Json OneJson(const Analysis& analysis) {
 
 }  // namespace
 
-std::string CharacteristicsCsv(const AnalysisSet& set) {
+std::string CharacteristicsCsv(const AnalysisSet& set, std::string_view operating_parameter) {
+  const OwnNameColumn own(operating_parameter);
   CsvWriter csv(
       "name,phi,frequency_hz,frequency_std_hz,phase_deg,phase_std_deg,gain,gain_std,tau_s,"
-      "flame_slope,flame_slope_std,loop_gain,stationary");
+      "flame_slope,flame_slope_std,loop_gain,stationary" +
+      own.Header());
   for (const Analysis& analysis : set.analyses) {
     // Without a limit cycle there is a largest peak, but no cycle to characterise.
     const Characteristics cycle = HasCycle(analysis) ? analysis.characteristics : Characteristics{};
@@ -116,15 +118,17 @@ std::string CharacteristicsCsv(const AnalysisSet& set) {
     }
     csv.Cell(OrUnknown(analysis.tau_s).value).Cell(slope.value).Cell(slope.std);
     csv.Cell(OrUnknown(analysis.loop_gain).value).Cell(cycle.stationary ? "true" : "false");
-    csv.EndRow();
+    own.Add(csv, analysis.phi).EndRow();
   }
   return csv.Text();
 }
 
-std::string LinesCsv(const AnalysisSet& set) {
+std::string LinesCsv(const AnalysisSet& set, std::string_view operating_parameter) {
+  const OwnNameColumn own(operating_parameter);
   CsvWriter csv(
       "name,phi,frequency_hz,frequency_std_hz,harmonic,p_amplitude,q_amplitude,p_over_floor,"
-      "q_over_floor,p_log10_p_value,q_log10_p_value,width_hz,resolution_hz,coherence,narrow");
+      "q_over_floor,p_log10_p_value,q_log10_p_value,width_hz,resolution_hz,coherence,narrow" +
+      own.Header());
   for (const Analysis& analysis : set.analyses) {
     for (const SpectralLine& line : analysis.lines) {
       csv.Cell(analysis.name).Cell(analysis.phi);
@@ -135,16 +139,18 @@ std::string LinesCsv(const AnalysisSet& set) {
                                  line.width_hz, line.resolution_hz, line.coherence}) {
         csv.Cell(value);
       }
-      csv.Cell(line.narrow ? "true" : "false").EndRow();
+      own.Add(csv.Cell(line.narrow ? "true" : "false"), analysis.phi).EndRow();
     }
   }
   return csv.Text();
 }
 
-std::string TransferCsv(const AnalysisSet& set) {
+std::string TransferCsv(const AnalysisSet& set, std::string_view operating_parameter) {
+  const OwnNameColumn own(operating_parameter);
   CsvWriter csv(
       "name,phi,frequency_hz,re,im,variance_re,variance_im,covariance,coherence,model_re,model_im,"
-      "misfit");
+      "misfit" +
+      own.Header());
   for (const Analysis& analysis : set.analyses) {
     if (!analysis.transfer) continue;
     const bool fitted = analysis.transfer_fit &&
@@ -159,19 +165,21 @@ std::string TransferCsv(const AnalysisSet& set) {
       const TransferFitPoint model =
           fitted ? analysis.transfer_fit->points[k]
                  : TransferFitPoint{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
-      csv.Cell(model.model_re).Cell(model.model_im).Cell(model.misfit).EndRow();
+      csv.Cell(model.model_re).Cell(model.model_im).Cell(model.misfit);
+      own.Add(csv, analysis.phi).EndRow();
     }
   }
   return csv.Text();
 }
 
-std::string FlameCurveCsv(const AnalysisSet& set) {
-  CsvWriter csv("name,phi,delayed_derivative,q,q_std,samples");
+std::string FlameCurveCsv(const AnalysisSet& set, std::string_view operating_parameter) {
+  const OwnNameColumn own(operating_parameter);
+  CsvWriter csv("name,phi,delayed_derivative,q,q_std,samples" + own.Header());
   for (const Analysis& analysis : set.analyses) {
     if (!analysis.flame_curve) continue;
     for (const FlameCurveBin& bin : analysis.flame_curve->bins) {
       csv.Cell(analysis.name).Cell(analysis.phi).Cell(bin.x).Cell(bin.q).Cell(bin.q_std);
-      csv.Cell(static_cast<double>(bin.samples)).EndRow();
+      own.Add(csv.Cell(static_cast<double>(bin.samples)), analysis.phi).EndRow();
     }
   }
   return csv.Text();

@@ -8,21 +8,24 @@
 //   flame_curve.csv      q against the delayed derivative of p, in bins (figures 5 and 6)
 //   analysis.json        all of it but the curves, schema howl.analysis/1
 //
+// An operating parameter with a name of its own stands under it too, in the last column.
 // Cells that do not apply (no limit cycle, no heat release) are empty; in JSON they are null.
 #ifndef HOWL_IO_RESULTS_ANALYSIS_FILES_H_
 #define HOWL_IO_RESULTS_ANALYSIS_FILES_H_
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "estimation/analyse.h"
 
 namespace howl {
 
-std::string CharacteristicsCsv(const AnalysisSet& set);
-std::string LinesCsv(const AnalysisSet& set);
-std::string TransferCsv(const AnalysisSet& set);
-std::string FlameCurveCsv(const AnalysisSet& set);
+std::string CharacteristicsCsv(const AnalysisSet& set,
+                               std::string_view operating_parameter = "phi");
+std::string LinesCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
+std::string TransferCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
+std::string FlameCurveCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
 nlohmann::ordered_json AnalysisJson(const AnalysisSet& set);
 
 }  // namespace howl

@@ -54,7 +54,8 @@ Json CandidateJson(const Candidate& candidate) {
     parameters[parameter.name] = {{"value", NumberOrNull(parameter.value)},
                                   {"lo", NumberOrNull(parameter.low)},
                                   {"hi", NumberOrNull(parameter.high)},
-                                  {"unit", parameter.unit}};
+                                  {"unit", parameter.unit},
+                                  {"at_bound", parameter.at_bound}};
   }
   return {{"effect", candidate.effect},
           {"gap_after", NumberOrNull(candidate.gap_after)},

@@ -1,7 +1,6 @@
 #include "io/results/family_csv.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -16,20 +15,12 @@
 namespace howl {
 namespace {
 
+using std::string_literals::operator""s;
+
 constexpr const char* kHeader =
     "member,experiment,phi,omega_hz,xi,N,M,tau_s,loop_gain,gain_error,phase_error_deg,"
     "loop_phase_error_deg";
-// The numeric columns, behind member and experiment.
-constexpr std::array kNumbers = {"phi",
-                                 "omega_hz",
-                                 "xi",
-                                 "N",
-                                 "M",
-                                 "tau_s",
-                                 "loop_gain",
-                                 "gain_error",
-                                 "phase_error_deg",
-                                 "loop_phase_error_deg"};
+// Of the numeric columns, behind member and experiment.
 constexpr std::size_t kOmegaColumn = 1;
 constexpr std::size_t kXiColumn = 2;
 
@@ -52,12 +43,12 @@ double ParseCell(const std::string& cell, const std::filesystem::path& path, int
   return value;
 }
 
-void AddSummary(FamilyTable& table) {
+void AddSummary(FamilyTable& table, std::size_t numbers) {
   for (std::vector<double>& row : table.rows) {
     double omega_min = std::numeric_limits<double>::infinity();
     double omega_max = 0.0;
     double xi_max = 0.0;
-    for (std::size_t k = 3; k < row.size(); k += kNumbers.size()) {
+    for (std::size_t k = 3; k < row.size(); k += numbers) {
       omega_min = std::min(omega_min, row[k + kOmegaColumn]);
       omega_max = std::max(omega_max, row[k + kOmegaColumn]);
       xi_max = std::max(xi_max, row[k + kXiColumn]);
@@ -70,8 +61,10 @@ void AddSummary(FamilyTable& table) {
 }  // namespace
 
 std::string FamilyCsv(std::span<const Experiment> experiments,
-                      std::span<const std::vector<LoopModel>> members) {
-  CsvWriter csv(kHeader);
+                      std::span<const std::vector<LoopModel>> members,
+                      std::string_view operating_parameter) {
+  const OwnNameColumn own(operating_parameter);
+  CsvWriter csv(kHeader + own.Header());
   for (std::size_t m = 0; m < members.size(); ++m) {
     for (std::size_t i = 0; i < experiments.size(); ++i) {
       const LoopModel& model = members[m][i];
@@ -82,7 +75,7 @@ std::string FamilyCsv(std::span<const Experiment> experiments,
                                  errors.phase_error_deg, errors.loop_phase_error_deg}) {
         csv.Cell(value);
       }
-      csv.EndRow();
+      own.Add(csv, experiments[i].phi).EndRow();
     }
   }
   return csv.Text();
@@ -100,18 +93,21 @@ FamilyTable ReadFamilyCsv(const std::filesystem::path& path) {
     throw UserError(path.string(), 0, "", "no such file, expected the one that howl family writes");
   }
   std::string line;
-  if (!std::getline(file, line) || line != kHeader) {
+  const bool is_family = std::getline(file, line) && (line + ",").starts_with(kHeader + ","s);
+  if (!is_family) {
     throw UserError(path.string(), 1, "",
                     "not a family, expected the header " + std::string(kHeader));
   }
+  const std::vector<std::string> header = Split(line);
+  const std::vector<std::string> numbers(header.begin() + 2, header.end());
   FamilyTable table;
   table.columns = {"member", "omega_spread", "xi_max"};
   for (int number = 2; std::getline(file, line); ++number) {
     const std::vector<std::string> cells = Split(line);
-    if (cells.size() != kNumbers.size() + 2) {
-      throw UserError(path.string(), number, "",
-                      std::to_string(cells.size()) + " columns, expected " +
-                          std::to_string(kNumbers.size() + 2));
+    if (cells.size() != header.size()) {
+      throw UserError(
+          path.string(), number, "",
+          std::to_string(cells.size()) + " columns, expected " + std::to_string(header.size()));
     }
     const double member = ParseCell(cells[0], path, number, "member");
     if (table.rows.empty() || table.rows.back()[0] != member) {
@@ -119,10 +115,12 @@ FamilyTable ReadFamilyCsv(const std::filesystem::path& path) {
     }
     if (table.rows.size() == 1) {
       table.experiments.push_back(cells[1]);
-      for (const char* column : kNumbers) table.columns.push_back(cells[1] + "." + column);
+      for (const std::string& column : numbers) {
+        table.columns.push_back(cells[1] + "." + column);
+      }
     }
-    for (std::size_t k = 0; k < kNumbers.size(); ++k) {
-      table.rows.back().push_back(ParseCell(cells[k + 2], path, number, kNumbers[k]));
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      table.rows.back().push_back(ParseCell(cells[k + 2], path, number, numbers[k]));
     }
   }
   for (const std::vector<double>& row : table.rows) {
@@ -132,7 +130,7 @@ FamilyTable ReadFamilyCsv(const std::filesystem::path& path) {
           "not a row for each experiment, expected " + std::to_string(table.experiments.size()));
     }
   }
-  AddSummary(table);
+  AddSummary(table, numbers.size());
   return table;
 }
 

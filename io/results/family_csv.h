@@ -3,6 +3,7 @@
 //   member,experiment,phi,omega_hz,xi,N,M,tau_s,loop_gain,gain_error,phase_error_deg,
 //   loop_phase_error_deg
 //
+// and behind them the operating parameter under its own name, where that is not phi.
 // Members count from 1. Errors are relative (gain) and in degrees, as in the falsification test.
 #ifndef HOWL_IO_RESULTS_FAMILY_CSV_H_
 #define HOWL_IO_RESULTS_FAMILY_CSV_H_
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "estimation/experiment.h"
@@ -18,7 +20,8 @@
 namespace howl {
 
 std::string FamilyCsv(std::span<const Experiment> experiments,
-                      std::span<const std::vector<LoopModel>> members);
+                      std::span<const std::vector<LoopModel>> members,
+                      std::string_view operating_parameter = "phi");
 
 // The same as a table with one row a member. Columns: member, omega_spread, xi_max, and
 // EXPERIMENT.COLUMN for every column of the file.

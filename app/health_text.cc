@@ -1,0 +1,39 @@
+#include "app/health_text.h"
+
+#include <cstddef>
+
+#include "app/text_table.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kShownOfAKind = 4;
+constexpr std::size_t kIndent = 4;
+// A mistake explains what stands below it.
+constexpr FindingKind kOrder[] = {FindingKind::kMistake,      FindingKind::kSampling,
+                                  FindingKind::kNotConverged, FindingKind::kGuardRail,
+                                  FindingKind::kBound,        FindingKind::kResidual,
+                                  FindingKind::kState};
+
+}  // namespace
+
+std::string HealthText(const Health& health, const std::string& sound, const std::string& file) {
+  if (health.empty()) return Wrapped("health: " + sound, 2) + "\n";
+  std::string text = Bold("health: " + std::to_string(health.size()) +
+                          (health.size() == 1 ? " finding" : " findings")) +
+                     "\n";
+  for (const FindingKind kind : kOrder) {
+    std::size_t count = 0;
+    for (const Finding& finding : health) {
+      if (finding.kind != kind || ++count > kShownOfAKind) continue;
+      text += Wrapped("  " + finding.text, kIndent) + "\n";
+    }
+    if (count > kShownOfAKind) {
+      text +=
+          "  and " + std::to_string(count - kShownOfAKind) + " more like these, in " + file + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace howl

@@ -1,0 +1,47 @@
+// The health of a fit or of an analysis: what speaks against taking its numbers as they stand.
+// A finding never changes a number; a fit with none may still be of the wrong model.
+#ifndef HOWL_ESTIMATION_HEALTH_FINDING_H_
+#define HOWL_ESTIMATION_HEALTH_FINDING_H_
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace howl {
+
+enum class FindingKind : std::uint8_t {
+  kNotConverged,  // of the solver
+  kGuardRail,     // a parameter at a bound that no one set
+  kBound,         // a parameter at a bound that the config set, or at its physical end
+  kResidual,      // beyond three standard deviations
+  kMistake,       // what the data look like, and would not without it
+  kSampling,      // a sampling rate that leaves no room for a cycle
+  kState          // no limit cycle, intermittent, not stationary: by which criterion
+};
+
+// As in files.
+constexpr std::string_view FindingKindName(FindingKind kind) {
+  constexpr std::array<std::string_view, 7> kNames = {
+      "not_converged", "guard_rail", "bound", "residual", "mistake", "sampling", "state"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+struct Finding {
+  FindingKind kind = FindingKind::kResidual;
+  std::string experiment;  // empty: of all, or of none in particular
+  std::string subject;     // parameter, residual, criterion or mistake
+  // The number and what it was held against: a bound, a threshold in the same unit, or the cost
+  // before and after a mistake is undone. NaN where there is none.
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double limit = std::numeric_limits<double>::quiet_NaN();
+  std::string text;  // a sentence for a reader, without a full stop
+};
+
+using Health = std::vector<Finding>;
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_HEALTH_FINDING_H_
