@@ -67,11 +67,13 @@ void CheckReference(const Config& config, const Config& reference,
   }
 }
 
-std::string InputBytes(const Config& config, const std::vector<DiagnosisExperiment>& rig,
+std::string InputBytes(const Config& config, const std::vector<std::string>& withheld,
+                       const std::vector<DiagnosisExperiment>& rig,
                        const std::vector<DiagnosisExperiment>& reference) {
   std::ifstream file(config.source, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
+  for (const std::string& id : withheld) text << id << "\n";
   for (const std::vector<DiagnosisExperiment>* each : {&rig, &reference}) {
     text << each->size() << "\n";
     for (const DiagnosisExperiment& experiment : *each) {

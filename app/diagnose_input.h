@@ -18,8 +18,10 @@ void CheckReference(const Config& config, const Config& reference,
                     const std::vector<DiagnosisExperiment>& rig,
                     const std::vector<DiagnosisExperiment>& model);
 
-// What a state file belongs to: the config's text (it has the effects) and every number.
-std::string InputBytes(const Config& config, const std::vector<DiagnosisExperiment>& rig,
+// What a state file belongs to: the config's text (it has the effects and the model), the effects
+// that are left out, and every number.
+std::string InputBytes(const Config& config, const std::vector<std::string>& withheld,
+                       const std::vector<DiagnosisExperiment>& rig,
                        const std::vector<DiagnosisExperiment>& reference);
 
 }  // namespace howl

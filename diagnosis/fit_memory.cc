@@ -1,5 +1,7 @@
 #include "diagnosis/fit_memory.h"
 
+#include <glog/logging.h>
+
 #include <cstdint>
 #include <cstring>
 
@@ -91,6 +93,10 @@ bool VisitNumbers(Fit& fit, const Visit& visit) {
 
 }  // namespace
 
+void UniqueKeys::Take(const std::string& key) {
+  CHECK(taken_.insert(key).second) << key << " is " << verb_ << " twice: two units share a key";
+}
+
 std::string ToBytes(const EffectFit& fit) {
   Writer writer;
   VisitNumbers(fit, [&](const auto& x) {
@@ -136,12 +142,12 @@ EffectFit FitOrRecall(FitMemory* memory, const std::string& key,
 
 }  // namespace
 
-EffectFit FitBestForm(FitMemory* memory, const std::vector<CutRecord>& records,
+EffectFit FitBestForm(FitMemory* memory, const std::string& unit,
+                      const std::vector<CutRecord>& records,
                       const std::vector<EffectPointer>& forms, const EffectFit& base) {
   std::optional<EffectFit> best;
   for (std::size_t i = 0; i < forms.size(); ++i) {
-    const std::string key = std::string(forms[i]->id()) + "#" + std::to_string(i);
-    EffectFit fit = FitOrRecall(memory, key, records, forms[i], base);
+    EffectFit fit = FitOrRecall(memory, unit + "#" + std::to_string(i), records, forms[i], base);
     if (!best || fit.cost() < best->cost()) best = std::move(fit);
   }
   return std::move(*best);

@@ -169,7 +169,7 @@ Attempt Search::Try(const EffectForms& forms) const {
   const Effect& effect = *forms[0];
   switch (effect.kind()) {
     case EffectKind::kTransfer:
-      return TryTransfer(at_, forms);
+      return TryTransfer(at_, "effect." + std::string(effect.id()), forms);
     case EffectKind::kGain:
       return TryGain(at_, effect, fluctuation_);
     case EffectKind::kLine:

@@ -92,7 +92,7 @@ double GainOfNoise(const std::vector<CutRecord>& records, const EffectFit& base,
     const std::vector<CutRecord> replicate = MakeCutRecords(
         Replicate(records, base, experiments, UnitSeed(options.seed, "gain of noise", i)));
     const EffectFit without = FitBase(replicate);
-    const EffectFit with = FitBestForm(nullptr, replicate, forms, without);
+    const EffectFit with = FitBestForm(nullptr, "", replicate, forms, without);
     gains[i] =
         without.cost() - with.cost() - PriceOfParameters(static_cast<double>(with.values.size()));
   });

@@ -134,7 +134,7 @@ class Kept final : public FitMemory {
   }
   void Keep(const std::string& key, const std::string& bytes) override {
     const std::lock_guard<std::mutex> lock(lock_);
-    all_[key] = bytes;
+    EXPECT_TRUE(all_.emplace(key, bytes).second) << key;
   }
   std::map<std::string, std::string> all_;
 
@@ -161,6 +161,13 @@ TEST(Bootstrap, GoesOnWhereItWasStopped) {
   options.bootstrap_progress = [&](std::size_t now, std::size_t) { done = now; };
   EXPECT_EQ(Diagnose(rig, options).bootstrap_gains, whole);
   EXPECT_EQ(done, 3u);
+}
+
+TEST(FitMemory, AKeyThatComesTwiceIsAProgrammersMistake) {
+  UniqueKeys keys("kept");
+  keys.Take("no_meaning.0#0");
+  keys.Take("no_meaning.1#0");
+  EXPECT_DEATH(keys.Take("no_meaning.0#0"), "no_meaning.0#0 is kept twice");
 }
 
 }  // namespace
