@@ -13,6 +13,10 @@ namespace howl {
 // Both signals of every experiment, long enough to be cut.
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
 
+// The loop that the config states. Where it does not state `modes`, two: with M zero they are one.
+// Delays of their own (scope: experiment) scatter as far as the fit's tau_prior lets them.
+BaseModel BaseOf(const Config& config);
+
 // Operating points are found by name or parameter, and interpolated in between.
 void CheckReference(const Config& config, const Config& reference,
                     const std::vector<DiagnosisExperiment>& rig,

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -72,11 +73,12 @@ TEST(Diagnose, AnInterruptedRunGoesOnToTheSameResult) {
   EXPECT_FALSE(std::filesystem::exists(parts + "/diagnosis.state"));
 }
 
-// The catalogue but one, for --without.
-std::string AllBut(const std::string& id) {
+// The catalogue but these, for --without.
+std::string AllBut(const std::vector<std::string>& kept) {
   std::string all;
   for (const EffectPointer& effect : Catalogue()) {
-    if (effect->id() != id) all += (all.empty() ? "" : ",") + std::string(effect->id());
+    if (std::ranges::find(kept, effect->id()) == kept.end())
+      all += (all.empty() ? "" : ",") + std::string(effect->id());
   }
   return all;
 }
@@ -116,7 +118,7 @@ TEST(Diagnose, StoppedAtAnyUnitItGoesOnToTheSameBytes) {
   const std::string out = (folder.path() / "rig").string();
   ASSERT_EQ(RunHowl("simulate " + config + " --quiet --out " + out).status, 0);
   const std::string command = "diagnose " + out + "/records.yaml --quiet --without " +
-                              AllBut("channel_skew") + " --out " + out;
+                              AllBut({"channel_skew"}) + " --out " + out;
   ASSERT_EQ(RunHowl(command).status, 0);
   const std::string whole = ReadFile(out + "/diagnosis.json");
   ASSERT_TRUE(nlohmann::json::parse(whole)["gap"]["shrinkage_by_no_meaning"].is_number());
@@ -140,7 +142,7 @@ TEST(Diagnose, AStateOfAnotherBuildOrWithAKeyTwiceIsNotBelieved) {
   const std::string rig = SimulatedRig(folder, "rig", "1");
   const std::string out = (folder.path() / "out").string();
   const std::string command =
-      "diagnose " + rig + " --without " + AllBut("channel_skew") + " --out " + out;
+      "diagnose " + rig + " --without " + AllBut({"channel_skew"}) + " --out " + out;
   std::filesystem::create_directories(out + "/diagnosis.json");
   ASSERT_NE(RunHowl(command).status, 0);
   std::filesystem::remove(out + "/diagnosis.json");
@@ -157,6 +159,59 @@ TEST(Diagnose, AStateOfAnotherBuildOrWithAKeyTwiceIsNotBelieved) {
   }
   folder.Write("out/diagnosis.state", state);
   EXPECT_THAT(RunHowl(command).err, testing::HasSubstr("going on from"));
+}
+
+// records.yaml as it is, and with its model or its delays changed.
+TEST(Diagnose, TheBaseIsTheConfigsModel) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  const std::string whole = ReadFile(rig);
+  const std::string stated = "model: {modes: 1, harmonic_ratio: 3}";
+  const std::size_t at = whole.find(stated);
+  ASSERT_NE(at, std::string::npos) << whole;
+  const auto base = [&](const std::string& model) {
+    std::string text = whole;
+    text.replace(at, stated.size(), model);
+    folder.Write("rig/other.yaml", text);
+    const std::string out = (folder.path() / "other").string();
+    const std::string config = (folder.path() / "rig" / "other.yaml").string();
+    const ProgramResult run = RunHowl("diagnose " + config + " --without " +
+                                      AllBut({"mode_detuning", "channel_skew"}) + " --out " + out);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(ReadFile(out + "/diagnosis.json"));
+  };
+  const auto one = base(stated);
+  EXPECT_EQ(one["base"]["modes"], 1);
+  EXPECT_EQ(one["base"]["tau_scatter_max"], 0.03);
+  EXPECT_EQ(one["candidates"].size(), 1u);
+  const auto two = base("model: {modes: 2, harmonic_ratio: 2.8}");
+  EXPECT_EQ(two["base"]["modes"], 2);
+  EXPECT_EQ(two["base"]["harmonic_ratio"], 2.8);
+  EXPECT_EQ(two["candidates"].size(), 2u);
+  // Where nothing is stated: two, of which one is a special case.
+  EXPECT_EQ(base("")["base"]["modes"], 2);
+  const auto shared = base("parameters: {tau_s: {scope: shared}}");
+  EXPECT_EQ(shared["base"]["tau_scatter_max"], 0.0);
+  EXPECT_EQ(shared["base"]["tau_scatter"], 0.0);
+}
+
+// README's example, with a few of the candidates.
+TEST(Diagnose, AnEffectAddedToTheShippedConfigIsNamed) {
+  const TemporaryFolder folder;
+  const std::string config =
+      folder
+          .Write("rig.yaml",
+                 ReadFile(Config("r228")) +
+                     "simulate: {effects: [{effect: q_sensor_lowpass, cutoff_hz: 245}]}\n")
+          .string();
+  const std::string out = (folder.path() / "out").string();
+  ASSERT_EQ(RunHowl("simulate " + config + " --quiet --out " + out).status, 0);
+  const ProgramResult run = RunHowl(
+      "diagnose " + out + "/records.yaml --without " +
+      AllBut({"q_sensor_lowpass", "flame_lowpass", "channel_skew", "delay_varies_with_phi"}) +
+      " --out " + out);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, testing::StartsWith("verdict: q_sensor_lowpass"));
 }
 
 TEST(Diagnose, AgainstAReferenceOfTheSameLoopThereIsNothingToName) {
@@ -238,7 +293,7 @@ TEST(Diagnose, TheBootstrapsGainsAreWritten) {
   const std::string rig = SimulatedRig(folder, "rig", "1");
   const std::string out = (folder.path() / "out").string();
   const ProgramResult run = RunHowl("diagnose " + rig + " --bootstrap 19 --without " +
-                                    AllBut("delay_varies_with_phi") + " --out " + out);
+                                    AllBut({"delay_varies_with_phi"}) + " --out " + out);
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, testing::HasSubstr("19 rigs simulated from the refitted base"));
   const auto diagnosis = nlohmann::json::parse(ReadFile(out + "/diagnosis.json"));

@@ -30,7 +30,7 @@ TEST(FittedRig, IsTheRigThatWasFitted) {
   EXPECT_NEAR(refitted.tau_s, 0.00352, 2e-5);
   for (std::size_t e = 0; e < records.size(); ++e) {
     const RigParameters truth = TestRig(static_cast<int>(e));
-    const Acoustics<double> acoustics = ToAcoustics(refitted.experiments[e].acoustics);
+    const Acoustics<double> acoustics = ToAcoustics({}, refitted.experiments[e].acoustics);
     EXPECT_NEAR(acoustics.omega_hz / truth.model.loop.acoustics.omega_hz, 1.0, 0.01);
     EXPECT_NEAR(acoustics.xi / truth.model.loop.acoustics.xi, 1.0, 0.1);
     EXPECT_NEAR(Rms(again[e].pressure) / Rms(records[e].pressure), 1.0, 0.03);
