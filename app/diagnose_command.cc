@@ -59,6 +59,7 @@ int Run(const Options& options) {
   }
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
   DiagnosisOptions how;
+  how.model = BaseOf(config);
   how.threads = options.threads;
   how.withheld = Withheld(options);
   how.seed = options.seed;
@@ -83,10 +84,13 @@ int Run(const Options& options) {
   }
   WatchForInterruption();
   const std::filesystem::path state_path = options.out / "diagnosis.state";
-  DiagnoseState state(state_path, InputBytes(config, experiments, how.reference));
+  DiagnoseState state(state_path, InputBytes(config, how.withheld, experiments, how.reference));
   if (state.recalled() > 0 && !options.quiet) {
     std::fprintf(stderr, "going on from %s: %zu fits are done\n", state_path.c_str(),
                  state.recalled());
+  } else if (state.refused() && !options.quiet) {
+    std::fprintf(stderr, "%s is of another build or of other inputs: begun anew\n",
+                 state_path.c_str());
   }
   how.memory = &state;
   how.stopped = IsInterrupted;

@@ -14,6 +14,13 @@
 
 namespace howl {
 
+namespace {
+
+// Without a prior: some delays are half as long again as others.
+constexpr double kWidestScatter = 0.3;
+
+}  // namespace
+
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) {
   const std::string file = config.source.string();
   std::vector<DiagnosisExperiment> experiments;
@@ -38,6 +45,18 @@ std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) 
     throw UserError(file, found->record_line, "record", name + " " + obstacle->what);
   }
   return experiments;
+}
+
+BaseModel BaseOf(const Config& config) {
+  BaseModel base;
+  const LocatedMember* const model = config.tree.Find("model");
+  if (model != nullptr && model->value.Find("modes") != nullptr) base.modes = config.model.modes;
+  base.harmonic_ratio = config.model.harmonic_ratio;
+  const ResidualSpec& prior = config.residuals[ResidualKind::kTauPrior];
+  base.delay_scatter_max = config.model[ParameterKind::kTau].scope == ParameterScope::kShared ? 0.0
+                           : prior.enabled ? prior.std
+                                           : kWidestScatter;
+  return base;
 }
 
 void CheckReference(const Config& config, const Config& reference,
@@ -67,11 +86,13 @@ void CheckReference(const Config& config, const Config& reference,
   }
 }
 
-std::string InputBytes(const Config& config, const std::vector<DiagnosisExperiment>& rig,
+std::string InputBytes(const Config& config, const std::vector<std::string>& withheld,
+                       const std::vector<DiagnosisExperiment>& rig,
                        const std::vector<DiagnosisExperiment>& reference) {
   std::ifstream file(config.source, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
+  for (const std::string& id : withheld) text << id << "\n";
   for (const std::vector<DiagnosisExperiment>* each : {&rig, &reference}) {
     text << each->size() << "\n";
     for (const DiagnosisExperiment& experiment : *each) {

@@ -13,13 +13,19 @@ namespace howl {
 // Both signals of every experiment, long enough to be cut.
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
 
+// The loop that the config states. Where it does not state `modes`, two: with M zero they are one.
+// Delays of their own (scope: experiment) scatter as far as the fit's tau_prior lets them.
+BaseModel BaseOf(const Config& config);
+
 // Operating points are found by name or parameter, and interpolated in between.
 void CheckReference(const Config& config, const Config& reference,
                     const std::vector<DiagnosisExperiment>& rig,
                     const std::vector<DiagnosisExperiment>& model);
 
-// What a state file belongs to: the config's text (it has the effects) and every number.
-std::string InputBytes(const Config& config, const std::vector<DiagnosisExperiment>& rig,
+// What a state file belongs to: the config's text (it has the effects and the model), the effects
+// that are left out, and every number.
+std::string InputBytes(const Config& config, const std::vector<std::string>& withheld,
+                       const std::vector<DiagnosisExperiment>& rig,
                        const std::vector<DiagnosisExperiment>& reference);
 
 }  // namespace howl

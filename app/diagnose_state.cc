@@ -3,6 +3,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "app/digest.h"
 #include "estimation/unit_seed.h"
 #include "model/version.h"
 
@@ -10,17 +11,25 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kLongestEntry = 1'000'000'000;
+// 2: every unit of work has a key of its own.
+constexpr int kFormat = 2;
+
+// The version's number does not move with every change of a fit.
+std::string Build() {
+  return std::string(Version()) + "-" + Sha256OfFile("/proc/self/exe").value_or("unknown");
+}
 
 }  // namespace
 
 DiagnoseState::DiagnoseState(const std::filesystem::path& path, const std::string& inputs)
     : path_(path) {
-  const std::string header = "howl.diagnosis.state " + std::string(Version()) + " " +
-                             std::to_string(UnitSeed(0, inputs)) + " " +
-                             std::to_string(inputs.size()) + "\n";
+  const std::string header = "howl.diagnosis.state/" + std::to_string(kFormat) + " " + Build() +
+                             " " + Sha256(inputs) + "\n";
   std::error_code ignored;
   std::filesystem::create_directories(path.parent_path(), ignored);
+  const bool was_there = std::filesystem::exists(path, ignored);
   const std::uintmax_t end = Load(header);
+  refused_ = was_there && end == 0;
   if (end > 0) {
     std::filesystem::resize_file(path, end, ignored);
     log_.open(path, std::ios::binary | std::ios::app);
@@ -45,12 +54,19 @@ std::uintmax_t DiagnoseState::Load(const std::string& header) {
     if (!file.read(bytes.data(), static_cast<std::streamsize>(size)) || file.get() != '\n') break;
     if (UnitSeed(0, bytes) != hash) break;
     end += line.size() + 1 + size + 1;
-    found_[key] = std::move(bytes);
+    if (!found_.emplace(key, std::move(bytes)).second) {
+      found_.clear();
+      return 0;
+    }
   }
   return end;
 }
 
 std::optional<std::string> DiagnoseState::Recall(const std::string& key) {
+  {
+    const std::lock_guard<std::mutex> hold(lock_);
+    asked_.Take(key);
+  }
   const auto found = found_.find(key);
   if (found == found_.end()) return std::nullopt;
   return found->second;
@@ -58,6 +74,7 @@ std::optional<std::string> DiagnoseState::Recall(const std::string& key) {
 
 void DiagnoseState::Keep(const std::string& key, const std::string& bytes) {
   const std::lock_guard<std::mutex> hold(lock_);
+  kept_.Take(key);
   // A full disk costs the resuming, not the diagnosis.
   log_ << key << " " << bytes.size() << " " << UnitSeed(0, bytes) << "\n"
        << bytes << "\n"

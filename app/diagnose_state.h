@@ -1,6 +1,7 @@
 // What a diagnosis has fitted so far, in DIR/diagnosis.state: an append-only log, so that a run
-// that was interrupted, or killed, goes on where it stopped. The first line names the program, the
-// config, and the records' numbers; a file of other inputs is begun anew. An entry is
+// that was interrupted, or killed, goes on where it stopped. The first line names the format, the
+// build of the program (another may fit otherwise), and the inputs; a file of another build, or of
+// other inputs, or with one key twice, is not believed: it is begun anew. An entry is
 //
 //   key, bytes, hash of them, in one line; the bytes; a line's end
 //
@@ -20,22 +21,27 @@ namespace howl {
 
 class DiagnoseState final : public FitMemory {
  public:
+  // inputs: all that the fits depend on (InputBytes).
   DiagnoseState(const std::filesystem::path& path, const std::string& inputs);
 
   std::optional<std::string> Recall(const std::string& key) override;
   void Keep(const std::string& key, const std::string& bytes) override;
 
   std::size_t recalled() const { return found_.size(); }  // entries at the start
+  bool refused() const { return refused_; }               // a file was there and was not believed
   // When the results are written.
   void Forget();
 
  private:
-  // The file's whole entries; the offset of their end.
+  // The file's whole entries; the offset of their end, 0 where they are not believed.
   std::uintmax_t Load(const std::string& header);
 
   std::filesystem::path path_;
   std::map<std::string, std::string> found_;
+  bool refused_ = false;
   std::mutex lock_;
+  UniqueKeys asked_{"asked for"};
+  UniqueKeys kept_{"kept"};
   std::ofstream log_;
 };
 

@@ -63,6 +63,18 @@ std::string MapText(const Diagnosis& diagnosis) {
   return text + "\n";
 }
 
+// The loop that the effects stand beside.
+std::string BaseText(const Diagnosis& diagnosis) {
+  std::string text = "base: ";
+  text += diagnosis.model.modes == 1
+              ? "one mode"
+              : "two modes, ratio " + Significant(diagnosis.model.harmonic_ratio, 4);
+  text += diagnosis.model.delay_scatter_max == 0.0
+              ? "; one delay for all"
+              : "; the delays scatter by " + Fixed(kPerCent * diagnosis.delay_scatter, 2) + " %";
+  return text + "\n";
+}
+
 }  // namespace
 
 void PrintDiagnosis(const Diagnosis& diagnosis) {
@@ -95,6 +107,7 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
   }
   std::printf("gap, held out: %.3f before, %.3f after; floor %.3f\n", diagnosis.gap_before,
               diagnosis.gap_after, diagnosis.gap_floor);
+  std::printf("%s", BaseText(diagnosis).c_str());
   std::printf("%s", MapText(diagnosis).c_str());
   if (std::isfinite(diagnosis.shrinkage_no_meaning)) {
     std::printf("an effect of no meaning, as free as the best, shrinks it by %.1f %%\n",

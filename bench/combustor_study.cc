@@ -50,7 +50,7 @@ void Report(const std::string& title, const MeasuredRig& rig) {
   }
   std::printf("\n  tau %.3f ms; points:", 1e3 * base.tau_s);
   for (std::size_t e = 0; e < records.size(); ++e) {
-    const Acoustics<double> a = ToAcoustics(base.experiments[e].acoustics);
+    const Acoustics<double> a = ToAcoustics({}, base.experiments[e].acoustics);
     std::printf(" %s f0 %.1f omega %.1f xi %.3f N %.0f M %.0f slack B %.0f;",
                 records[e].name.c_str(), records[e].at.cycle_frequency_hz, a.omega_hz, a.xi, a.N,
                 a.M, slack.flame_by_experiment[e]);

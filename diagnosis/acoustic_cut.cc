@@ -66,13 +66,13 @@ AcousticLocals Moved(AcousticLocals locals, int which, double by) {
 
 }  // namespace
 
-Acoustics<double> ToAcoustics(const AcousticLocals& locals) {
-  return {std::exp(locals[0]), std::exp(locals[1]), locals[2], locals[3], kSeedHarmonicRatio};
+Acoustics<double> ToAcoustics(const BaseModel& model, const AcousticLocals& locals) {
+  return {std::exp(locals[0]), std::exp(locals[1]), locals[2], locals[3], model.harmonic_ratio};
 }
 
 Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
                                   const AcousticLocals& locals) {
-  const Acoustics<double> acoustics = ToAcoustics(locals);
+  const Acoustics<double> acoustics = ToAcoustics(record.model, locals);
   const auto path = [&](double f) {
     const Response k =
         effect.Acoustics(acoustics, f, record.at, x) * effect.PressureInstrument(f, x);
@@ -110,6 +110,10 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
   // What moves about the means hardly changes how the residual moves with the locals.
   const Eigen::VectorXcd r = RecordedTransfer(record, effect, x, locals);
   for (int i = 0; i < 4; ++i) {
+    if (!IsFree(record.model, i)) {
+      jacobian.col(i).setZero();
+      continue;
+    }
     const double step = i < 2 ? kLogStep : kLogStep * std::max(std::abs(locals[2]), 1e-12);
     const Eigen::VectorXcd moved = RecordedTransfer(record, effect, x, Moved(locals, i, step));
     jacobian.col(i) = ApplyWindow(((r - moved) / step).cwiseProduct(q), record.acoustic_count);
@@ -172,17 +176,18 @@ std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect
   };
   for (const Eigen::Vector2d& place : places) {
     AcousticLocals locals(place[0], place[1], 0.0, 0.0);
-    Eigen::MatrixXd columns(2 * n, 2);
+    const int coefficients = IsFree(record.model, 3) ? 2 : 1;
+    Eigen::MatrixXd columns(2 * n, coefficients);
     Eigen::VectorXd y(2 * n);
     const Eigen::VectorXcd target = residual(locals);
     y << target.real(), target.imag();
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < coefficients; ++i) {
       const Eigen::VectorXcd column = target - residual(Moved(locals, 2 + i, 1.0));
       columns.col(i) << column.real(), column.imag();
     }
-    const Eigen::Matrix2d gram = columns.transpose() * columns;
-    const Eigen::Vector2d solution = gram.ldlt().solve(columns.transpose() * y);
-    locals.tail<2>() = solution;
+    const Eigen::MatrixXd gram = columns.transpose() * columns;
+    const Eigen::VectorXd solution = gram.ldlt().solve(columns.transpose() * y);
+    locals.segment(2, coefficients) = solution;
     starts.push_back({locals, (y - columns * solution).squaredNorm()});
   }
   std::stable_sort(starts.begin(), starts.end(),

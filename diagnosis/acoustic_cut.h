@@ -16,11 +16,15 @@
 
 namespace howl {
 
-// One experiment's own parameters in cut A: log omega (Hz), log xi, N, M.
+// One experiment's own parameters in cut A: log omega (Hz), log xi, N, M. With one mode M is zero.
 using AcousticLocals = Eigen::Vector4d;
 
-// ratio: of the second mode's frequency, where no effect moves it.
-Acoustics<double> ToAcoustics(const AcousticLocals& locals);
+// Whether the local of this number is free in the model.
+inline bool IsFree(const BaseModel& model, Eigen::Index local) {
+  return local < 3 || model.modes > 1;
+}
+
+Acoustics<double> ToAcoustics(const BaseModel& model, const AcousticLocals& locals);
 
 // R on the extended band.
 Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
@@ -30,8 +34,8 @@ Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect,
 Eigen::VectorXcd AcousticResidual(const CutRecord& record, const Effect& effect, EffectValues x,
                                   const AcousticLocals& locals);
 
-// Derivatives of E_A: four columns for the locals, then one for each of `steps`, the effect's
-// parameters moved by that much.
+// Derivatives of E_A: four columns for the locals (zero where it is not free), then one for each of
+// `steps`, the effect's parameters moved by that much.
 Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect, EffectValues x,
                                   const AcousticLocals& locals, const Eigen::VectorXcd& residual,
                                   const Eigen::VectorXd& steps);

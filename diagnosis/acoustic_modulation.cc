@@ -92,7 +92,7 @@ Eigen::VectorXcd MovedPressure(const CutRecord& record, const Effect& effect, Ef
     moved += MovedFrequency(record, effect, x, mean, modulation.log_omega);
   }
   if (modulation.xi_add.size() > 0) {
-    const Acoustics<double> at = ToAcoustics(mean);
+    const Acoustics<double> at = ToAcoustics(record.model, mean);
     const double omega = kRadPerSPerHz * at.omega_hz;
     Eigen::VectorXcd both = MovedDamping(record, omega, at.xi, at.N, modulation.xi_add);
     both += MovedDamping(record, at.harmonic_ratio * omega, at.xi, at.M, modulation.xi_add);

@@ -193,7 +193,8 @@ std::optional<CutObstacle> FindCutObstacle(const std::vector<DiagnosisExperiment
   return std::nullopt;
 }
 
-std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments) {
+std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments,
+                                      const BaseModel& model) {
   CHECK(!experiments.empty());
   std::vector<CutRecord> records;
   records.reserve(experiments.size());
@@ -202,6 +203,7 @@ std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& ex
   double high = low;
   for (const DiagnosisExperiment& experiment : experiments) {
     records.push_back(Spectra(experiment));
+    records.back().model = model;
     cycles.push_back(records.back().at.cycle_frequency_hz);
     low = std::min(low, experiment.phi);
     high = std::max(high, experiment.phi);

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/base_model.h"
 #include "estimation/record.h"
 #include "model/effects/effect.h"
 
@@ -51,6 +52,7 @@ struct CutReference {
 
 struct CutRecord {
   std::string name;
+  BaseModel model;
   EffectContext at;
   Eigen::Index samples = 0;
   double sampling_hz = 0.0;
@@ -104,7 +106,8 @@ std::optional<CutObstacle> FindCutObstacle(const std::vector<DiagnosisExperiment
 // Records of one rig, that nothing keeps from being cut. Both channels are needed, at one sampling
 // rate each. The band goes from 0.15 to 8 (cut A) and 6.4 (cut B) times the cycle's frequency, and
 // no further than 0.34 and 0.27 of the sampling rate.
-std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments);
+std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments,
+                                      const BaseModel& model = {});
 
 // Cut A's input without the shrinkage.
 void DriveAsRecorded(CutRecord* record);

@@ -82,7 +82,7 @@ std::optional<Repaired> Repair(const std::vector<DiagnosisExperiment>& experimen
                         inverse->mean_log_slope;
     }
   }
-  out.records = MakeCutRecords(repaired);
+  out.records = MakeCutRecords(repaired, records[0].model);
   for (std::size_t e = 0; e < records.size(); ++e) {
     if (out.records[e].acoustic_count != records[e].acoustic_count ||
         out.records[e].first != records[e].first) {

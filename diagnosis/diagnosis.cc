@@ -129,11 +129,14 @@ void Search::Describe(const Judgement& at, Diagnosis* out) {
     }
     out->where = FindPlaces(records_, attempts_, out->kind, slack_before_, blocks);
   }
+  const bool best_is_fitted = out->kind == VerdictKind::kEffect && !only_clipping &&
+                              attempts_[0].fit.has_value() && attempts_[0].repaired.empty();
+  out->model = records_[0].model;
+  out->delay_scatter = best_is_fitted ? attempts_[0].fit->delay_scatter : base_.delay_scatter;
   const EffectFit& without = repair_ ? repair_->recorded_base : base_;
   if (only_clipping) {
     out->base_parameters = MovedParameters(records_, without, base_);
-  } else if (out->kind == VerdictKind::kEffect && attempts_[0].fit &&
-             attempts_[0].repaired.empty()) {
+  } else if (best_is_fitted) {
     out->base_parameters = MovedParameters(records_, without, *attempts_[0].fit);
   }
 }

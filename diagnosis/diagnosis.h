@@ -79,6 +79,8 @@ struct Diagnosis {
   double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
   std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first
+  BaseModel model;                    // what the effects stand beside
+  double delay_scatter = 0.0;         // of log tau over the experiments, in the best fit
   // Of the loop, where the verdict is an effect whose fit has them.
   std::vector<MovedParameter> base_parameters;
   // What free slack takes off the likelihood, before and after the best effect, in cuts A and B.
@@ -93,6 +95,7 @@ struct Diagnosis {
 };
 
 struct DiagnosisOptions {
+  BaseModel model;
   int threads = 0;                     // 0: as many as the machine has
   std::uint64_t seed = 1;              // of the bootstrap's replicates
   std::size_t bootstrap = 0;           // replicates (bootstrap/bootstrap.h)

@@ -50,6 +50,7 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
   fitter.SetNoise(fit);
   for (int round = 0; round <= kRounds; ++round) {
     fitter.Descend(&fit, kLaterRoundIterations);
+    if (round > 0) fitter.RefitScatter(&fit);
     fitter.RefitNoise(&fit);
     if (round == 1) fitter.RestartLocals(&fit);
   }
@@ -95,6 +96,7 @@ EffectFit SettleBest(EffectFits fits, const EffectFit& base, Fitter* fitter) {
     if (fitter->RestartLocals(&fit)) fitter->RefitNoise(&fit);
     for (int round = 1; round < kRounds; ++round) {
       fitter->Descend(&fit, kLaterRoundIterations);
+      fitter->RefitScatter(&fit);
       fitter->RefitNoise(&fit);
     }
   }
@@ -116,6 +118,7 @@ EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& 
       EffectFit fit = StartOf(records, effect, base, values, own_locals);
       fitter.SetNoise(base);
       fitter.Descend(&fit, kFirstRoundIterations);
+      fitter.RefitScatter(&fit);
       fitter.RefitNoise(&fit);
       VLOG(2) << effect->id() << (own_locals ? ", a start: cost " : ", a scanned start: cost ")
               << fit.cost();
@@ -142,6 +145,7 @@ EffectFit Approach(const std::vector<CutRecord>& records, const EffectPointer& c
     near.experiments = first.experiments;
     if (fitter.Evaluate(&near) < fitter.Evaluate(&fit)) fit = std::move(near);
     fitter.Descend(&fit, kApproachIterations);
+    fitter.RefitScatter(&fit);
     fitter.RefitNoise(&fit);
     kept.push_back(std::move(fit));
     KeepBest(1, &kept);

@@ -3,7 +3,8 @@
 //   minimise  sum over experiments of  sum |E_A|^2 / V_A + sum |E_B|^2 / V_B
 //
 // over omega, xi, N, M and the flame's coefficients of each experiment, and over tau and the
-// effect's parameters, which all experiments share. Gauss-Newton with damping; an experiment's own
+// effect's parameters, which all experiments share; an experiment's delay may lie beside the shared
+// one, at a price (delay_scatter.h). Gauss-Newton with damping; an experiment's own
 // parameters are eliminated (Schur complement), so each leaves a small gradient and curvature in
 // the shared ones, from which leaving that experiment out costs one small solve. The noise spectra
 // V are refitted between rounds (noise_fit.h).
@@ -11,6 +12,7 @@
 #define HOWL_DIAGNOSIS_EFFECT_FIT_H_
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "diagnosis/acoustic_cut.h"
@@ -23,6 +25,7 @@ struct ExperimentFit {
   AcousticLocals acoustics;
   Eigen::VectorXd flame;  // coefficients
   double flame_range = 0.0;
+  double log_delay = 0.0;  // of its delay over tau
   Eigen::VectorXcd acoustic_residual;
   Eigen::VectorXcd flame_residual;
   Eigen::VectorXd acoustic_noise;  // V_A
@@ -34,12 +37,17 @@ struct ExperimentFit {
 struct EffectFit {
   EffectPointer effect;
   std::vector<double> values;  // the effect's parameters
-  double tau_s = 0.0;
+  double tau_s = 0.0;          // shared
+  double delay_scatter = 0.0;  // standard deviation of the experiments' log_delay
   std::vector<ExperimentFit> experiments;
   double acoustic_cost = 0.0;  // Whittle, per independent bin
   double flame_cost = 0.0;
+  double delay_cost = 0.0;              // of the delays beside tau: ScatterCost
   std::vector<double> standard_errors;  // tau, then the parameters
-  double cost() const { return acoustic_cost + flame_cost; }
+  double cost() const { return acoustic_cost + flame_cost + delay_cost; }
+  double DelayOf(std::size_t experiment) const {
+    return tau_s * std::exp(experiments[experiment].log_delay);
+  }
 };
 
 // The loop with no effect.

@@ -1,5 +1,7 @@
 #include "diagnosis/fit_memory.h"
 
+#include <glog/logging.h>
+
 #include <cstdint>
 #include <cstring>
 
@@ -79,17 +81,23 @@ class Reader {
 // One list of the fields for both ways.
 template <typename Fit, typename Visit>
 bool VisitNumbers(Fit& fit, const Visit& visit) {
-  bool good = visit(fit.values) && visit(fit.tau_s) && visit(fit.acoustic_cost) &&
-              visit(fit.flame_cost) && visit(fit.standard_errors);
+  bool good = visit(fit.values) && visit(fit.tau_s) && visit(fit.delay_scatter) &&
+              visit(fit.acoustic_cost) && visit(fit.flame_cost) && visit(fit.delay_cost) &&
+              visit(fit.standard_errors);
   for (auto& at : fit.experiments) {
     good = good && visit(at.acoustics) && visit(at.flame) && visit(at.flame_range) &&
-           visit(at.acoustic_residual) && visit(at.flame_residual) && visit(at.acoustic_noise) &&
-           visit(at.flame_noise) && visit(at.gradient) && visit(at.curvature);
+           visit(at.log_delay) && visit(at.acoustic_residual) && visit(at.flame_residual) &&
+           visit(at.acoustic_noise) && visit(at.flame_noise) && visit(at.gradient) &&
+           visit(at.curvature);
   }
   return good;
 }
 
 }  // namespace
+
+void UniqueKeys::Take(const std::string& key) {
+  CHECK(taken_.insert(key).second) << key << " is " << verb_ << " twice: two units share a key";
+}
 
 std::string ToBytes(const EffectFit& fit) {
   Writer writer;
@@ -136,12 +144,12 @@ EffectFit FitOrRecall(FitMemory* memory, const std::string& key,
 
 }  // namespace
 
-EffectFit FitBestForm(FitMemory* memory, const std::vector<CutRecord>& records,
+EffectFit FitBestForm(FitMemory* memory, const std::string& unit,
+                      const std::vector<CutRecord>& records,
                       const std::vector<EffectPointer>& forms, const EffectFit& base) {
   std::optional<EffectFit> best;
   for (std::size_t i = 0; i < forms.size(); ++i) {
-    const std::string key = std::string(forms[i]->id()) + "#" + std::to_string(i);
-    EffectFit fit = FitOrRecall(memory, key, records, forms[i], base);
+    EffectFit fit = FitOrRecall(memory, unit + "#" + std::to_string(i), records, forms[i], base);
     if (!best || fit.cost() < best->cost()) best = std::move(fit);
   }
   return std::move(*best);

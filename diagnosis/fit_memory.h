@@ -3,6 +3,7 @@
 #define HOWL_DIAGNOSIS_FIT_MEMORY_H_
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@
 namespace howl {
 
 // Where fits are kept. Called from several threads at once. What is kept belongs to one set of
-// records: the keys are unique among its fits alone.
+// records and options. A key names one unit of work: it is asked for once a run, and kept once at
+// most; a key that comes twice is a programmer's mistake (UniqueKeys).
 class FitMemory {
  public:
   virtual ~FitMemory() = default;
@@ -24,6 +26,18 @@ class FitMemory {
   FitMemory& operator=(const FitMemory&) = default;
 };
 
+// The keys that a run has asked for, or kept: a CHECK that none comes twice. Not for several
+// threads at once.
+class UniqueKeys {
+ public:
+  explicit UniqueKeys(const char* verb) : verb_(verb) {}
+  void Take(const std::string& key);
+
+ private:
+  const char* verb_;
+  std::set<std::string> taken_;
+};
+
 // Every number of the fit, but not its effect.
 std::string ToBytes(const EffectFit& fit);
 // Nothing where the bytes are no fit of this effect to these records.
@@ -31,8 +45,9 @@ std::optional<EffectFit> FromBytes(const std::string& bytes, const std::vector<C
                                    const EffectPointer& effect);
 
 // The best of an effect's forms (orders of a filter, say), each by FitEffect unless the memory has
-// it. Without a memory: by FitEffect.
-EffectFit FitBestForm(FitMemory* memory, const std::vector<CutRecord>& records,
+// it under the unit's name and the form's number. Without a memory: by FitEffect.
+EffectFit FitBestForm(FitMemory* memory, const std::string& unit,
+                      const std::vector<CutRecord>& records,
                       const std::vector<EffectPointer>& forms, const EffectFit& base);
 
 }  // namespace howl

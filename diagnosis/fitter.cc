@@ -47,15 +47,16 @@ double Fitter::EvaluateOne(EffectFit* fit, std::size_t e) {
   if (acoustic_) cost += AcousticSquares(fit, e);
   if (flame_) {
     if (own_columns_) {
-      columns_[e] = MakeFlameColumns(records_[e], effect_, fit->values, fit->tau_s);
+      columns_[e] = MakeFlameColumns(records_[e], effect_, fit->values, fit->DelayOf(e));
     }
     solutions_.resize(records_.size());
     solutions_[e] =
-        SolveFlame(records_[e], effect_, fit->values, fit->tau_s, columns_[e], weights_b_[e]);
+        SolveFlame(records_[e], effect_, fit->values, fit->DelayOf(e), columns_[e], weights_b_[e]);
     at.flame = solutions_[e].coefficients;
     at.flame_range = columns_[e].range;
     at.flame_residual = solutions_[e].residual;
     cost += Squares(at.flame_residual, weights_b_[e]);
+    cost += DelayPrice(at.log_delay, fit->delay_scatter);
   }
   return cost;
 }
@@ -104,6 +105,7 @@ void Fitter::RefitNoise(EffectFit* fit) {
     fit->flame_cost += FlameCost(records_[e], at.flame_residual, at.flame_noise);
   }
   SetNoise(*fit);
+  if (flame_) fit->delay_cost = ScatterCost(OwnDelays(*fit), fit->delay_scatter);
 }
 
 void Fitter::Finish(EffectFit* fit, const EffectFit* base) {

@@ -1,12 +1,14 @@
 // Damped Gauss-Newton over the records of a rig at fixed noise spectra: an experiment's own
 // parameters are eliminated (Schur complement), tau and the effect's parameters are shared
-// (effect_fit.h has the objective).
+// (effect_fit.h has the objective). fitter.cc has the descent, fitter_step.cc a step of it,
+// fitter_delay.cc the experiments' own delays.
 #ifndef HOWL_DIAGNOSIS_FITTER_H_
 #define HOWL_DIAGNOSIS_FITTER_H_
 
 #include <Eigen/Core>
 #include <vector>
 
+#include "diagnosis/delay_scatter.h"
 #include "diagnosis/effect_fit.h"
 
 namespace howl {
@@ -42,6 +44,9 @@ class Fitter {
   // Damped Gauss-Newton at fixed noise. Returns the squares' sum.
   double Descend(EffectFit* fit, int iterations);
 
+  // Between descents: how far the experiments' own delays scatter, the shared one in their middle.
+  // Weights must be those of noise, not ones.
+  void RefitScatter(EffectFit* fit);
   void RefitNoise(EffectFit* fit);
 
   // What a parameter would take off at most, to first order, the others but tau and the locals held
@@ -68,6 +73,10 @@ class Fitter {
     Eigen::MatrixXd local_curvature;  // cut A's locals
     Eigen::VectorXd local_gradient;
     Eigen::MatrixXd mixed;  // locals x shared
+    // Cut B's local, log_delay, with its price.
+    double delay_curvature = 0.0;
+    double delay_gradient = 0.0;
+    Eigen::VectorXd delay_mixed;  // x shared
     Eigen::VectorXd reduced_gradient;
     Eigen::MatrixXd reduced_curvature;
   };
@@ -82,6 +91,16 @@ class Fitter {
   double LeakJacobian(EffectValues x, const AcousticLocals& locals, std::size_t e) const;
 
   double AcousticSquares(EffectFit* fit, std::size_t e) const;
+  // What cut B says of an experiment's own delay; after Evaluate.
+  OwnDelay OwnDelayOf(const EffectFit& fit, std::size_t e) const;
+  std::vector<OwnDelay> OwnDelays(const EffectFit& fit) const;
+  // Takes the own delay out of cut B's normal equations in tau and the effect's parameters.
+  void EliminateDelay(const EffectFit& fit, std::size_t e, Eigen::MatrixXd* curvature,
+                      Eigen::VectorXd* gradient, Reduced* out) const;
+  // shared: the step of tau and the effect's parameters.
+  void StepDelay(const Reduced& part, const Eigen::VectorXd& shared, double damping,
+                 ExperimentFit* at) const;
+  void DescendDelay(EffectFit* fit, std::size_t e);
   double DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) const;
   System Linearise(const EffectFit& fit) const;
   void Step(const System& system, double damping, EffectFit* fit) const;

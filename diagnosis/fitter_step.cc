@@ -95,16 +95,20 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
       }
     }
     if (flame_) {
-      Eigen::MatrixXcd j = FlameJacobian(records_[e], effect_, fit.values, fit.tau_s, columns_[e],
-                                         solutions_[e], steps);
+      Eigen::MatrixXcd j = FlameJacobian(records_[e], effect_, fit.values, fit.DelayOf(e),
+                                         columns_[e], solutions_[e], steps);
+      j.col(0) *= std::exp(at.log_delay);
       for (Eigen::Index i = 0; i < d; ++i) j.col(1 + i) *= to_u[i];
       const Eigen::MatrixXd h = Gram(j, weights_b_[e], j);
       const Eigen::VectorXd g = Gram(j, weights_b_[e], at.flame_residual);
       const Eigen::MatrixXcd& c = solutions_[e].columns;
       const Eigen::MatrixXd local = Gram(c, weights_b_[e], c);
       const Eigen::MatrixXd mixed = Gram(c, weights_b_[e], j);
-      out.reduced_curvature += h - mixed.transpose() * SolveScaled(local, mixed, 1e-10);
-      out.reduced_gradient += g;
+      Eigen::MatrixXd curvature = h - mixed.transpose() * SolveScaled(local, mixed, 1e-10);
+      Eigen::VectorXd gradient = g;
+      EliminateDelay(fit, e, &curvature, &gradient, &out);
+      out.reduced_curvature += curvature;
+      out.reduced_gradient += gradient;
     }
     system.experiments.push_back(std::move(out));
   }
@@ -154,7 +158,13 @@ void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
     x = SteppedValue(p, x, step[1 + j]);
     taken[j] = p.scale == ParameterScale::kLogarithmic ? std::log(x / was) : x - was;
   }
+  const double tau_was_s = fit->tau_s;
   fit->tau_s = std::max(fit->tau_s + step[0], 0.0);
+  Eigen::VectorXd shared(1 + d);
+  shared << fit->tau_s - tau_was_s, taken;
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    StepDelay(system.experiments[e], shared, damping, &fit->experiments[e]);
+  }
   if (!acoustic_) return;
   for (std::size_t e = 0; e < records_.size(); ++e) {
     const Reduced& part = system.experiments[e];
@@ -190,6 +200,7 @@ double Fitter::DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) c
 
 void Fitter::DescendLocals(EffectFit* fit, std::size_t e) {
   if (acoustic_) DescendAcoustics(fit, e, kLocalIterations);
+  DescendDelay(fit, e);
   EvaluateOne(fit, e);
 }
 

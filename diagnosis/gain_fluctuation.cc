@@ -134,8 +134,8 @@ GainFluctuation EstimateGainFluctuation(const std::vector<CutRecord>& records,
   for (std::size_t e = 0; e < records.size(); ++e) {
     const CutRecord& record = records[e];
     const double low_pass_hz = kLowPass * record.at.cycle_frequency_hz;
-    const FlameColumns columns = MakeFlameColumns(record, *fit.effect, fit.values, fit.tau_s);
-    const Eigen::VectorXcd phi = FlameMultiplier(record, *fit.effect, fit.values, fit.tau_s)
+    const FlameColumns columns = MakeFlameColumns(record, *fit.effect, fit.values, fit.DelayOf(e));
+    const Eigen::VectorXcd phi = FlameMultiplier(record, *fit.effect, fit.values, fit.DelayOf(e))
                                      .cwiseProduct(columns.spectrum * fit.experiments[e].flame);
     const Eigen::VectorXcd q =
         record.heat_release_spectrum.segment(record.first - kTapReach, phi.size());

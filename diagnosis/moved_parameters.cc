@@ -16,13 +16,16 @@ std::vector<MovedParameter> MovedParameters(const std::vector<CutRecord>& record
                                             const EffectFit& without, const EffectFit& with) {
   std::vector<MovedParameter> out = {{"tau_s", without.tau_s, with.tau_s}};
   for (std::size_t e = 0; e < records.size(); ++e) {
-    const Acoustics<double> was = ToAcoustics(without.experiments[e].acoustics);
-    const Acoustics<double> is = ToAcoustics(with.experiments[e].acoustics);
+    const Acoustics<double> was = ToAcoustics(records[e].model, without.experiments[e].acoustics);
+    const Acoustics<double> is = ToAcoustics(records[e].model, with.experiments[e].acoustics);
     const std::string& name = records[e].name;
     out.push_back({name + ".omega_hz", was.omega_hz, is.omega_hz});
     out.push_back({name + ".xi", was.xi, is.xi});
     out.push_back({name + ".N", was.N, is.N});
-    out.push_back({name + ".M", was.M, is.M});
+    if (without.delay_scatter > 0.0 || with.delay_scatter > 0.0) {
+      out.push_back({name + ".tau_s", without.DelayOf(e), with.DelayOf(e)});
+    }
+    if (records[e].model.modes > 1) out.push_back({name + ".M", was.M, is.M});
   }
   return out;
 }

@@ -112,7 +112,7 @@ double LeastCompeting(const Attempt& first) {
 std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
                                        const std::vector<EffectForms>& units, int threads) {
   if (!IsTransfer(first)) return std::nullopt;
-  std::vector<std::optional<EffectFit>> seconds(units.size());
+  std::vector<std::optional<EffectFit>> approached(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const EffectForms& forms = units[i];
     if (forms[0]->kind() != EffectKind::kTransfer || forms[0]->id() == first.fit->effect->id()) {
@@ -120,16 +120,18 @@ std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
     }
     for (const EffectPointer& form : forms) {
       EffectFit fit = Approach(*at.records, Combine(first.fit->effect, form), *at.base, *first.fit);
-      if (!seconds[i] || fit.cost() < seconds[i]->cost()) seconds[i] = std::move(fit);
+      if (!approached[i] || fit.cost() < approached[i]->cost()) approached[i] = std::move(fit);
     }
   });
-  const auto empty = std::remove(seconds.begin(), seconds.end(), std::nullopt);
-  seconds.erase(empty, seconds.end());
+  std::vector<EffectFit> seconds;
+  for (std::optional<EffectFit>& fit : approached) {
+    if (fit) seconds.push_back(std::move(*fit));
+  }
   std::stable_sort(seconds.begin(), seconds.end(),
-                   [](const auto& a, const auto& b) { return a->cost() < b->cost(); });
+                   [](const auto& a, const auto& b) { return a.cost() < b.cost(); });
   std::vector<std::optional<Attempt>> tried(std::min(seconds.size(), kFollowed));
   RunUnits(tried.size(), threads, [&](std::size_t i) {
-    tried[i] = FromFit(at, Settle(*at.records, *at.base, *seconds[i]));
+    tried[i] = FromFit(at, Settle(*at.records, *at.base, seconds[i]));
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
   const double least = std::max(LeastCompeting(first), NoiseBesideReference(at));

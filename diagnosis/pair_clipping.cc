@@ -25,7 +25,7 @@ std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const Effect& effect = *units[i][0];
     if (effect.kind() != EffectKind::kTransfer) return;
-    if (effect.ChangesAcousticCut()) tried[i] = TryTransfer(at, units[i]);
+    if (effect.ChangesAcousticCut()) tried[i] = TryTransfer(at, "", units[i]);
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
   // A mode on top of a mode mends the repair.

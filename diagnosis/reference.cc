@@ -142,8 +142,9 @@ double Samples(const std::vector<DiagnosisExperiment>& experiments) {
 }
 
 // The bias by noise in q is the same in reference and rig, and no evidence.
-std::vector<CutRecord> CutAsRecorded(const std::vector<DiagnosisExperiment>& experiments) {
-  std::vector<CutRecord> records = MakeCutRecords(experiments);
+std::vector<CutRecord> CutAsRecorded(const std::vector<DiagnosisExperiment>& experiments,
+                                     const BaseModel& model) {
+  std::vector<CutRecord> records = MakeCutRecords(experiments, model);
   for (CutRecord& record : records) DriveAsRecorded(&record);
   return records;
 }
@@ -168,7 +169,7 @@ void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* t
 std::vector<CutRecord> RemakeCutRecords(const std::vector<DiagnosisExperiment>& changed,
                                         const std::vector<CutRecord>& like,
                                         const std::vector<CoherentLine>& lines) {
-  std::vector<CutRecord> records = MakeCutRecords(changed);
+  std::vector<CutRecord> records = MakeCutRecords(changed, like[0].model);
   KeepReference(like, &records);
   MaskLines(lines, &records);
   return records;
@@ -191,7 +192,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
                                const std::vector<DiagnosisExperiment>& rig,
                                std::vector<CutRecord>* records) {
   ReferenceModel out;
-  std::vector<CutRecord> own = CutAsRecorded(reference);
+  std::vector<CutRecord> own = CutAsRecorded(reference, (*records)[0].model);
   out.lines = FindCoherentLines(own);
   MaskLines(out.lines, &own);
   const EffectFit base = FitBase(own);
@@ -216,7 +217,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
     std::vector<ReferencePoint> described[2];
     for (const int i : {0, 1}) {
       const std::vector<DiagnosisExperiment> half = Half(reference, i == 1);
-      part[i] = CutAsRecorded(half);
+      part[i] = CutAsRecorded(half, (*records)[0].model);
       MaskLines(FindCoherentLines(part[i]), &part[i]);
       const EffectFit fit = FitBase(part[i]);
       described[i] = DescribeReference(half, part[i], fit);

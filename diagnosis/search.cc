@@ -20,7 +20,7 @@ namespace {
 // One unit of work for each identifier, whatever its forms.
 std::vector<EffectForms> Units(const DiagnosisOptions& options) {
   std::vector<EffectForms> units;
-  std::vector<EffectPointer> all = Catalogue();
+  std::vector<EffectPointer> all = Catalogue(options.model.modes, options.model.harmonic_ratio);
   all.insert(all.end(), options.further.begin(), options.further.end());
   for (const EffectPointer& effect : all) {
     const std::string id(effect->id());
@@ -34,6 +34,14 @@ std::vector<EffectForms> Units(const DiagnosisOptions& options) {
     }
   }
   return units;
+}
+
+// A reference has what its operating points have in their delays: what differs from it is the
+// rig's.
+BaseModel ModelOf(const DiagnosisOptions& options) {
+  BaseModel model = options.model;
+  if (!options.reference.empty()) model.delay_scatter_max = 0.0;
+  return model;
 }
 
 // Starts of the search over all forms.
@@ -52,7 +60,9 @@ std::size_t WorkOf(const EffectForms& forms) {
 }  // namespace
 
 Search::Search(const std::vector<DiagnosisExperiment>& experiments, const DiagnosisOptions& options)
-    : options_(options), units_(Units(options)), records_(MakeCutRecords(experiments)) {
+    : options_(options),
+      units_(Units(options)),
+      records_(MakeCutRecords(experiments, ModelOf(options))) {
   lines_ = FindCoherentLines(records_);
   MaskLines(lines_, &records_);
   if (!options.reference.empty()) {
@@ -174,7 +184,7 @@ Attempt Search::Try(const EffectForms& forms) const {
   const Effect& effect = *forms[0];
   switch (effect.kind()) {
     case EffectKind::kTransfer:
-      return TryTransfer(at_, forms);
+      return TryTransfer(at_, "effect." + std::string(effect.id()), forms);
     case EffectKind::kGain:
       return TryGain(at_, effect, fluctuation_);
     case EffectKind::kLine:

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "diagnosis/no_meaning.h"
 #include "diagnosis/search.h"
@@ -47,8 +48,9 @@ double Search::ShrinkageByNoMeaning(const Attempt& best) const {
   std::vector<double> shrinkage(kNoMeaningDraws);
   RunUnits(shrinkage.size(), options_.threads, [&](std::size_t i) {
     Attempt attempt =
-        TryTransfer(at_, {NoMeaning(effect.parameters().size(), effect.ChangesAcousticCut(),
-                                    effect.ChangesFlameCut(), DeriveSeed(kNoMeaningSeed, i))});
+        TryTransfer(at_, "no_meaning." + std::to_string(i),
+                    {NoMeaning(effect.parameters().size(), effect.ChangesAcousticCut(),
+                               effect.ChangesFlameCut(), DeriveSeed(kNoMeaningSeed, i))});
     MeasureGap(&attempt);
     shrinkage[i] = attempt.candidate.shrinkage;
   });

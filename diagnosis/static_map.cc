@@ -63,8 +63,8 @@ Bumps MakeBumps(const CutRecord& record, bool pressure) {
 }
 
 Eigen::ArrayXd FlameResidualInTime(const CutRecord& record, const EffectFit& base, std::size_t e) {
-  const FlameColumns columns = MakeFlameColumns(record, *base.effect, {}, base.tau_s);
-  const Eigen::VectorXcd phi = FlameMultiplier(record, *base.effect, {}, base.tau_s)
+  const FlameColumns columns = MakeFlameColumns(record, *base.effect, {}, base.DelayOf(e));
+  const Eigen::VectorXcd phi = FlameMultiplier(record, *base.effect, {}, base.DelayOf(e))
                                    .cwiseProduct(columns.spectrum * base.experiments[e].flame);
   const Eigen::VectorXcd q =
       record.heat_release_spectrum.segment(record.first - kTapReach, phi.size());

@@ -47,6 +47,7 @@ std::optional<double> GainOfReplicate(const std::vector<CutRecord>& records, con
   alone.threads = 1;
   alone.withheld = options.withheld;
   alone.further = options.further;
+  alone.model = options.model;
   alone.stopped = options.stopped;
   const std::optional<double> gain =
       Search(Replicate(records, base, experiments, UnitSeed(options.seed, "bootstrap", i)), alone)
@@ -90,9 +91,10 @@ double GainOfNoise(const std::vector<CutRecord>& records, const EffectFit& base,
   std::array<double, kFewReplicates> gains{};
   RunUnits(gains.size(), options.threads, [&](std::size_t i) {
     const std::vector<CutRecord> replicate = MakeCutRecords(
-        Replicate(records, base, experiments, UnitSeed(options.seed, "gain of noise", i)));
+        Replicate(records, base, experiments, UnitSeed(options.seed, "gain of noise", i)),
+        records[0].model);
     const EffectFit without = FitBase(replicate);
-    const EffectFit with = FitBestForm(nullptr, replicate, forms, without);
+    const EffectFit with = FitBestForm(nullptr, "", replicate, forms, without);
     gains[i] =
         without.cost() - with.cost() - PriceOfParameters(static_cast<double>(with.values.size()));
   });

@@ -145,7 +145,8 @@ SimulationCase FittedRig(const CutRecord& record, const EffectFit& base, std::si
   out.seed = seed;
   RigParameters& rig = out.rig;
   // The flame's own output is replaced.
-  rig.model = {{ToAcoustics(fit.acoustics), base.tau_s}, {FlameShape::kLinear, -1e-12, 1.0, 0.0}};
+  rig.model = {{ToAcoustics(record.model, fit.acoustics), base.DelayOf(experiment)},
+               {FlameShape::kLinear, -1e-12, 1.0, 0.0}};
   rig.noise.pressure_sensor_std = std::sqrt(sensors.pressure);
   rig.noise.heat_release_sensor_std = std::sqrt(sensors.heat_release);
   const double rms = record.heat_release.norm() / std::sqrt(static_cast<double>(record.samples));

@@ -58,8 +58,10 @@ struct Setting {
 // that raises it, and was not seen to double it.
 inline constexpr double kWorthRefilling = 0.3;
 
-// An effect with several forms (orders of a filter, say): the best of them.
-Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms);
+// An effect with several forms (orders of a filter, say): the best of them. unit: the name under
+// which the memory keeps the fits (fit_memory.h).
+Attempt TryTransfer(const Setting& at, const std::string& unit,
+                    const std::vector<EffectPointer>& forms);
 Attempt FromFit(const Setting& at, EffectFit fit);
 Attempt TryGain(const Setting& at, const Effect& effect, const GainFluctuation& fluctuation);
 Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<CoherentLine>& lines,

@@ -54,8 +54,9 @@ Attempt FromFit(const Setting& at, EffectFit fit) {
   return out;
 }
 
-Attempt TryTransfer(const Setting& at, const std::vector<EffectPointer>& forms) {
-  return FromFit(at, FitBestForm(at.memory, *at.records, forms, *at.base));
+Attempt TryTransfer(const Setting& at, const std::string& unit,
+                    const std::vector<EffectPointer>& forms) {
+  return FromFit(at, FitBestForm(at.memory, unit, *at.records, forms, *at.base));
 }
 
 }  // namespace howl

@@ -45,6 +45,10 @@ Normal Linearise(const BesidePlateaus& at, const CutRecord& filled, const Effect
   const auto d = static_cast<Eigen::Index>(values.size());
   Eigen::MatrixXd columns(error.size(), kLocals + d);
   for (Eigen::Index i = 0; i < kLocals; ++i) {
+    if (!IsFree(filled.model, i)) {
+      columns.col(i).setZero();
+      continue;
+    }
     const double step = kDifferenceStep * (i < 2 ? 1.0 : std::max(std::abs(locals[2]), 1e-12));
     AcousticLocals moved = locals;
     moved[i] += step;

@@ -75,6 +75,7 @@ void DriveFlame(const std::vector<CutRecord>& records, EffectFit* fit) {
   }
   const EffectFit flame = FitEffect(driven, std::make_shared<FlameAlone>(), *fit);
   fit->flame_cost = flame.flame_cost;
+  fit->delay_cost = flame.delay_cost;
   for (std::size_t e = 0; e < records.size(); ++e) {
     fit->experiments[e].flame_residual = flame.experiments[e].flame_residual;
     fit->experiments[e].flame_noise = flame.experiments[e].flame_noise;

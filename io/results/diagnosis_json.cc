@@ -108,6 +108,11 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
         {"held_out", true}}},
       {"map", MapJson(diagnosis)},
       {"candidates", candidates},
+      {"base",
+       {{"modes", diagnosis.model.modes},
+        {"harmonic_ratio", diagnosis.model.harmonic_ratio},
+        {"tau_scatter_max", diagnosis.model.delay_scatter_max},
+        {"tau_scatter", diagnosis.delay_scatter}}},
       {"base_parameters", base_parameters},
       {"free_slack",
        {{"acoustic_cut",
@@ -130,6 +135,7 @@ Json TableDiagnosisJson(const TableDiagnosis& table) {
   Json json = DiagnosisJson(table.diagnosis);
   json["gap"]["held_out"] = false;
   json.erase("free_slack");
+  json.erase("base");
   Json experiments = Json::object();
   for (const TableExperiment& e : table.experiments) {
     experiments[e.name] = {{"lag_deg", LagJson(e.lag)},

@@ -14,7 +14,8 @@ namespace howl {
 
 using EffectPointer = std::shared_ptr<const Effect>;
 
-std::vector<EffectPointer> Catalogue();
+// Beside a base with these modes. With one mode there is none to detune.
+std::vector<EffectPointer> Catalogue(int modes = 2, double harmonic_ratio = kSeedHarmonicRatio);
 // With the forms that only a simulation tells apart.
 std::vector<EffectPointer> SimulationCatalogue();
 
@@ -22,8 +23,9 @@ std::vector<EffectPointer> QSensorLowPass();
 std::vector<EffectPointer> FlameLowPass();
 std::vector<EffectPointer> PSensorResonance();
 std::vector<EffectPointer> ChannelSkew();
-std::vector<EffectPointer> ExtraAcousticMode();
-std::vector<EffectPointer> ModeDetuning();
+std::vector<EffectPointer> ExtraAcousticMode(int modes = 2,
+                                             double harmonic_ratio = kSeedHarmonicRatio);
+std::vector<EffectPointer> ModeDetuning(double harmonic_ratio = kSeedHarmonicRatio);
 std::vector<EffectPointer> DelayDispersion();
 std::vector<EffectPointer> DelayVariesWithPhi();
 std::vector<EffectPointer> AmplitudeDependentDelay();

@@ -26,7 +26,7 @@ std::vector<double> Ratios() {
 
 class Mode final : public NamedEffect {
  public:
-  Mode()
+  Mode(int modes, double harmonic_ratio)
       : NamedEffect("extra_acoustic_mode", LoopBlock::kAcoustics,
                     {{"ratio",
                       "",
@@ -37,12 +37,14 @@ class Mode final : public NamedEffect {
                       ParameterScale::kLogarithmic,
                       Ratios()},
                      {"coeff_over_N", "", 0.0, -5.0, 5.0, {0.3}},
-                     {"zeta", "", 0.05, 0.002, 0.15, {0.05}, ParameterScale::kLogarithmic}}) {}
+                     {"zeta", "", 0.05, 0.002, 0.15, {0.05}, ParameterScale::kLogarithmic}}),
+        modes_(modes),
+        harmonic_ratio_(harmonic_ratio) {}
   bool ChangesAcousticCut() const override { return true; }
   // A second mode at the frequency of one that is there says that this one is no simple mode.
   bool IsOwnCause(EffectValues x) const override {
     return std::abs(std::log(x[0])) > kSameMode &&
-           std::abs(std::log(x[0] / kSeedHarmonicRatio)) > kSameMode;
+           (modes_ == 1 || std::abs(std::log(x[0] / harmonic_ratio_)) > kSameMode);
   }
   std::vector<double> ModeRatios(EffectValues x) const override { return {x[0]}; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
@@ -61,10 +63,16 @@ class Mode final : public NamedEffect {
     rig->extra_modes.push_back({x[0] * acoustics.omega_hz, x[2], x[1] * acoustics.N});
     return true;
   }
+
+ private:
+  int modes_;  // of the base
+  double harmonic_ratio_;
 };
 
 }  // namespace
 
-std::vector<EffectPointer> ExtraAcousticMode() { return {std::make_shared<Mode>()}; }
+std::vector<EffectPointer> ExtraAcousticMode(int modes, double harmonic_ratio) {
+  return {std::make_shared<Mode>(modes, harmonic_ratio)};
+}
 
 }  // namespace howl

@@ -1,4 +1,4 @@
-// The upper mode is not at three times the first.
+// The upper mode is not where the base has it, at three times the first or at the config's ratio.
 #include <cmath>
 #include <limits>
 
@@ -8,16 +8,22 @@
 namespace howl {
 namespace {
 
+// Of the base's ratio: the bounds, and the starts on either side.
+constexpr double kLeast = 1.3 / 3.0;
+constexpr double kMost = 2.0;
+constexpr double kBelow = 2.6 / 3.0;
+constexpr double kAbove = 3.4 / 3.0;
+
 class Detuning final : public NamedEffect {
  public:
-  Detuning()
+  explicit Detuning(double harmonic_ratio)
       : NamedEffect("mode_detuning", LoopBlock::kAcoustics,
                     {{"ratio",
                       "",
-                      kSeedHarmonicRatio,
-                      1.3,
-                      6.0,
-                      {2.6, 3.4},
+                      harmonic_ratio,
+                      kLeast * harmonic_ratio,
+                      kMost * harmonic_ratio,
+                      {kBelow * harmonic_ratio, kAbove * harmonic_ratio},
                       ParameterScale::kLogarithmic}}) {}
   bool ChangesAcousticCut() const override { return true; }
   Response Acoustics(const howl::Acoustics<double>& acoustics, double frequency_hz,
@@ -34,6 +40,8 @@ class Detuning final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ModeDetuning() { return {std::make_shared<Detuning>()}; }
+std::vector<EffectPointer> ModeDetuning(double harmonic_ratio) {
+  return {std::make_shared<Detuning>(harmonic_ratio)};
+}
 
 }  // namespace howl

@@ -2,10 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "model/effects/catalogue.h"
 #include "tests/app/program.h"
@@ -67,6 +71,147 @@ TEST(Diagnose, AnInterruptedRunGoesOnToTheSameResult) {
   EXPECT_THAT(rest.err, testing::HasSubstr("going on from"));
   EXPECT_EQ(ReadFile(parts + "/diagnosis.json"), ReadFile(whole + "/diagnosis.json"));
   EXPECT_FALSE(std::filesystem::exists(parts + "/diagnosis.state"));
+}
+
+// The catalogue but these, for --without.
+std::string AllBut(const std::vector<std::string>& kept) {
+  std::string all;
+  for (const EffectPointer& effect : Catalogue()) {
+    if (std::ranges::find(kept, effect->id()) == kept.end())
+      all += (all.empty() ? "" : ",") + std::string(effect->id());
+  }
+  return all;
+}
+
+// Where each entry of a state file ends, its first line's end before them.
+std::vector<std::size_t> EntryEnds(const std::string& state) {
+  std::vector<std::size_t> ends = {state.find('\n') + 1};
+  while (ends.back() < state.size()) {
+    const std::size_t line_end = state.find('\n', ends.back());
+    std::istringstream words(state.substr(ends.back(), line_end - ends.back()));
+    std::string key;
+    std::size_t size = 0;
+    EXPECT_TRUE(words >> key >> size) << key;
+    ends.push_back(line_end + 1 + size + 1);
+  }
+  return ends;
+}
+
+std::string StateWithEachKeyOnce(const std::string& state) {
+  std::set<std::string> keys;
+  const std::vector<std::size_t> ends = EntryEnds(state);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const std::string key = state.substr(ends[i], state.find(' ', ends[i]) - ends[i]);
+    EXPECT_TRUE(keys.insert(key).second) << key << " is there twice";
+  }
+  return state;
+}
+
+TEST(Diagnose, StoppedAtAnyUnitItGoesOnToTheSameBytes) {
+  const TemporaryFolder folder;
+  const std::string config =
+      folder
+          .Write("skewed.yaml", std::string(kRig).substr(0, std::string(kRig).find("simulate")) +
+                                    "simulate: {duration_s: 1.7, effects: [{effect: channel_skew, "
+                                    "skew_s: 2e-4}]}\n")
+          .string();
+  const std::string out = (folder.path() / "rig").string();
+  ASSERT_EQ(RunHowl("simulate " + config + " --quiet --out " + out).status, 0);
+  const std::string command = "diagnose " + out + "/records.yaml --quiet --without " +
+                              AllBut({"channel_skew"}) + " --out " + out;
+  ASSERT_EQ(RunHowl(command).status, 0);
+  const std::string whole = ReadFile(out + "/diagnosis.json");
+  ASSERT_TRUE(nlohmann::json::parse(whole)["gap"]["shrinkage_by_no_meaning"].is_number());
+  // Where the result cannot be written the state stays, with every unit in it.
+  std::filesystem::remove(out + "/diagnosis.json");
+  std::filesystem::create_directory(out + "/diagnosis.json");
+  ASSERT_NE(RunHowl(command).status, 0);
+  std::filesystem::remove(out + "/diagnosis.json");
+  const std::string state = StateWithEachKeyOnce(ReadFile(out + "/diagnosis.state"));
+  const std::vector<std::size_t> ends = EntryEnds(state);
+  ASSERT_EQ(ends.size(), 1u + 1u + 11u);  // the line, the effect, eleven of no meaning
+  for (const std::size_t end : ends) {
+    folder.Write("rig/diagnosis.state", state.substr(0, end));
+    ASSERT_EQ(RunHowl(command).status, 0);
+    EXPECT_EQ(ReadFile(out + "/diagnosis.json"), whole) << "stopped after " << end << " bytes";
+  }
+}
+
+TEST(Diagnose, AStateOfAnotherBuildOrWithAKeyTwiceIsNotBelieved) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  const std::string out = (folder.path() / "out").string();
+  const std::string command =
+      "diagnose " + rig + " --without " + AllBut({"channel_skew"}) + " --out " + out;
+  std::filesystem::create_directories(out + "/diagnosis.json");
+  ASSERT_NE(RunHowl(command).status, 0);
+  std::filesystem::remove(out + "/diagnosis.json");
+  const std::string state = ReadFile(out + "/diagnosis.state");
+  const std::vector<std::size_t> ends = EntryEnds(state);
+  ASSERT_GE(ends.size(), 2u);
+  const std::string entry = state.substr(ends[0], ends[1] - ends[0]);
+  const std::string other_build = "howl.diagnosis.state 0.1.0 1 2\n" + state.substr(ends[0]);
+  for (const std::string& doubtful : {other_build, state.substr(0, ends[1]) + entry}) {
+    folder.Write("out/diagnosis.state", doubtful);
+    const ProgramResult run = RunHowl(command);
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.err, testing::HasSubstr("begun anew"));
+  }
+  folder.Write("out/diagnosis.state", state);
+  EXPECT_THAT(RunHowl(command).err, testing::HasSubstr("going on from"));
+}
+
+// records.yaml as it is, and with its model or its delays changed.
+TEST(Diagnose, TheBaseIsTheConfigsModel) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  const std::string whole = ReadFile(rig);
+  const std::string stated = "model: {modes: 1, harmonic_ratio: 3}";
+  const std::size_t at = whole.find(stated);
+  ASSERT_NE(at, std::string::npos) << whole;
+  const auto base = [&](const std::string& model) {
+    std::string text = whole;
+    text.replace(at, stated.size(), model);
+    folder.Write("rig/other.yaml", text);
+    const std::string out = (folder.path() / "other").string();
+    const std::string config = (folder.path() / "rig" / "other.yaml").string();
+    const ProgramResult run = RunHowl("diagnose " + config + " --without " +
+                                      AllBut({"mode_detuning", "channel_skew"}) + " --out " + out);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(ReadFile(out + "/diagnosis.json"));
+  };
+  const auto one = base(stated);
+  EXPECT_EQ(one["base"]["modes"], 1);
+  EXPECT_EQ(one["base"]["tau_scatter_max"], 0.03);
+  EXPECT_EQ(one["candidates"].size(), 1u);
+  const auto two = base("model: {modes: 2, harmonic_ratio: 2.8}");
+  EXPECT_EQ(two["base"]["modes"], 2);
+  EXPECT_EQ(two["base"]["harmonic_ratio"], 2.8);
+  EXPECT_EQ(two["candidates"].size(), 2u);
+  // Where nothing is stated: two, of which one is a special case.
+  EXPECT_EQ(base("")["base"]["modes"], 2);
+  const auto shared = base("parameters: {tau_s: {scope: shared}}");
+  EXPECT_EQ(shared["base"]["tau_scatter_max"], 0.0);
+  EXPECT_EQ(shared["base"]["tau_scatter"], 0.0);
+}
+
+// README's example, with a few of the candidates.
+TEST(Diagnose, AnEffectAddedToTheShippedConfigIsNamed) {
+  const TemporaryFolder folder;
+  const std::string config =
+      folder
+          .Write("rig.yaml",
+                 ReadFile(Config("r228")) +
+                     "simulate: {effects: [{effect: q_sensor_lowpass, cutoff_hz: 245}]}\n")
+          .string();
+  const std::string out = (folder.path() / "out").string();
+  ASSERT_EQ(RunHowl("simulate " + config + " --quiet --out " + out).status, 0);
+  const ProgramResult run = RunHowl(
+      "diagnose " + out + "/records.yaml --without " +
+      AllBut({"q_sensor_lowpass", "flame_lowpass", "channel_skew", "delay_varies_with_phi"}) +
+      " --out " + out);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, testing::StartsWith("verdict: q_sensor_lowpass"));
 }
 
 TEST(Diagnose, AgainstAReferenceOfTheSameLoopThereIsNothingToName) {
@@ -147,13 +292,8 @@ TEST(Diagnose, TheBootstrapsGainsAreWritten) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");
   const std::string out = (folder.path() / "out").string();
-  std::string all_but;
-  for (const EffectPointer& effect : Catalogue()) {
-    if (effect->id() != "delay_varies_with_phi") all_but += std::string(effect->id()) + ",";
-  }
-  all_but.pop_back();
-  const ProgramResult run =
-      RunHowl("diagnose " + rig + " --bootstrap 19 --without " + all_but + " --out " + out);
+  const ProgramResult run = RunHowl("diagnose " + rig + " --bootstrap 19 --without " +
+                                    AllBut({"delay_varies_with_phi"}) + " --out " + out);
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, testing::HasSubstr("19 rigs simulated from the refitted base"));
   const auto diagnosis = nlohmann::json::parse(ReadFile(out + "/diagnosis.json"));

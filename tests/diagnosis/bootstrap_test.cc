@@ -30,7 +30,7 @@ TEST(FittedRig, IsTheRigThatWasFitted) {
   EXPECT_NEAR(refitted.tau_s, 0.00352, 2e-5);
   for (std::size_t e = 0; e < records.size(); ++e) {
     const RigParameters truth = TestRig(static_cast<int>(e));
-    const Acoustics<double> acoustics = ToAcoustics(refitted.experiments[e].acoustics);
+    const Acoustics<double> acoustics = ToAcoustics({}, refitted.experiments[e].acoustics);
     EXPECT_NEAR(acoustics.omega_hz / truth.model.loop.acoustics.omega_hz, 1.0, 0.01);
     EXPECT_NEAR(acoustics.xi / truth.model.loop.acoustics.xi, 1.0, 0.1);
     EXPECT_NEAR(Rms(again[e].pressure) / Rms(records[e].pressure), 1.0, 0.03);
@@ -134,7 +134,7 @@ class Kept final : public FitMemory {
   }
   void Keep(const std::string& key, const std::string& bytes) override {
     const std::lock_guard<std::mutex> lock(lock_);
-    all_[key] = bytes;
+    EXPECT_TRUE(all_.emplace(key, bytes).second) << key;
   }
   std::map<std::string, std::string> all_;
 
@@ -161,6 +161,13 @@ TEST(Bootstrap, GoesOnWhereItWasStopped) {
   options.bootstrap_progress = [&](std::size_t now, std::size_t) { done = now; };
   EXPECT_EQ(Diagnose(rig, options).bootstrap_gains, whole);
   EXPECT_EQ(done, 3u);
+}
+
+TEST(FitMemory, AKeyThatComesTwiceIsAProgrammersMistake) {
+  UniqueKeys keys("kept");
+  keys.Take("no_meaning.0#0");
+  keys.Take("no_meaning.1#0");
+  EXPECT_DEATH(keys.Take("no_meaning.0#0"), "no_meaning.0#0 is kept twice");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ TEST(BaseFit, RecoversTheRig) {
   for (int point = 0; point < 3; ++point) {
     const Acoustics<double> truth = TestRig(point).model.loop.acoustics;
     const Acoustics<double> found =
-        ToAcoustics(fit.experiments[static_cast<std::size_t>(point)].acoustics);
+        ToAcoustics({}, fit.experiments[static_cast<std::size_t>(point)].acoustics);
     EXPECT_NEAR(found.omega_hz / truth.omega_hz, 1.0, 2e-3);
     EXPECT_NEAR(found.xi / truth.xi, 1.0, 0.03);
     EXPECT_NEAR(found.N / truth.N, 1.0, 0.03);

@@ -1,0 +1,42 @@
+// Delays that differ a little between experiments, which the paper finds within some per cent of
+// one value (section 3.1): log tau_e = log tau + d_e, d_e normal with a standard deviation s that
+// all share. With d_e integrated over (Laplace; I_e: its information), the cost, minus the
+// logarithm of the likelihood, has beside the residuals'
+//
+//   sum over experiments of  d_e^2 / (2 s^2) + ln(1 + s^2 I_e) / 2
+//
+// s is the one of least cost. So delays cost next to nothing where one serves all, and an effect
+// that explains why they differ saves what their scatter costs. log_delay: d_e.
+#ifndef HOWL_DIAGNOSIS_DELAY_SCATTER_H_
+#define HOWL_DIAGNOSIS_DELAY_SCATTER_H_
+
+#include <vector>
+
+namespace howl {
+
+struct OwnDelay {
+  double log_delay = 0.0;    // where the fit has it
+  double optimum = 0.0;      // where its record alone would put it
+  double information = 0.0;  // of the record: inverse variance of the optimum
+};
+
+struct DelayScatter {
+  double mean = 0.0;                // of log_delay: what the shared delay should move by
+  double standard_deviation = 0.0;  // at most what was allowed; 0: one delay serves all
+};
+
+// d^2 / (2 s^2); 0 where s is 0 (then d is 0 too).
+double DelayPrice(double log_delay, double standard_deviation);
+
+// The sum above, at the fit's own delays.
+double ScatterCost(const std::vector<OwnDelay>& delays, double standard_deviation);
+
+// Of least cost, with every d_e at its own best.
+DelayScatter FitScatter(const std::vector<OwnDelay>& delays, double most);
+
+// d_e of least cost: the optimum, drawn towards the mean.
+double ShrunkenDelay(const OwnDelay& delay, const DelayScatter& scatter);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_DELAY_SCATTER_H_
