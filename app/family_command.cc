@@ -17,20 +17,7 @@ int Run(const Options& options) {
   WriteWholeFile(options.out / "family.csv",
                  FamilyCsv(run.problem.experiments, run.members, config.operating_parameter));
   WriteWholeFile(options.out / "tradeoff.csv", TradeoffCsv(run.tradeoff));
-  WriteWholeFile(options.out / "family.json",
-                 FamilyJson({.problem = run.problem,
-                             .enclosure = *run.enclosure,
-                             .members = run.members.size(),
-                             .requested = static_cast<std::size_t>(config.family.members),
-                             .diagnostics = run.diagnostics,
-                             .conflict = run.conflict,
-                             .predictions = run.predictions,
-                             .falsified = run.falsified,
-                             .advice = run.advice,
-                             .transfer = run.transfer,
-                             .profile = run.profile})
-                         .dump(2) +
-                     "\n");
+  WriteWholeFile(options.out / "family.json", FamilyJson(ReportOf(config, run)).dump(2) + "\n");
   if (run.profile) {
     WriteWholeFile(options.out / "profile.csv",
                    ProfileCsv(run.problem.experiments, run.profile->profile));

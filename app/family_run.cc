@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <utility>
 
 #include "app/bounds_run.h"
 #include "app/family_questions.h"
@@ -59,6 +61,10 @@ std::vector<Member> DrawUniformly(const Options& options, std::size_t count, Fam
   sampling.seed = options.seed;
   sampling.threads = options.threads;
   MemberSample sample = SampleMembers(run.problem, sampling);
+  if (sample.members.empty()) {  // too thin for the sampler's own starts
+    sampling.starts = run.enclosure->Witnesses();
+    if (!sampling.starts.empty()) sample = SampleMembers(run.problem, sampling);
+  }
   run.diagnostics = sample.diagnostics;
   return std::move(sample.members);
 }
@@ -74,7 +80,9 @@ void DrawMembers(const Config& config, const Options& options, FamilyRun& run) {
   } else {
     members = EnumerateMembers(run.problem, drawn, options.seed, options.threads).members;
   }
-  // A family too thin for the chains to move in still has its listed members.
+  // A family too thin to be enumerated may still be sampled, and one too thin for the chains to
+  // move in still has its listed members.
+  if (members.empty()) members = run.sample;
   if (run.sample.empty()) run.sample = members;
   if (!is_short || members.size() <= listed) {
     run.members = std::move(members);
@@ -145,11 +153,27 @@ void AskFurther(const Options& options, FamilyRun& run) {
   if (options.Has("--advise")) run.advice = AdviseMeasurements(run.problem, run.sample);
 }
 
-}  // namespace
+// A family too thin to be drawn from may still have the members that searches found.
+void ExplainNoMember(const Options& options, FamilyRun& run) {
+  run.members = run.enclosure->Witnesses();
+  if (run.members.empty()) {
+    run.conflict = ExplainEmpty(run.problem, options.threads);
+    run.conflict.proved |= run.enclosure->IsProvedEmpty();
+    if (!run.conflict.member.empty()) run.members.push_back(run.conflict.member);
+  }
+  run.sample = run.members;
+}
 
-FamilyRun RunFamily(const Config& config, const Options& options) {
+using BoundsRun = std::function<void(Enclosure&)>;
+
+// All but the trade-off. `run_bounds` runs the search to its end.
+FamilyRun RunQuestions(const Config& config, const Options& options,
+                       std::vector<Experiment> experiments, const BoundsRun& run_bounds) {
   FamilyRun run;
-  run.problem = MakeFamilyProblem(config, LoadExperiments(config, options));
+  run.problem = MakeFamilyProblem(config, std::move(experiments));
+  for (const ExperimentConfig& each : config.experiments) {
+    if (each.record) run.recorded.push_back(each.experiment.name);
+  }
   const std::vector<BoundedExpression> bounded = ParsePredictions(config, run.problem);
   if (const auto text = options.Text("--profile")) AskedQuantity(config, *text, run.problem);
   run.enclosure =
@@ -157,13 +181,12 @@ FamilyRun RunFamily(const Config& config, const Options& options) {
                                                               .seed = options.seed,
                                                               .threads = options.threads,
                                                               .expressions = bounded});
-  RunBounds(config, options, *run.enclosure);
+  run_bounds(*run.enclosure);
   StopIfInterrupted(options);
   if (!run.enclosure->IsProvedEmpty()) DrawMembers(config, options, run);
   StopIfInterrupted(options);
-  if (run.members.empty()) {
-    run.conflict = ExplainEmpty(run.problem, options.threads);
-  } else {
+  if (run.members.empty()) ExplainNoMember(options, run);
+  if (!run.members.empty()) {
     TakePredictions(config, bounded, run);
     std::ranges::copy(PredictLoops(run.problem, config.simulation,
                                    Thinned(run.sample, kPredictedMembers), options.threads),
@@ -174,10 +197,40 @@ FamilyRun RunFamily(const Config& config, const Options& options) {
   StopIfInterrupted(options);
   MeasureTransfer(options, run);
   StopIfInterrupted(options);
+  return run;
+}
+
+}  // namespace
+
+FamilyRun RunFamily(const Config& config, const Options& options) {
+  FamilyRun run =
+      RunQuestions(config, options, LoadExperiments(config, options),
+                   [&](Enclosure& enclosure) { RunBounds(config, options, enclosure); });
   run.tradeoff =
       ComputeTradeoff(run.problem, DefaultSpreads(run.problem), options.threads, options.seed);
   StopIfInterrupted(options);
   return run;
+}
+
+FamilyRun RunFamilyAnew(const Config& config, const Options& options,
+                        std::vector<Experiment> experiments) {
+  return RunQuestions(config, options, std::move(experiments),
+                      [](Enclosure& enclosure) { enclosure.Run(); });
+}
+
+FamilyReport ReportOf(const Config& config, const FamilyRun& run) {
+  return {.problem = run.problem,
+          .enclosure = *run.enclosure,
+          .members = run.members.size(),
+          .requested = static_cast<std::size_t>(config.family.members),
+          .diagnostics = run.diagnostics,
+          .conflict = run.conflict,
+          .recorded = run.recorded,
+          .predictions = run.predictions,
+          .falsified = run.falsified,
+          .advice = run.advice,
+          .transfer = run.transfer,
+          .profile = run.profile};
 }
 
 }  // namespace howl

@@ -24,8 +24,9 @@ struct FamilyRun {
   std::unique_ptr<Enclosure> enclosure;
   std::vector<Member> members;  // as listed
   SampleDiagnostics diagnostics;
-  std::vector<Member> sample;  // drawn uniformly, for predictions and advice
-  Conflict conflict;           // when there is no member
+  std::vector<Member> sample;         // drawn uniformly, for predictions and advice
+  Conflict conflict;                  // when there is no member
+  std::vector<std::string> recorded;  // experiments whose data a record gives
   std::vector<TradeoffPoint> tradeoff;
   std::vector<ExperimentPrediction> predictions;
   std::optional<FurtherTest> falsified;
@@ -37,6 +38,14 @@ struct FamilyRun {
 // Bounds, members, trade-off, predictions. Throws UserError for an expression that does not parse
 // and Interrupted when the user asks for a stop.
 FamilyRun RunFamily(const Config& config, const Options& options);
+
+// The same of experiments that were read already, without the trade-off and with nothing saved on
+// the way.
+FamilyRun RunFamilyAnew(const Config& config, const Options& options,
+                        std::vector<Experiment> experiments);
+
+// What is written of a run.
+FamilyReport ReportOf(const Config& config, const FamilyRun& run);
 
 }  // namespace howl
 

@@ -6,32 +6,12 @@
 #include <limits>
 #include <string>
 
+#include "app/conflict_text.h"
 #include "app/text_table.h"
 #include "estimation/half_width.h"
 
 namespace howl {
 namespace {
-
-void PrintConflict(const Conflict& conflict) {
-  std::printf("the family is empty%s\n",
-              conflict.proved ? "" : " as far as the search went; this is not a proof");
-  for (const std::vector<Condition>& set : conflict.minimal_sets) {
-    std::string names;
-    for (const Condition condition : set) {
-      names += (names.empty() ? "" : ", ") + std::string(ConditionName(condition));
-    }
-    if (set.empty()) names = "the bounds of the parameters themselves";
-    std::printf("  exclude each other: %s\n", names.c_str());
-  }
-  for (const Relaxation& relaxation : conflict.relaxations) {
-    if (!relaxation.suffices) continue;
-    std::printf("  %s is %s; %s\n", std::string(ConditionName(relaxation.condition)).c_str(),
-                Significant(relaxation.value).c_str(),
-                relaxation.needed
-                    ? ("with " + Significant(*relaxation.needed) + " there is a member").c_str()
-                    : "without it there is a member");
-  }
-}
 
 std::string RangeText(const Range& range, double factor, int digits) {
   return Significant(factor * range.lo, digits) + " .. " + Significant(factor * range.hi, digits);
@@ -248,7 +228,7 @@ void PrintPredictions(const FamilyRun& run) {
 
 void PrintFamily(const FamilyRun& run) {
   if (run.members.empty()) {
-    PrintConflict(run.conflict);
+    PrintConflict(run.problem, run.conflict, run.recorded);
     if (run.transfer) PrintTransfer(run);
     return;
   }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "estimation/family/feasible.h"
 #include "estimation/family/transfer_starts.h"
 #include "estimation/family/two_mode_tradeoff.h"
 
@@ -22,6 +23,10 @@ BoundSetting::BoundSetting(const FamilyProblem& family, std::uint64_t seed_of_dr
       root_empty(!contractor.Contract(root)) {
   if (!NeedsTransferStarts(problem)) drawer = std::make_unique<MemberDrawer>(problem);
   base = EnumerateMembers(problem, kBaseMembers, seed, 1).members;
+  // A family too thin for draws at random to meet.
+  if (base.empty() && !root_empty) {
+    if (std::optional<Member> member = FindMemberLocally(problem)) base.push_back(*member);
+  }
   if (HasGreedyTradeoff(problem)) {
     for (Member& member : ExtremeMembers(problem)) base.push_back(std::move(member));
   }

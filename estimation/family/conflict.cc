@@ -2,217 +2,120 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
+#include <optional>
 
 #include "estimation/family/feasible.h"
-#include "estimation/family/local_search.h"
+#include "estimation/family/without.h"
 #include "estimation/parallel.h"
 
 namespace howl {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using ConditionBits = unsigned;
 
-double* Tolerance(MembershipTest& test, Condition condition) {
-  switch (condition) {
-    case Condition::kGain:
-      return &test.gain_tolerance;
-    case Condition::kPhase:
-      return &test.phase_tolerance_deg;
-    case Condition::kLoopPhase:
-      return &test.loop_phase_tolerance_deg;
-    case Condition::kLoopGain:
-      return &test.loop_gain_min;
-    case Condition::kSecondCrossing:
-      return &test.second_crossing_tolerance_deg;
-    case Condition::kOmegaSpread:
-      return &test.omega_spread_max;
-    case Condition::kXiMax:
-      return &test.xi_max;
-    case Condition::kXiIncreasing:
-      return nullptr;
-    case Condition::kTransfer:
-      return &test.transfer_distance_max;
-  }
-  return nullptr;
+bool Has(ConditionBits set, Condition condition) {
+  return (set >> static_cast<unsigned>(condition)) & 1u;
 }
 
-void SwitchOff(MembershipTest& test, Condition condition) {
-  if (double* const value = Tolerance(test, condition)) {
-    *value = condition == Condition::kLoopGain ? 0.0 : kInfinity;
-  } else {
-    test.xi_increasing = false;
+// Sets of binding conditions, of that size, that hold no smaller minimal set.
+std::vector<ConditionBits> Candidates(int size, ConditionBits binding,
+                                      const std::vector<ConditionBits>& minimal) {
+  std::vector<ConditionBits> candidates;
+  for (ConditionBits set = 0; set < (1u << kNumConditions); ++set) {
+    if (std::popcount(set) != size || (set & ~binding) != 0) continue;
+    const bool contains_smaller =
+        std::any_of(minimal.begin(), minimal.end(),
+                    [&](ConditionBits smaller) { return (set & smaller) == smaller; });
+    if (!contains_smaller) candidates.push_back(set);
   }
+  return candidates;
 }
 
-// A search draws best within tolerances of a moderate size, and a member at those is one without
-// them: they stand for "switched off", from narrow to wide, before the real thing.
-constexpr MembershipTest kModerate[] = {{0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false, 8.0},
-                                        {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false, 20.0},
-                                        {0.6, 30.0, 90.0, 0.0, 180.0, 1.5, 1.0, false, kInfinity}};
-
-void Widen(MembershipTest& test, Condition condition, const MembershipTest& to) {
-  MembershipTest wide = to;
-  double* const value = Tolerance(test, condition);
-  const double* const target = Tolerance(wide, condition);
-  if (value == nullptr || target == nullptr) {
-    test.xi_increasing = false;
-  } else if (condition == Condition::kLoopGain) {
-    *value = 0.0;
-  } else {
-    *value = std::max(*value, *target);
+ConditionSet Others(ConditionBits kept) {
+  ConditionSet off;
+  for (const Condition condition : kConditions) {
+    if (!Has(kept, condition)) off.Insert(condition);
   }
+  return off;
 }
 
-// The problem with only the conditions in `kept`. A member that was found is told.
-Feasibility DecideWith(const FamilyProblem& problem, unsigned kept,
-                       const std::vector<Member>& known, std::optional<Member>& member) {
-  FamilyProblem at = problem;
-  const auto each_other = [&](const auto& change) {
-    for (std::size_t k = 0; k < kNumConditions; ++k) {
-      if (!((kept >> k) & 1u)) change(kConditions[k]);
+void FindMinimalSets(const FamilyProblem& problem, int threads, std::vector<Member>& known,
+                     Conflict& conflict) {
+  ConditionBits binding = 0;
+  for (const Condition condition : kConditions) {
+    if (Binds(problem, condition)) binding |= 1u << static_cast<unsigned>(condition);
+  }
+  std::vector<ConditionBits> minimal;
+  for (int size = 0; size <= std::popcount(binding); ++size) {
+    const std::vector<ConditionBits> candidates = Candidates(size, binding, minimal);
+    std::vector<Feasibility> answers(candidates.size());
+    std::vector<std::optional<Member>> found(candidates.size());
+    RunUnits(candidates.size(), threads, [&](std::size_t k) {
+      answers[k] = DecideWithout(problem, Others(candidates[k]), known, found[k]);
+    });
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (found[k]) known.push_back(*found[k]);
+      if (answers[k] == Feasibility::kMember) continue;
+      minimal.push_back(candidates[k]);
+      conflict.sets_proved.push_back(answers[k] == Feasibility::kEmpty);
     }
-  };
-  each_other([&](Condition condition) { SwitchOff(at.test, condition); });
-  if (HasExactWindows(at)) return DecideFeasible(at);
-  for (const Member& candidate : known) {
-    if (Holds(at, candidate)) return Feasibility::kMember;
   }
-  if (LocalSearch(at).IsSupported()) {
-    member = FindMemberLocally(at);
-    return member ? Feasibility::kMember : DecideFeasible(at, false);
+  for (const ConditionBits set : minimal) {
+    std::vector<Condition> names;
+    for (const Condition condition : kConditions) {
+      if (Has(set, condition)) names.push_back(condition);
+    }
+    conflict.minimal_sets.push_back(std::move(names));
   }
-  for (const MembershipTest& level : kModerate) {
-    FamilyProblem moderate = problem;
-    each_other([&](Condition condition) { Widen(moderate.test, condition, level); });
-    member = FindMember(moderate);
-    if (member) return Feasibility::kMember;
-  }
-  return DecideFeasible(at);
 }
 
-// The least violation of the one condition that a local search reaches from a member of the family
-// without it, as the value that the test would have to ask for.
-std::optional<double> NeededLocally(const FamilyProblem& problem, Condition condition,
-                                    const Member& start) {
-  if (condition == Condition::kLoopGain) return std::nullopt;  // a bound of the search's own
-  FamilyProblem without = problem;
-  SwitchOff(without.test, condition);
-  const auto inside = LocalSearch(without).FindMember(start);
-  ConditionSet soft;
-  soft.Insert(condition);
-  const auto nearest =
-      inside ? LocalSearch(problem).Minimise(inside->member, soft) : std::optional<Approach>();
-  if (!nearest) return std::nullopt;
-  FamilyProblem relaxed = problem;
-  double* const value = Tolerance(relaxed.test, condition);
-  const double share = nearest->violation * (1.0 + 1e-6);
-  if (condition == Condition::kOmegaSpread) {
-    *value = std::expm1(share * std::log1p(*value));
-  } else if (condition == Condition::kXiMax) {
-    *value *= std::exp(share - 1.0);
-  } else {
-    *value *= share;
-  }
-  if (!Holds(relaxed, nearest->member)) return std::nullopt;
-  return *value;
-}
-
-Relaxation Relax(const FamilyProblem& problem, Condition condition, bool searching,
-                 const std::vector<Member>& known) {
-  Relaxation relaxation{.condition = condition, .value = 1.0, .needed = std::nullopt};
-  FamilyProblem at = problem;
-  double* const value = Tolerance(at.test, condition);
-  if (value != nullptr) relaxation.value = *value;
-  std::optional<Member> member;
-  const unsigned others = ~(1u << static_cast<unsigned>(condition));
-  relaxation.suffices = DecideWith(problem, others, known, member) == Feasibility::kMember;
-  if (value == nullptr) return relaxation;
-  if (!relaxation.suffices) return relaxation;
-  if (searching && member) {
-    relaxation.needed = NeededLocally(problem, condition, *member);
-    if (relaxation.needed) return relaxation;
-  }
-  // The family only grows with a tolerance: bisection between too tight and wide enough.
-  double tight = relaxation.value;
-  double wide = condition == Condition::kLoopGain ? 0.0 : std::max(tight, 1e-3) * 2.0;
-  for (int doubling = 0; condition != Condition::kLoopGain && doubling < 40; ++doubling) {
-    *value = wide;
-    if (DecideFeasible(at) == Feasibility::kMember) break;
-    tight = wide;
-    wide *= 2.0;
-  }
-  const double precision = searching ? 1e-3 : 1e-12;
-  while (std::abs(wide - tight) > precision * std::max(std::abs(wide), std::abs(tight))) {
-    const double middle = 0.5 * (tight + wide);
-    *value = middle;
-    (DecideFeasible(at) == Feasibility::kMember ? wide : tight) = middle;
-  }
-  relaxation.needed = wide;
-  return relaxation;
+// No change of a limit helps that is not in every minimal set.
+bool IsInAll(const Conflict& conflict, Condition condition) {
+  return std::all_of(conflict.minimal_sets.begin(), conflict.minimal_sets.end(),
+                     [&](const std::vector<Condition>& set) {
+                       return std::find(set.begin(), set.end(), condition) != set.end();
+                     });
 }
 
 }  // namespace
-
-MembershipTest KeepConditions(const MembershipTest& test, const ConditionSet& kept) {
-  MembershipTest result = test;
-  for (const Condition condition : kConditions) {
-    if (!kept.Contains(condition)) SwitchOff(result, condition);
-  }
-  return result;
-}
 
 Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
   Conflict conflict;
   const Feasibility whole = DecideFeasible(problem);
   conflict.is_empty = whole != Feasibility::kMember;
-  conflict.proved = whole == Feasibility::kEmpty;
-  if (!conflict.is_empty) return conflict;
-
-  std::vector<unsigned> minimal;
-  std::vector<Member> known;  // found so far, to be tried first
-  for (int size = 0; size <= static_cast<int>(kNumConditions); ++size) {
-    std::vector<unsigned> candidates;
-    for (unsigned set = 0; set < (1u << kNumConditions); ++set) {
-      if (std::popcount(set) != size) continue;
-      if (!problem.HasTransfer() && ((set >> static_cast<unsigned>(Condition::kTransfer)) & 1u)) {
-        continue;
-      }
-      const bool contains_smaller =
-          std::any_of(minimal.begin(), minimal.end(),
-                      [&](unsigned smaller) { return (set & smaller) == smaller; });
-      if (!contains_smaller) candidates.push_back(set);
+  if (!conflict.is_empty) {
+    if (std::optional<Member> member = FindMemberFrom(problem, {}, true)) {
+      conflict.member = *std::move(member);
     }
-    std::vector<Feasibility> answers(candidates.size());
-    std::vector<std::optional<Member>> found(candidates.size());
-    RunUnits(candidates.size(), threads, [&](std::size_t k) {
-      answers[k] = DecideWith(problem, candidates[k], known, found[k]);
-    });
-    for (const std::optional<Member>& member : found) {
-      if (member) known.push_back(*member);
-    }
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (answers[k] == Feasibility::kMember) continue;
-      conflict.proved &= answers[k] == Feasibility::kEmpty;
-      minimal.push_back(candidates[k]);
-    }
+    return conflict;
   }
-  unsigned in_all = ~0u;
-  for (const unsigned set : minimal) {
-    in_all &= set;
-    std::vector<Condition> names;
-    for (std::size_t k = 0; k < kNumConditions; ++k) {
-      if ((set >> k) & 1u) names.push_back(kConditions[k]);
+  std::vector<Member> known;
+  FindMinimalSets(problem, threads, known, conflict);
+  // A proof that a part of the conditions exclude each other is one that all do.
+  conflict.proved = whole == Feasibility::kEmpty ||
+                    std::find(conflict.sets_proved.begin(), conflict.sets_proved.end(), true) !=
+                        conflict.sets_proved.end();
+  const std::vector<ChangeTarget> targets = ChangeTargets(problem);
+  conflict.changes.resize(targets.size());
+  RunUnits(targets.size(), threads, [&](std::size_t k) {
+    const ChangeTarget& target = targets[k];
+    if (target.kind == ChangeKind::kCondition && !IsInAll(conflict, target.condition)) {
+      conflict.changes[k] = {.target = target, .value = ValueNow(problem, target)};
+      return;
     }
-    conflict.minimal_sets.push_back(std::move(names));
-  }
-  for (std::size_t k = 0; k < kNumConditions && !minimal.empty(); ++k) {
-    if ((in_all >> k) & 1u) {
-      conflict.relaxations.push_back(
-          Relax(problem, kConditions[k], whole == Feasibility::kNotFound, known));
-    }
+    conflict.changes[k] = FindSmallestChange(problem, target, known);
+  });
+  if (conflict.proved) return conflict;
+  // What a search without proof has called empty may have a member after all, next to one of those
+  // that were found since.
+  for (const SmallestChange& change : conflict.changes) {
+    if (!change.helps) continue;
+    std::optional<Member> member = FindMemberNear(problem, change.member);
+    if (!member) continue;
+    Conflict none;
+    none.member = *std::move(member);
+    return none;
   }
   return conflict;
 }

@@ -1,37 +1,31 @@
 // Why a family is empty: the minimal sets of conditions of the test that no model fulfils together
-// (drop any one of a set and its others have a common member), and by how much each single
-// condition would have to give for the family to have a member.
+// (drop any one of a set and its others have a common member), and the smallest change of each
+// single limit, bound or datum that gives the family a member.
 #ifndef HOWL_ESTIMATION_FAMILY_CONFLICT_H_
 #define HOWL_ESTIMATION_FAMILY_CONFLICT_H_
 
-#include <optional>
+#include <string_view>
 #include <vector>
 
+#include "estimation/family/limits.h"
 #include "estimation/family/problem.h"
+#include "estimation/family/single_change.h"
 
 namespace howl {
 
-struct Relaxation {
-  Condition condition;
-  bool suffices = false;         // dropping this condition alone gives a member
-  double value = 0.0;            // what the test asks now (xi_increasing: 1)
-  std::optional<double> needed;  // the nearest value that gives one; none for xi_increasing
-};
-
 struct Conflict {
   bool is_empty = false;
-  // Without a proof the sets rest on a search that found no member.
-  bool proved = false;
-  // By increasing size.
+  bool proved = false;  // else it rests on a search that found no member
+  Member member;        // where the family is not empty
+  // By increasing size. An empty set: the bounds of the parameters exclude each other.
   std::vector<std::vector<Condition>> minimal_sets;
-  std::vector<Relaxation> relaxations;  // of each condition that is in every minimal set
+  std::vector<bool> sets_proved;  // of each
+  // Of every limit that binds, bound that was given and datum that the test looks at.
+  std::vector<SmallestChange> changes;
 };
 
 // Sets of all conditions are tried from the smallest. `threads` as in RunUnits.
 Conflict ExplainEmpty(const FamilyProblem& problem, int threads = 1);
-
-// The test with only the given conditions left on.
-MembershipTest KeepConditions(const MembershipTest& test, const ConditionSet& kept);
 
 // The names over all minimal sets, each once: the `empty_because` of a result.
 std::vector<std::string_view> ConflictNames(const Conflict& conflict);

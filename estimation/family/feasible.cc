@@ -2,6 +2,7 @@
 
 #include "estimation/family/enumerate.h"
 #include "estimation/family/local_search.h"
+#include "estimation/family/proof.h"
 #include "estimation/family/transfer_starts.h"
 #include "estimation/family/window.h"
 
@@ -50,6 +51,33 @@ std::optional<Member> FindMemberLocally(const FamilyProblem& problem) {
   return std::nullopt;
 }
 
+std::optional<Member> FindMemberNear(const FamilyProblem& problem, const Member& start) {
+  if (Holds(problem, start)) return start;
+  std::optional<Approach> found = LocalSearch(problem).FindMember(start);
+  if (!found || !Holds(problem, found->member)) return std::nullopt;
+  return std::move(found->member);
+}
+
+std::optional<Member> FindMemberFrom(const FamilyProblem& problem, std::span<const Member> starts,
+                                     bool thorough) {
+  for (const Member& start : starts) {
+    if (Holds(problem, start)) return start;
+  }
+  if (HasExactWindows(problem)) {
+    if (!FeasibleWindows(MakeWindowProblem(problem, 0.0))) return std::nullopt;
+    return FindMember(problem);
+  }
+  for (const ExperimentTarget& target : MakeTargets(problem, 0.0)) {
+    if (target.IsEmpty()) return std::nullopt;
+  }
+  const LocalSearch search(problem);
+  for (const Member& start : starts) {
+    if (std::optional<Member> member = FindMemberNear(problem, start)) return member;
+  }
+  if (std::optional<Member> member = FindMemberLocally(problem)) return member;
+  return thorough || !search.IsSupported() ? FindMember(problem) : std::nullopt;
+}
+
 Feasibility DecideFeasible(const FamilyProblem& problem, bool thorough) {
   if (HasExactWindows(problem)) {
     return FeasibleWindows(MakeWindowProblem(problem, 0.0)) ? Feasibility::kMember
@@ -60,6 +88,7 @@ Feasibility DecideFeasible(const FamilyProblem& problem, bool thorough) {
   }
   if (FindMemberLocally(problem)) return Feasibility::kMember;
   if (!thorough && LocalSearch(problem).IsSupported()) return Feasibility::kNotFound;
+  if (IsProvedEmpty(problem, ProofCells(problem))) return Feasibility::kEmpty;
   if (NeedsTransferStarts(problem)) {
     return FindMember(problem) ? Feasibility::kMember : Feasibility::kNotFound;
   }

@@ -3,6 +3,7 @@
 #define HOWL_ESTIMATION_FAMILY_FEASIBLE_H_
 
 #include <optional>
+#include <span>
 
 #include "estimation/family/problem.h"
 
@@ -21,9 +22,17 @@ bool HasExactWindows(const FamilyProblem& problem);
 // A member, by search.
 std::optional<Member> FindMember(const FamilyProblem& problem);
 
+// A member, by a local search from the start alone, which need not be one.
+std::optional<Member> FindMemberNear(const FamilyProblem& problem, const Member& start);
+
+// A member, by the cheapest search that finds one: from the starts, which need not be members, then
+// by FindMemberLocally, and by FindMember if `thorough` or where no local search can be made.
+std::optional<Member> FindMemberFrom(const FamilyProblem& problem, std::span<const Member> starts,
+                                     bool thorough);
+
 // kEmpty and kMember up to rounding (1e-9 of a tolerance). Without exact windows: local searches
-// from a grid of dampings and second modes, and if these find nothing and `thorough`, draws at
-// random.
+// from a grid of dampings and second modes, and if these find nothing and `thorough`, a proof by
+// intervals that there is none, then draws at random.
 Feasibility DecideFeasible(const FamilyProblem& problem, bool thorough = true);
 
 // By those local searches alone.

@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "io/config/absent_record.h"
 #include "io/config/config_sections.h"
 
 namespace howl {
@@ -13,6 +14,14 @@ bool IsVariableName(const std::string& name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_') return false;
   }
   return true;
+}
+
+[[noreturn]] void FailAbsent(const ConfigCursor& file, const std::string& what) {
+  try {
+    file.Fail(what);
+  } catch (const UserError& error) {
+    throw AbsentRecord(error);
+  }
 }
 
 }  // namespace
@@ -37,9 +46,9 @@ std::string ExpandEnvironment(const ConfigCursor& file) {
     if (value == nullptr || *value == '\0') {
       const std::string rest = text.substr(close + 1);
       const bool is_folder = open == 0 && rest.starts_with('/');
-      file.Fail("the environment variable " + name + " is not set, expected it to hold " +
-                (is_folder ? "the folder that has \"" + rest.substr(1) + "\""
-                           : "its part of the path \"" + text + "\""));
+      FailAbsent(file, "the environment variable " + name + " is not set, expected it to hold " +
+                           (is_folder ? "the folder that has \"" + rest.substr(1) + "\""
+                                      : "its part of the path \"" + text + "\""));
     }
     expanded += text.substr(begin, open - begin) + value;
     begin = close + 1;
@@ -54,8 +63,8 @@ RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::pat
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(spec.file, error);
   if (!std::filesystem::exists(status)) {
-    file.Fail("there is no file \"" + spec.file.string() +
-              "\", expected a path relative to the config's folder");
+    FailAbsent(file, "there is no file \"" + spec.file.string() +
+                         "\", expected a path relative to the config's folder");
   }
   if (std::filesystem::is_directory(status)) {
     file.Fail("\"" + spec.file.string() + "\" is a folder, expected a file of samples");

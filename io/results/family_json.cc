@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/results/csv_writer.h"
+#include "io/results/family_changes.h"
 #include "io/results/solution_json.h"
 
 namespace howl {
@@ -43,24 +44,6 @@ Json ExperimentsJson(const std::vector<Experiment>& experiments) {
                     {"delay_periods", experiment.delay_periods}});
   }
   return json;
-}
-
-Json ConflictJson(const Conflict& conflict) {
-  Json sets = Json::array();
-  for (const std::vector<Condition>& set : conflict.minimal_sets) {
-    Json names = Json::array();
-    for (const Condition condition : set) names.push_back(ConditionName(condition));
-    sets.push_back(std::move(names));
-  }
-  Json relaxations = Json::array();
-  for (const Relaxation& relaxation : conflict.relaxations) {
-    relaxations.push_back(
-        {{"condition", ConditionName(relaxation.condition)},
-         {"suffices", relaxation.suffices},
-         {"value", NumberOrNull(relaxation.value)},
-         {"needed", relaxation.needed ? NumberOrNull(*relaxation.needed) : Json(nullptr)}});
-  }
-  return {{"proved", conflict.proved}, {"minimal_sets", sets}, {"relaxations", relaxations}};
 }
 
 Json RangeJson(const Range& range) {
@@ -200,8 +183,22 @@ Json FamilyJson(const FamilyReport& report) {
   if (report.advice) json["advice"] = AdviceJson(*report.advice);
   if (report.transfer) json["transfer"] = TransferJson(report.problem, *report.transfer);
   if (report.profile) json["profile"] = ProfileJson(*report.profile);
-  if (report.conflict.is_empty) json["conflict"] = ConflictJson(report.conflict);
+  if (report.conflict.is_empty) {
+    json["conflict"] = ConflictJson(report.problem, report.conflict, report.recorded);
+  }
   return json;
+}
+
+Json FamilyFiguresJson(const FamilyReport& report) {
+  const Json whole = FamilyJson(report);
+  Json figures = {{"test", whole["test"]},
+                  {"counts", {{"members", report.members}, {"requested", report.requested}}},
+                  {"bounds", whole["bounds"]},
+                  {"predictions", whole["predictions"]}};
+  for (const char* const key : {"transfer", "conflict"}) {
+    if (whole.contains(key)) figures[key] = whole[key];
+  }
+  return figures;
 }
 
 std::string ProfileCsv(std::span<const Experiment> experiments, const Profile& profile) {

@@ -49,6 +49,7 @@ struct FamilyReport {
   std::size_t requested = 0;  // by the config
   SampleDiagnostics diagnostics;
   const Conflict& conflict;
+  const std::vector<std::string>& recorded;  // experiments whose data a record gives
   const std::vector<ExperimentPrediction>& predictions;
   const std::optional<FurtherTest>& falsified;       // where it was asked for
   const std::optional<std::vector<Advice>>& advice;  // where it was asked for
@@ -58,6 +59,10 @@ struct FamilyReport {
 
 // `experiments` are the characteristics that the test compares with, in the paper's units.
 nlohmann::ordered_json FamilyJson(const FamilyReport& report);
+
+// Of it, what a later run is compared with: the test, counts of members, bounds, predictions, and
+// why there is no member. Not how the searches went (boxes, chains).
+nlohmann::ordered_json FamilyFiguresJson(const FamilyReport& report);
 
 // omega_spread,xi_max: the smallest largest-xi that any member has at that spread. Spreads without
 // any member are left out.
