@@ -14,6 +14,7 @@
 #include "io/records/records.h"
 #include "io/results/family_csv.h"
 #include "io/results/records_yaml.h"
+#include "io/results/simulation_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 #include "model/harmonic_balance.h"
@@ -22,10 +23,14 @@
 namespace howl {
 namespace {
 
+constexpr int kMostMembers = 100000000;
+
 // The loop of one experiment, ready to run, and what was decided about it.
 struct Rig {
   RigParameters parameters;
-  double loop_gain = 0.0;
+  double loop_gain = 0.0;        // at rest, as it runs
+  double model_loop_gain = 0.0;  // with the measured slope
+  double flame_slope = 0.0;      // as it runs, without effects
   bool slope_raised = false;
   bool on_cycle = false;
   double pressure_amplitude = 0.0;  // of the cycle; saturation's at rest
@@ -35,7 +40,7 @@ struct Rig {
 // The stable solution's models, or one listed member's.
 std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& options,
                                         const std::vector<Experiment>& experiments) {
-  const auto number = options.Count("--member", 1, 100000000);
+  const auto number = options.Count("--member", 1, kMostMembers);
   if (!number) {
     const JointProblem problem(experiments, config.model, config.residuals);
     return SolveJoint(problem, config.solver, options.seed, options.threads).models;
@@ -78,12 +83,14 @@ Rig MakeRig(const Experiment& experiment, const LoopModel& model, const Simulati
   const LoopParameters<double> loop = model.Loop();
   const double response = Magnitude(LoopResponse(loop, experiment.frequency_hz));
   double slope = experiment.flame_slope.value_or(0.0);
-  rig.loop_gain = response * std::abs(slope);
+  rig.model_loop_gain = response * std::abs(slope);
+  rig.loop_gain = rig.model_loop_gain;
   if (rig.loop_gain < spec.loop_gain_min) {
     rig.loop_gain = spec.loop_gain_min;
     slope = -rig.loop_gain / response;
     rig.slope_raised = true;
   }
+  rig.flame_slope = slope;
   rig.parameters.model = {loop, {spec.flame_shape, slope, spec.saturation, 0.0}};
   Noise& noise = rig.parameters.noise;
   const double combustion_std = spec.combustion_noise_relative * spec.saturation;
@@ -148,6 +155,17 @@ void AddEffects(const Config& config, const std::vector<Experiment>& experiments
   }
 }
 
+std::string LoopsText(const Options& options, const std::vector<Experiment>& experiments,
+                      const std::vector<Rig>& rigs) {
+  std::vector<SimulatedLoop> loops;
+  for (std::size_t i = 0; i < rigs.size(); ++i) {
+    const Rig& rig = rigs[i];
+    loops.push_back({experiments[i].name, rig.model_loop_gain, rig.loop_gain, rig.flame_slope,
+                     rig.slope_raised});
+  }
+  return SimulationJson(options.Count("--member", 1, kMostMembers), loops).dump(2) + "\n";
+}
+
 void Print(const std::vector<Experiment>& experiments, const std::vector<Rig>& rigs) {
   TextTable table({"experiment", "loop gain", "starts", "file"});
   bool any_raised = false;
@@ -187,10 +205,12 @@ int Run(const Options& options) {
   }
   WriteWholeFile(options.out / "records.yaml",
                  RecordsYaml(config, experiments, config.simulation.sampling_hz));
+  WriteWholeFile(options.out / "simulation.json", LoopsText(options, experiments, rigs));
   if (!options.quiet) {
     Print(experiments, rigs);
-    std::printf("written: records and records.yaml, a config of their own, in %s\n",
-                options.out.c_str());
+    std::printf(
+        "written: records, records.yaml (a config of their own) and simulation.json in %s\n",
+        options.out.c_str());
   }
   return kDone;
 }
@@ -203,9 +223,10 @@ Command SimulateCommand() {
       "simulate the fitted loop into records",
       "Fits the config (or takes a listed member of its family), closes the loop with a flame\n"
       "that saturates, and integrates it with noise, each experiment from its observed cycle on.\n"
-      "Writes NAME.csv (p,q) for each experiment and records.yaml, a config that analyse, fit\n"
-      "and family take as it is. The config's `simulate:` has duration, sampling, flame, noise,\n"
-      "and `effects:`, any of the catalogue of howl diagnose, which records.yaml does not tell.",
+      "Writes NAME.csv (p,q) for each experiment, records.yaml, a config that analyse, fit and\n"
+      "family take as it is, and simulation.json, which says where a slope was raised. The\n"
+      "config's `simulate:` has duration, sampling, flame, noise, and `effects:`, any of the\n"
+      "catalogue of howl diagnose, which neither file tells.",
       {{"--member", "K", "member K of family.csv, which howl family wrote to DIR, not the fit"}},
       Run};
 }

@@ -11,7 +11,10 @@
   const values = floats(data.parameters);
   const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const colours = { member: "#D55E00", fit: () => css("--blue"), data: "#009E73", other: "#8c8c8c" };
-  let experiment = Math.max(0, data.experiments.findIndex((e) => e.frequency_hz && e.reliable));
+  const measured = (e) => Boolean(e.frequency_hz);
+  const any = (key) => data.experiments.some((e) => e[key]);
+  let experiment = data.experiments.findIndex((e) => measured(e) && e.reliable);
+  if (experiment < 0) experiment = Math.max(0, data.experiments.findIndex(measured));
   let member = 0;
 
   // The model: seed, section 3. Complex numbers are pairs [re, im].
@@ -54,9 +57,14 @@
   };
   const loopAt = (model, f) => loop(model, [0, 2 * Math.PI * f]);
   const slopeOf = (e) => data.experiments[e].flame_slope;
-  // As simulate takes it: raised where the loop would not cycle although a cycle was observed.
+  const responseOf = (model, e) => abs(loopAt(model, data.experiments[e].frequency_hz[0]));
+  // Of Nyquist's curve: as measured, whatever loop gain that makes; where it was not, the one that
+  // closes the loop at the measured frequency with gain one.
+  const drawnSlope = (model, e) => slopeOf(e) === null ? -1 / responseOf(model, e) : slopeOf(e);
+  // Of a time course, as simulate takes it: raised where the loop would not cycle although a cycle
+  // was observed.
   const runningSlope = (model, e) => {
-    const response = abs(loopAt(model, data.experiments[e].frequency_hz[0]));
+    const response = responseOf(model, e);
     const slope = slopeOf(e) === null ? 0 : slopeOf(e);
     return Math.abs(slope) * response < data.loop_gain_min ? -data.loop_gain_min / response : slope;
   };
@@ -211,6 +219,8 @@
   const short = (v) => v === null || v === undefined || !isFinite(v) ? "–"
       : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? v.toExponential(3)
       : String(+v.toPrecision(5));
+  // A curve that no experiment has is not in the legend.
+  const ifThere = (there) => there ? {} : { class: "absent" };
   const plots = [];
   const plotHeight = 300;
   const make = (id, options, start) => {
@@ -266,17 +276,21 @@
   };
   const freeCursor = { drag: { x: false, y: false }, points: { show: false }, dataIdx: () => null };
 
-  const tradeoffTop = Math.max(...xiMax) * 1.25;
+  // Every member is inside; the curve, which runs away where omega is held constant, may leave.
+  const least = (list) => list.reduce((a, b) => Math.min(a, b), Infinity);
+  const largest = (list) => list.reduce((a, b) => Math.max(a, b), 0);
+  const tradeoffTop = largest(xiMax) * 1.25;
   const shownTradeoff = data.tradeoff.filter((point) => point[1] !== null);
-  const tradeoffRight = Math.max(...spread) * 1.04;
-  const tradeoffLeft = Math.max(0, Math.min(...spread) * 0.9);
+  const tradeoffLeft = 0.9 * least(spread);
+  const tradeoffRight = Math.max(1.04 * largest(spread), tradeoffLeft + 0.1);
   const tradeoff = make("plot-tradeoff", {
     mode: 2, legend: { show: true, live: false }, cursor: freeCursor,
     scales: { x: { time: false, range: [tradeoffLeft, tradeoffRight] },
               y: { range: [0, tradeoffTop] } },
     axes: [axis("spread of ω, max/min − 1 (%)"), axis("largest ξ", { size: 56 })],
     series: [{}, freeCurve("members", colours.other, dotPath(2.5), { fill: colours.other }),
-             freeCurve("trade-off", colours.fit, linePath, { width: 2 }),
+             freeCurve("trade-off", colours.fit, linePath,
+                       { width: 2, ...ifThere(shownTradeoff.length) }),
              freeCurve("chosen", colours.member, dotPath(9), { fill: colours.member })],
     hooks: { setCursor: [(u) => {
       const { left, top } = u.cursor;
@@ -295,13 +309,14 @@
   });
   const bodeSeries = () => {
     const value = (u, v) => v === null || v === undefined ? "–" : short(v);
-    const dots = (label, colour, size) => ({ label, stroke: colour, paths: () => null, value,
-        points: { show: true, size, fill: colour, stroke: colour } });
+    const dots = (label, colour, size, there) => ({ label, stroke: colour, paths: () => null, value,
+        ...ifThere(there), points: { show: true, size, fill: colour, stroke: colour } });
     return [{ label: "Hz", value }, { label: "member", stroke: colours.member, width: 2, value,
               points: { show: false } },
             { label: "joint fit", stroke: colours.fit, width: 1.5, dash: [6, 4], value,
-              points: { show: false } },
-            dots("coherent transfer", colours.other, 4), dots("measured", colours.data, 10)];
+              ...ifThere(any("fit")), points: { show: false } },
+            dots("coherent transfer", colours.other, 4, any("transfer")),
+            dots("measured", colours.data, 10, true)];
   };
   const empty = [[1, 10], [1, 1], [1, 1], [null, null], [null, null]];
   const gain = make("plot-gain", {
@@ -333,7 +348,8 @@
               } } },
     axes: [axis("real part"), axis("imaginary part", { size: 56 })],
     series: [{}, freeCurve("member", colours.member, linePath, { width: 2 }),
-             freeCurve("joint fit", colours.fit, linePath, { width: 1.5, dash: [6, 4] }),
+             freeCurve("joint fit", colours.fit, linePath,
+                       { width: 1.5, dash: [6, 4], ...ifThere(any("fit")) }),
              freeCurve("−1", colours.data, dotPath(8), { fill: colours.data }),
              freeCurve("crossings", colours.member, dotPath(7), { fill: colours.member })],
     hooks: { setCursor: [(u) => {
@@ -352,6 +368,7 @@
              { label: "member", stroke: colours.member, width: 2, value: (u, v) => short(v),
                points: { show: false } },
              { label: "record", stroke: colours.data, width: 1.2, value: (u, v) => short(v),
+               ...ifThere(any("record")),
                points: { show: false } }]
   }, [[0, 1], [0, 0], [null, null]]);
 
@@ -397,9 +414,15 @@
   const showNyquist = (model, fit, e) => {
     const f = data.experiments[e].frequency_hz[0];
     const maxHz = 4.2 * f;
-    const slope = runningSlope(model, e);
+    const slope = drawnSlope(model, e);
     const own = nyquistCurve(model, slope, maxHz);
-    const other = fit ? nyquistCurve(fit, runningSlope(fit, e), maxHz) : { xs: [], ys: [] };
+    const other = fit ? nyquistCurve(fit, drawnSlope(fit, e), maxHz) : { xs: [], ys: [] };
+    const loopGain = Math.abs(slope) * responseOf(model, e);
+    byId("nyquist-note").textContent = slopeOf(e) === null
+        ? "The flame’s slope was not measured: curves are scaled to a loop gain of one at the cycle."
+        : loopGain < 1 ? `With the measured slope the loop gain at the cycle is ${short(loopGain)}, ` +
+                         "below the one that (1b) asks of a loop that cycles by itself."
+                       : "";
     nyquistHz = own.hz;
     let reach = 1.3;
     for (const list of [own.xs, own.ys]) for (const v of list) reach = Math.max(reach, Math.abs(v));
@@ -440,11 +463,17 @@
       const shift = ((lag % (1 / f)) + 1 / f) % (1 / f);
       const scale = record.simulated ? 1 : abs(theirs) / abs(own);
       time.setData([times.map((t) => 1e3 * t), times.map((t) => scale * sample(t + shift)), centred]);
-      note = record.simulated ? "Record: simulated by howl simulate from the joint fit, with noise."
+      note = record.simulated ? "Record: simulated by howl simulate, with noise." + record.remark
                               : "The flame’s saturation is chosen so that the amplitudes agree.";
     } else {
       const times = Array.from({ length: 400 }, (unused, i) => window * i / 400);
       time.setData([times.map((t) => 1e3 * t), times.map(sample), times.map(() => null)]);
+    }
+    const asked = Math.abs(slopeOf(e) === null ? 0 : slopeOf(e)) * responseOf(model, e);
+    if (asked < data.loop_gain_min) {
+      note = "The member’s course is simulated with the flame’s slope raised to a loop gain of " +
+             short(data.loop_gain_min) + (asked > 0 ? `: with the measured slope it is ${short(asked)}`
+                                                    : ": no slope was measured") + ". " + note;
     }
     byId("time-note").textContent = note + " The phase of a cycle is arbitrary.";
     return result;
@@ -473,7 +502,7 @@
     ];
     byId("predictions").tBodies[0].replaceChildren(...rows.map((row) => {
       const line = document.createElement("tr");
-      row.forEach((text, k) => {
+      row.slice(0, any("fit") ? 4 : 3).forEach((text, k) => {
         const cell = document.createElement(k === 0 ? "th" : "td");
         if (k === 0) cell.scope = "row";
         cell.textContent = text;
@@ -490,7 +519,11 @@
     byId("chosen").textContent = `Member ${member + 1} of ${data.members}: ω spreads by ` +
         `${short(spread[member])} % over the operating points, largest ξ ${short(xiMax[member])}.`;
     tradeoff.setData([null, tradeoff.data[1], tradeoff.data[2], [[spread[member]], [xiMax[member]]]]);
-    if (!at.frequency_hz) return;
+    if (!measured(at)) {
+      byId("chosen").textContent += " What the records showed is not here, so that nothing can be " +
+          "drawn beside it: howl family, run again, or howl analyse writes it.";
+      return;
+    }
     const model = modelOf(member, experiment);
     const fit = fitOf(experiment);
     showBode(model, fit, experiment);
@@ -517,6 +550,7 @@
     experiment = +event.target.value;
     choose(member);
   });
+  if (!any("fit")) document.querySelector("#predictions thead th:last-child").remove();
   byId("member").max = data.members;
   byId("member").addEventListener("input", (event) => {
     if (event.target.value !== "") choose(Math.round(+event.target.value) - 1);

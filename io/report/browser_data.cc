@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "estimation/half_width.h"
 #include "io/report/figures/curves.h"
 
 namespace howl {
@@ -53,6 +54,7 @@ Json RecordJson(const ReportInput& input, const std::string& name, double freque
     if (!record.heat_release.empty()) Append(q, record.heat_release[i]);
   }
   return {{"simulated", simulated},
+          {"remark", simulated ? SimulationRemark(input, name) : ""},
           {"sampling_hz", record.sampling_hz},
           {"p", Base64(p)},
           {"q", Base64(q)}};

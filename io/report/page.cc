@@ -31,11 +31,19 @@ const std::vector<Section>& Sections() {
   return sections;
 }
 
-std::string FigureHtml(const Figure& figure, const std::map<std::string, std::string>& svgs) {
+constexpr int kWide = 800;  // figures beyond this width have a row of their own
+
+// Figures stand two in a row; one that would stand alone takes the whole row.
+std::string FigureClass(const Figure& figure, bool alone) {
+  if (figure.width > kWide) return " class=\"wide\"";
+  return alone ? " class=\"alone\"" : "";
+}
+
+std::string FigureHtml(const Figure& figure, const std::map<std::string, std::string>& svgs,
+                       bool alone) {
   const auto svg = svgs.find(figure.name);
   const std::string title = EscapeHtml(figure.title);
-  std::string out = "<figure id=\"figure-" + figure.name + "\"" +
-                    (figure.width > 800 ? " class=\"wide\"" : "") + ">";
+  std::string out = "<figure id=\"figure-" + figure.name + "\"" + FigureClass(figure, alone) + ">";
   if (svg != svgs.end()) {
     out += "<div class=\"drawing\" style=\"max-width:" + std::to_string(figure.width) + "px\">" +
            InlineSvg(svg->second, figure.name, title) + "</div>";
@@ -43,9 +51,30 @@ std::string FigureHtml(const Figure& figure, const std::map<std::string, std::st
     out += "<p class=\"absent\">not drawn</p>";
   }
   out += "<figcaption><strong>" + title + ".</strong> " + EscapeHtml(figure.caption);
-  if (!figure.seed.empty()) out += " <span class=\"seed\">Seed, figure " + figure.seed + ".</span>";
+  if (!figure.seed.empty()) {
+    out += " <span class=\"paper\">The paper's figure " + figure.seed + ".</span>";
+  }
   return out + " <span class=\"files\">figures/" + figure.name + ".svg, .pdf, .csv, .gp</span>" +
          "</figcaption></figure>\n";
+}
+
+std::string FiguresHtml(const std::vector<Figure>& figures, const Section& section,
+                        const std::map<std::string, std::string>& svgs) {
+  std::vector<const Figure*> shown;
+  for (const std::string& name : section.figures) {
+    for (const Figure& figure : figures) {
+      if (figure.name == name) shown.push_back(&figure);
+    }
+  }
+  std::string out;
+  bool second = false;  // in its row
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    const bool wide = shown[i]->width > kWide;
+    const bool last = i + 1 == shown.size() || shown[i + 1]->width > kWide;
+    out += FigureHtml(*shown[i], svgs, !wide && !second && last);
+    second = !wide && !second && !last;
+  }
+  return out;
 }
 
 std::string SectionText(const std::string& id, const ReportInput& input) {
@@ -134,11 +163,7 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
   const bool has_browser = input.members.has_value();
   for (const Section& section : Sections()) {
     std::string inside = SectionText(section.id, input);
-    for (const std::string& name : section.figures) {
-      for (const Figure& figure : figures) {
-        if (figure.name == name) inside += FigureHtml(figure, svgs);
-      }
-    }
+    inside += FiguresHtml(figures, section, svgs);
     if (!inside.empty()) {
       body += "<section id=\"" + std::string(section.id) + "\"><h2>" + section.title + "</h2>" +
               inside + "</section>\n";

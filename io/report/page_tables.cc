@@ -1,10 +1,12 @@
 #include "io/report/page_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
 #include "diagnosis/trial/power.h"
+#include "estimation/half_width.h"
 #include "io/report/figures/curves.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
@@ -13,15 +15,40 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kNumbersLength = 30;  // a column with longer cells is words, which may break
+constexpr int kLeastPlainPower = -3;  // 0.0012, but 1.2 · 10⁻⁴
+constexpr int kMostPlainPower = 4;
+constexpr std::size_t kNumbersLength = 36;  // a column with longer cells is words, which may break
 
 std::string Text(double value, int digits = 5) { return Spelled(value, digits); }
 
+// Exponent of ten that a value stands before: 0 where it needs none.
+int PowerOf(double value) {
+  if (value == 0.0) return 0;
+  const int power = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  return power < kLeastPlainPower || power > kMostPlainPower ? power : 0;
+}
+
+std::string Rounded(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", std::max(decimals, 0), value);
+  const std::string out = text;
+  return out.front() == '-' ? "−" + out.substr(1) : out;
+}
+
+// "219.899 ± 0.010": the half width with two digits and the value to the same decimal, both before
+// one power of ten.
 std::string WithInterval(const Estimate& estimate, double scale = 1.0) {
   if (!std::isfinite(estimate.value)) return "–";
-  std::string out = Text(scale * estimate.value);
-  if (std::isfinite(estimate.std)) out += " ± " + Text(scale * HalfWidth95(estimate), 2);
-  return out;
+  const double value = scale * estimate.value;
+  const double half = std::abs(scale) * HalfWidth95(estimate);
+  if (!std::isfinite(half) || half == 0.0) return Text(value);
+  const int power = PowerOf(std::max(std::abs(value), half));
+  const double unit = std::pow(10.0, power);
+  const int decimals = 1 - static_cast<int>(std::floor(std::log10(half / unit)));
+  std::string out = Rounded(value / unit, decimals) + " ± " + Rounded(half / unit, decimals);
+  if (power == 0) return out;
+  const std::string raised = Spelled(unit, 1);  // "1 · 10⁻⁵"
+  return "(" + out + ")" + raised.substr(1);
 }
 
 std::string Percent(double share) {
@@ -53,6 +80,38 @@ std::string Table(const std::string& caption, const std::vector<std::string>& he
     out += "</tr>";
   }
   return out + "</tbody></table></div>\n";
+}
+
+std::string Joined(const nlohmann::json& names) {
+  std::string out;
+  for (const auto& name : names) {
+    out += out.empty() ? "" : ", ";
+    out +=
+        "<code>" + EscapeHtml(name.is_string() ? name.get<std::string>() : name.dump()) + "</code>";
+  }
+  return out;
+}
+
+// Each set of conditions that exclude each other by itself, and what each alone would have to be.
+std::string ConflictHtml(const nlohmann::json& family) {
+  if (!family.contains("conflict") || !family["conflict"].is_object()) return {};
+  const nlohmann::json& conflict = family["conflict"];
+  std::string out;
+  for (const auto& set : ListAt(conflict, "minimal_sets")) {
+    out += "<li>exclude each other: " +
+           (set.empty() ? "the bounds of the parameters themselves" : Joined(set)) + "</li>";
+  }
+  for (const auto& each : ListAt(conflict, "relaxations")) {
+    if (!each.value("suffices", false)) continue;
+    const double needed = NumberAt(each, "needed");
+    out += "<li><code>" + EscapeHtml(each.value("condition", "")) + "</code> is " +
+           Text(NumberAt(each, "value")) + "; " +
+           (std::isfinite(needed) ? "with " + Text(needed) : std::string("without it")) +
+           " there is a member</li>";
+  }
+  const bool proved = conflict.value("proved", false);
+  return (proved ? std::string() : "<p>As far as the search went: this is not a proof.</p>\n") +
+         (out.empty() ? out : "<ul>" + out + "</ul>\n");
 }
 
 std::string TriedSize(const nlohmann::json& severity, const nlohmann::json& size) {
@@ -100,21 +159,12 @@ std::string FamilySummary(const ReportInput& input) {
   if (input.members) {
     out += std::to_string(input.members->models.size()) +
            " models are listed that the data cannot reject.";
-  } else {
+  } else if (input.FamilyIsEmpty()) {
     out += "No model passes the test.";
+  } else {
+    out += "Bounds of the models that the data cannot reject.";
   }
-  if (input.family.contains("empty_because") && input.family["empty_because"].is_array() &&
-      !input.family["empty_because"].empty()) {
-    out += " Conditions that exclude each other: ";
-    bool first = true;
-    for (const auto& name : input.family["empty_because"]) {
-      out += (first ? "" : ", ") +
-             EscapeHtml(name.is_string() ? name.get<std::string>() : name.dump());
-      first = false;
-    }
-    out += ".";
-  }
-  return out + "</p>\n";
+  return out + "</p>\n" + ConflictHtml(input.family);
 }
 
 std::string DiagnosisSummary(const ReportInput& input) {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <sstream>
 
-#include "estimation/delay.h"
 #include "io/records/records.h"
+#include "io/report/read_measured.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -97,94 +97,15 @@ void ReadConfig(ReportInput& input) {
   }
 }
 
-MeasuredPoint Published(const Experiment& experiment) {
-  MeasuredPoint point;
-  point.name = experiment.name;
-  point.phi = experiment.phi;
-  point.frequency_hz = {experiment.frequency_hz, experiment.frequency_std_hz.value_or(kNotANumber)};
-  point.phase_deg = {experiment.phase_deg, experiment.phase_std_deg.value_or(kNotANumber)};
-  point.gain = {experiment.gain, experiment.gain_std.value_or(kNotANumber)};
-  point.reliable = experiment.reliable;
-  point.tau_s = DelayOnBranch({point.frequency_hz, point.phase_deg}, experiment.delay_periods);
-  if (!experiment.phase_std_deg) point.tau_s.std = kNotANumber;
-  if (experiment.flame_slope) {
-    point.flame_slope = {*experiment.flame_slope, experiment.flame_slope_std.value_or(kNotANumber)};
-    point.loop_gain = LoopGainFromSlope(point.gain, point.frequency_hz, point.flame_slope);
-    // An error that is not known is not zero.
-    if (!experiment.flame_slope_std || !experiment.gain_std) point.loop_gain.std = kNotANumber;
-  }
-  return point;
-}
-
-MeasuredPoint Analysed(const Json& json) {
-  MeasuredPoint point;
-  point.name = json.value("name", "");
-  point.phi = NumberAt(json, "phi");
-  const Json cycle = json.value("cycle", Json::object());
-  point.reliable = false;
-  if (cycle.value("state", "") == "no_limit_cycle") return point;
-  point.reliable = cycle.value("stationary", false);
-  point.frequency_hz = EstimateAt(cycle, "frequency");
-  point.phase_deg = EstimateAt(cycle, "phase");
-  point.gain = EstimateAt(cycle, "gain");
-  point.tau_s = EstimateAt(json, "tau");
-  point.loop_gain = EstimateAt(json, "loop_gain");
-  if (json.contains("flame") && json["flame"].is_object()) {
-    point.flame_slope = EstimateAt(json["flame"], "slope");
-  }
-  return point;
-}
-
-void ReadMeasured(ReportInput& input) {
-  const auto analysed = [&](const std::string& name) -> const Json* {
-    if (!input.analysis.contains("experiments")) return nullptr;
-    for (const Json& each : ListAt(input.analysis, "experiments")) {
-      if (each.is_object() && each.value("name", "") == name) return &each;
+void ReadPublishedLines(ReportInput& input) {
+  if (!input.config) return;
+  for (const ExperimentConfig& each : input.config->experiments) {
+    for (const ObservedLine& line : each.experiment.lines) {
+      input.lines.push_back({each.experiment.name,
+                             each.experiment.phi,
+                             {line.frequency_hz, line.frequency_std_hz},
+                             0});
     }
-    return nullptr;
-  };
-  if (input.config) {
-    for (const ExperimentConfig& each : input.config->experiments) {
-      if (const Json* json = analysed(each.experiment.name)) {
-        input.measured.push_back(Analysed(*json));
-        input.measured.back().reliable = input.measured.back().reliable && each.experiment.reliable;
-      } else if (!each.record) {
-        input.measured.push_back(Published(each.experiment));
-      } else if (const ExperimentModel* fit = input.Fitted(each.experiment.name)) {
-        // Not analysed, but fitted: the fit's own summary of the record.
-        for (const Json& row : ListAt(input.solution, "experiments")) {
-          if (row.value("name", "") != fit->name) continue;
-          Experiment experiment = each.experiment;
-          experiment.frequency_hz = NumberAt(row, "frequency_hz");
-          experiment.phase_deg = NumberAt(row, "phase_deg");
-          experiment.gain = NumberAt(row, "gain");
-          if (const double slope = NumberAt(row, "flame_slope"); std::isfinite(slope)) {
-            experiment.flame_slope = slope;
-          }
-          input.measured.push_back(Published(experiment));
-        }
-      }
-      for (const ObservedLine& line : each.experiment.lines) {
-        input.lines.push_back({each.experiment.name,
-                               each.experiment.phi,
-                               {line.frequency_hz, line.frequency_std_hz},
-                               0});
-      }
-    }
-    return;
-  }
-  for (const Json& row : ListAt(input.solution, "experiments")) {
-    Experiment experiment;
-    experiment.name = row.value("name", "");
-    experiment.phi = NumberAt(row, "phi");
-    experiment.frequency_hz = NumberAt(row, "frequency_hz");
-    experiment.phase_deg = NumberAt(row, "phase_deg");
-    experiment.gain = NumberAt(row, "gain");
-    experiment.reliable = row.value("reliable", true);
-    if (const double slope = NumberAt(row, "flame_slope"); std::isfinite(slope)) {
-      experiment.flame_slope = slope;
-    }
-    input.measured.push_back(Published(experiment));
   }
 }
 
@@ -276,6 +197,11 @@ Estimate EstimateAt(const Json& json, const char* key) {
   return {NumberAt(json[key], "value"), NumberAt(json[key], "std")};
 }
 
+bool ReportInput::FamilyIsEmpty() const {
+  return family.is_object() && family.contains("counts") &&
+         NumberAt(family["counts"], "members") == 0.0;
+}
+
 const MeasuredPoint* ReportInput::Measured(const std::string& name) const {
   const auto found = std::ranges::find(measured, name, &MeasuredPoint::name);
   return found == measured.end() ? nullptr : &*found;
@@ -335,6 +261,8 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
   });
   Try(input, "family.json", "family",
       [&](const auto& path) { input.family = ReadJson(path, "howl.family/1"); });
+  Try(input, "simulation.json", "simulate",
+      [&](const auto& path) { input.simulation = ReadJson(path, "howl.simulation/1"); });
   Try(input, "diagnosis.json", "diagnose",
       [&](const auto& path) { input.diagnosis = ReadJson(path, "howl.diagnosis/1"); });
   Try(input, "trial.json", "trial",
@@ -343,8 +271,11 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
       [&](const auto& path) { input.transfer = ReadCsvTable(path); });
   Try(input, "flame_curve.csv", "analyse",
       [&](const auto& path) { input.flame_curve = ReadCsvTable(path); });
-  Try(input, "tradeoff.csv", "family",
-      [&](const auto& path) { input.tradeoff = ReadCsvTable(path); });
+  // An empty family has neither members nor a trade-off.
+  if (!input.FamilyIsEmpty()) {
+    Try(input, "tradeoff.csv", "family",
+        [&](const auto& path) { input.tradeoff = ReadCsvTable(path); });
+  }
   Try(input, "trial.csv", "trial",
       [&](const auto& path) { input.trial_table = ReadCsvTable(path); });
   Try(input, "lines.csv", "analyse", [&](const auto& path) { ReadLines(input, path); });
@@ -360,8 +291,14 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
     ReadRecords(input, *input.config, input.records);
   }
   if (input.title.empty()) input.title = folder.lexically_normal().filename().string();
-  ReadMeasured(input);
+  input.measured = ReadMeasured(input);
+  ReadPublishedLines(input);
   Try(input, "records.yaml", "simulate", [&](const auto& path) {
+    // The records that were analysed are no simulation to set beside themselves.
+    if (input.config && std::filesystem::weakly_canonical(input.config->source) ==
+                            std::filesystem::weakly_canonical(path)) {
+      return;
+    }
     ReadRecords(input, LoadConfig(path), input.simulated);
     AnalysisOptions options;
     options.threads = threads;

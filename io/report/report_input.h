@@ -59,13 +59,16 @@ struct ReportInput {
   std::vector<NamedRecord> simulated;  // what howl simulate wrote
   AnalysisSet simulated_analysis;
 
-  std::vector<ExperimentModel> fitted;                          // of solution.json
-  nlohmann::json analysis, solution, family, diagnosis, trial;  // null where there is none
+  std::vector<ExperimentModel> fitted;  // of solution.json
+  // Null where there is none.
+  nlohmann::json analysis, solution, family, simulation, diagnosis, trial;
   std::optional<CsvTable> transfer, flame_curve, tradeoff, trial_table;
   std::optional<FamilyMembers> members;
 
   std::vector<std::string> missing;  // sentences for the reader
 
+  // howl family ran and found no member.
+  bool FamilyIsEmpty() const;
   const MeasuredPoint* Measured(const std::string& name) const;
   const ExperimentModel* Fitted(const std::string& name) const;
   const NamedRecord* RecordOf(const std::string& name) const;

@@ -22,6 +22,29 @@ Json TestJson(const MembershipTest& test) {
           {"transfer_distance_max", NumberOrNull(test.transfer_distance_max)}};
 }
 
+Json OptionalNumber(const std::optional<double>& value) {
+  return value ? NumberOrNull(*value) : Json(nullptr);
+}
+
+Json ExperimentsJson(const std::vector<Experiment>& experiments) {
+  Json json = Json::array();
+  for (const Experiment& experiment : experiments) {
+    json.push_back({{"name", experiment.name},
+                    {"phi", experiment.phi},
+                    {"reliable", experiment.reliable},
+                    {"frequency_hz", experiment.frequency_hz},
+                    {"frequency_std_hz", OptionalNumber(experiment.frequency_std_hz)},
+                    {"phase_deg", experiment.phase_deg},
+                    {"phase_std_deg", OptionalNumber(experiment.phase_std_deg)},
+                    {"gain", experiment.gain},
+                    {"gain_std", OptionalNumber(experiment.gain_std)},
+                    {"flame_slope", OptionalNumber(experiment.flame_slope)},
+                    {"flame_slope_std", OptionalNumber(experiment.flame_slope_std)},
+                    {"delay_periods", experiment.delay_periods}});
+  }
+  return json;
+}
+
 Json ConflictJson(const Conflict& conflict) {
   Json sets = Json::array();
   for (const std::vector<Condition>& set : conflict.minimal_sets) {
@@ -136,14 +159,11 @@ Json WithoutJson(const FamilyProblem& problem, const std::vector<Member>& member
 
 Json TransferJson(const FamilyProblem& problem, const TransferReport& report) {
   const TransferVolume& volume = report.volume;
-  const auto value_or_null = [](const std::optional<double>& value) {
-    return value ? NumberOrNull(*value) : Json(nullptr);
-  };
   return {{"experiments", volume.experiments},
           {"finite_without", volume.finite_without},
-          {"ln_volume_ratio", value_or_null(volume.ln_ratio)},
+          {"ln_volume_ratio", OptionalNumber(volume.ln_ratio)},
           {"ln_volume_ratio_std", volume.ln_ratio ? Json(volume.ln_std) : Json(nullptr)},
-          {"least_distance", value_or_null(volume.least_distance)},
+          {"least_distance", OptionalNumber(volume.least_distance)},
           {"seen_without", WithoutJson(problem, report.without)}};
 }
 
@@ -170,6 +190,7 @@ Json FamilyJson(const FamilyReport& report) {
   for (const std::string_view name : ConflictNames(report.conflict)) empty_because.push_back(name);
   Json json = {
       {"schema", "howl.family/1"},
+      {"experiments", ExperimentsJson(report.problem.experiments)},
       {"test", TestJson(report.problem.test)},
       {"counts", CountsJson(report)},
       {"bounds", has_members ? BoundsJson(report.problem, report.enclosure) : Json::object()},

@@ -56,6 +56,7 @@ struct FamilyReport {
   const std::optional<ProfileReport>& profile;       // where it was asked for
 };
 
+// `experiments` are the characteristics that the test compares with, in the paper's units.
 nlohmann::ordered_json FamilyJson(const FamilyReport& report);
 
 // omega_spread,xi_max: the smallest largest-xi that any member has at that spread. Spreads without

@@ -10,45 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/figure_data.h"
 #include "tests/app/program.h"
 
 namespace howl {
 namespace {
 
 using testing::Test;
-
-struct Row {
-  std::string curve;
-  std::vector<double> numbers;
-};
-
-// A figure's data: the curve's name, then numbers (NaN where a cell is none).
-std::vector<Row> FigureData(const std::filesystem::path& folder, const std::string& name) {
-  std::stringstream text(ReadFile(folder / "figures" / (name + ".csv")));
-  std::vector<Row> rows;
-  std::string line;
-  std::getline(text, line);
-  while (std::getline(text, line)) {
-    std::stringstream cells(line);
-    Row row;
-    std::getline(cells, row.curve, ',');
-    for (std::string cell; std::getline(cells, cell, ',');) {
-      char* end = nullptr;
-      const double value = std::strtod(cell.c_str(), &end);
-      row.numbers.push_back(end == cell.c_str() ? NAN : value);
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-std::vector<Row> Curve(const std::vector<Row>& rows, const std::string& curve) {
-  std::vector<Row> out;
-  for (const Row& row : rows) {
-    if (row.curve == curve) out.push_back(row);
-  }
-  return out;
-}
 
 bool HasGnuplot() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
 

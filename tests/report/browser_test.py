@@ -186,6 +186,67 @@ def test_experiment(page, spreads):
     page.set("#experiment", 0, "change")
 
 
+def test_nyquist(driver, page, spreads):
+    """|Phi'(0)| L with the measured slope, also where that is too small for a cycle (exp5: 0.94)."""
+    import cmath
+    from selenium.webdriver.common.action_chains import ActionChains
+    page.set("#member", 4321, "input")
+    for index, raised in ((4, True), (0, False)):
+        page.set("#experiment", index, "change")
+        name, phi, f, phase, gain, slope = EXPERIMENTS[index]
+        xi = spreads[4320][1] * (phi / 0.56) ** 2
+        omega, n, tau = on_closed_form(f, phase, gain, xi)
+        w = 2 * math.pi * omega
+        over = driver.find_element("css selector", "#plot-nyquist .u-over")
+        driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", over)
+        for x, y in ((-80, 0), (0, 60), (50, -40)):
+            ActionChains(driver).move_to_element_with_offset(over, x, y).perform()
+            page.settle()
+            text = page.text("#hover-nyquist")
+            hz, re_, im_ = map(float, re.match(r"([\d.]+) Hz: (\S+) \+ (\S+) j", text).groups())
+            s = 2j * math.pi * hz
+            expected = abs(slope) * n * s * s * cmath.exp(-tau * s) / (s * s + 2 * xi * w * s + w * w)
+            # The frequency is shown with five digits.
+            check(abs(complex(re_, im_) - expected) < 2e-3 * (1 + abs(expected)),
+                  f"{name}: Nyquist's curve shows {text}, expected {expected}")
+        loop_gain = gain * 2 * math.pi * f * abs(slope)
+        noted = re.search(r"loop gain at the cycle is ([\d.]+\d), below", page.text("#nyquist-note"))
+        check(bool(noted) == raised and (not noted or close(float(noted.group(1)), loop_gain)),
+              f"{name}: Nyquist's note says {page.text('#nyquist-note')!r}, expected {loop_gain}")
+        check(("raised to a loop gain of 1.1" in page.text("#time-note")) == raised,
+              f"{name}: the time course's note says {page.text('#time-note')!r}")
+
+
+def test_family_alone(driver, page, howl, source):
+    """Records and their family, neither analysed nor fitted: the browser is whole all the same."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([howl, "simulate", source + "/configs/r228.yaml", "--out", folder, "--quiet"],
+                       check=True)
+        with open(os.path.join(folder, "records.yaml"), "a", encoding="utf-8") as file:
+            file.write("family: {members: 40, test: {transfer_distance_max: null, "
+                       "loop_gain_min: null, xi_max: 0.9}}\n")
+        out = os.path.join(folder, "out")
+        subprocess.run([howl, "family", os.path.join(folder, "records.yaml"), "--out", out, "--quiet"],
+                       check=True)
+        subprocess.run([howl, "report", out, "--quiet"], check=True)
+        driver.get("file://" + os.path.join(out, "report.html"))
+        check(driver.execute_script("return document.documentElement.dataset.browserReady") == "true",
+              "the browser is not ready")
+        for index, (name, _, f, _, gain, _) in enumerate(EXPERIMENTS):
+            page.set("#experiment", index, "change")
+            cells = page.row("|G| at")
+            check(len(cells) == 3, f"{name}: without a joint fit the table has no column for it: {cells}")
+            check(abs(float(cells[1]) / gain - 1) < 0.05, f"{name}: the member's |G| is {cells[1]}")
+            check(re.fullmatch(r"[\d.]+ ± [\d.]+", cells[2]), f"{name}: the data's |G| is {cells[2]}")
+            shown = page.row("frequency of the cycle")[2]
+            check(abs(float(shown.split()[0]) / f - 1) < 0.01, f"{name}: the data's cycle is {shown}")
+        legends = driver.execute_script(
+            "return [...document.querySelectorAll('.u-legend tr')].filter((r) => r.offsetParent)"
+            ".map((r) => r.textContent)")
+        check(not any("joint fit" in text for text in legends), f"legends name a joint fit: {legends}")
+        check("joint fit" not in page.text("#figure-bounds figcaption"), "bounds name a joint fit")
+
+
 def test_drag(driver, page, spreads):
     from selenium.webdriver.common.action_chains import ActionChains
     page.set("#member", 1, "input")
@@ -276,9 +337,11 @@ def main():
             test_growth(page, spreads)
             test_slider(page, spreads)
             test_experiment(page, spreads)
+            test_nyquist(driver, page, spreads)
             test_drag(driver, page, spreads)
             test_hover(driver, page)
             test_appearance(driver)
+            test_family_alone(driver, page, howl, source)
             messages = driver.get_log("browser")
             check(not messages, f"the console says {messages}")
             print("the page follows")

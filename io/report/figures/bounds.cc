@@ -58,6 +58,8 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
   CsvWriter csv("curve,row,outer_lo,outer_hi,inner_lo,inner_hi,fit,experiment");
   std::vector<const Panel*> panels;
   std::vector<double> steps;
+  std::vector<std::string> ranges;
+  bool any_fit = false;
   for (const Panel& panel : kPanels) {
     bool any = false;
     double low = INFINITY;
@@ -76,12 +78,17 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
       high = std::max(high, end("outer", 1));
       csv.Cell(panel.key).Cell(static_cast<double>(i + 1));
       csv.Cell(end("outer", 0)).Cell(end("outer", 1)).Cell(end("inner", 0)).Cell(end("inner", 1));
-      csv.Cell(panel.scale * Fitted(input, experiments[i], panel.key)).Cell(experiments[i]);
+      const double fitted = panel.scale * Fitted(input, experiments[i], panel.key);
+      any_fit = any_fit || std::isfinite(fitted);
+      csv.Cell(fitted).Cell(experiments[i]);
       csv.EndRow();
     }
     if (!any) continue;
     panels.push_back(&panel);
     steps.push_back(TickStep(std::max(high - low, 1e-9)));
+    const double margin = 0.04 * std::max(high - low, 1e-9);
+    ranges.push_back("[" + Number(low > 0.0 ? low - margin : low) + ":" + Number(high + margin) +
+                     "]");
   }
   if (panels.empty()) return std::nullopt;
   const auto count = static_cast<double>(experiments.size());
@@ -91,8 +98,8 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
   figure.title = "Guaranteed bounds of the family";
   figure.caption =
       "No model that passes the test lies outside the pale bars; members were found at both ends "
-      "of "
-      "the dark ones. Crosses: the joint fit.";
+      "of the dark ones.";
+  if (any_fit) figure.caption += " Crosses: the joint fit.";
   figure.csv = csv.Text();
   figure.width = 900;
   figure.height = static_cast<int>(rows * (70.0 + 20.0 * count) + 20);
@@ -114,7 +121,7 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
     script.Line("set xtics " + Number(steps[i]));
     const std::string pick = "(pick('" + std::string(panel->key) + "',";
     script.Line("set xlabel '" + std::string(panel->label) + "' offset 0,0.4");
-    script.Line("set offsets graph 0.03, graph 0.03, 0, 0");
+    script.Line("set xrange " + ranges[i]);
     script.Plot("data using " + pick +
                 "3)):2:3:4:($2-0.36):($2+0.36) with boxxyerror linecolor rgb '" +
                 std::string(colour::kSky) + "'");

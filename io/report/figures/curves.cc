@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/report/script.h"
 #include "model/loop.h"
 #include "model/units.h"
 
@@ -33,8 +34,6 @@ std::complex<double> RateAt(const LoopModel& model, double frequency_hz) {
   return std::complex<double>(0.0, kRadPerSPerHz * frequency_hz) * AcousticsAt(model, frequency_hz);
 }
 
-double HalfWidth95(const Estimate& estimate) { return kNormal95 * estimate.std; }
-
 std::optional<ShownRecord> ReferenceRecord(const ReportInput& input) {
   const MeasuredPoint* reference = input.Reference();
   if (reference != nullptr) {
@@ -49,12 +48,27 @@ std::optional<ShownRecord> ReferenceRecord(const ReportInput& input) {
   return std::nullopt;
 }
 
-double SimulatedSlope(const ReportInput& input, const MeasuredPoint& point,
-                      const LoopModel& model) {
-  const double least = input.config ? input.config->simulation.loop_gain_min : 1.1;
-  const double response = std::abs(RateAt(model, point.frequency_hz.value));
-  const double slope = std::isfinite(point.flame_slope.value) ? point.flame_slope.value : 0.0;
-  return response * std::abs(slope) < least ? -least / response : slope;
+double DrawnSlope(const MeasuredPoint& point, const LoopModel& model) {
+  if (std::isfinite(point.flame_slope.value)) return point.flame_slope.value;
+  return -1.0 / std::abs(RateAt(model, point.frequency_hz.value));
+}
+
+std::string SimulationRemark(const ReportInput& input, const std::string& experiment) {
+  const double member = NumberAt(input.simulation, "member");
+  const bool is_fit = std::isnan(member);
+  std::string text =
+      is_fit ? "" : " It ran member " + Number(member) + " of the family, not the joint fit.";
+  for (const auto& loop : ListAt(input.simulation, "experiments")) {
+    if (loop.value("name", "") != experiment || !loop.value("slope_raised", false)) continue;
+    const double gain = NumberAt(loop, "loop_gain");
+    const std::string lacking = gain > 0.0 ? "the " + std::string(is_fit ? "fit's" : "member's") +
+                                                 " loop gain is " + Spelled(gain)
+                                           : "no slope was measured";
+    text += " The flame's slope was raised to a loop gain of " +
+            Spelled(NumberAt(loop, "loop_gain_simulated")) + ": " + lacking +
+            ", but a cycle was observed.";
+  }
+  return text;
 }
 
 double ShownFrequencyMax(double fundamental_hz) {

@@ -20,9 +20,6 @@ double PhaseDeg(std::complex<double> value);
 std::complex<double> AcousticsAt(const LoopModel& model, double frequency_hz);  // G(j 2 pi f)
 std::complex<double> RateAt(const LoopModel& model, double frequency_hz);       // j 2 pi f G
 
-// Half width of the 95 % interval; NaN where the error is not known.
-double HalfWidth95(const Estimate& estimate);
-
 // The record that shows the reference experiment: the measured one, or where there is none the
 // simulated one.
 struct ShownRecord {
@@ -31,9 +28,14 @@ struct ShownRecord {
 };
 std::optional<ShownRecord> ReferenceRecord(const ReportInput& input);
 
-// Flame slope of the reference: measured; simulate raises it where the loop gain would be below the
-// config's least, since a cycle was observed.
-double SimulatedSlope(const ReportInput& input, const MeasuredPoint& point, const LoopModel& model);
+// Phi'(0) that goes with the model at one experiment: as measured, whatever loop gain that makes.
+// Where it was not measured, the slope that closes the loop at the measured frequency with gain
+// one, as the flame's describing function does on a limit cycle.
+double DrawnSlope(const MeasuredPoint& point, const LoopModel& model);
+
+// Which loop howl simulate ran for an experiment, as sentences with a space before them: for
+// captions of what is drawn from its record.
+std::string SimulationRemark(const ReportInput& input, const std::string& experiment);
 
 // Highest frequency of figures about the reference: beyond its third harmonic and the second mode.
 double ShownFrequencyMax(double fundamental_hz);

@@ -39,9 +39,19 @@ std::optional<Figure> FlameCurvesFigure(const ReportInput& input) {
   figure.title = measured ? "Flame characteristics" : "Flame characteristics, simulated records";
   figure.caption =
       "Means of q in bins of the delayed derivative of pressure, for each operating point." +
-      std::string(measured ? ""
-                           : " Simulated: no measured record is at hand; the measured slopes "
-                             "at zero went into the simulation.");
+      std::string(measured ? "" : " Simulated: no measured record is at hand.");
+  std::string raised;
+  for (const auto& [name, phi] : names) {
+    for (const auto& loop : ListAt(input.simulation, "experiments")) {
+      if (measured || loop.value("name", "") != name || !loop.value("slope_raised", false))
+        continue;
+      raised += (raised.empty() ? "" : ", ") + name;
+    }
+  }
+  if (!raised.empty()) {
+    figure.caption += " The flame's slope was raised before simulating " + raised +
+                      ", where the loop would not have cycled with the measured one.";
+  }
   figure.csv = csv.Text();
   Script script;
   script.Line("set xlabel 'delayed derivative of p (units of p per second)'")

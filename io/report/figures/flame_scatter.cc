@@ -4,6 +4,7 @@
 
 #include "estimation/flame_curve.h"
 #include "estimation/flame_regressor.h"
+#include "estimation/half_width.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"
@@ -55,7 +56,10 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
       Spelled(curve.slope.value) +
       (std::isfinite(curve.slope.std) ? " ± " + Spelled(HalfWidth95(curve.slope), 2) + " (95 %)"
                                       : "") +
-      "." + (shown->simulated ? " Simulated: no measured record is at hand." : "");
+      "." +
+      (shown->simulated ? " Simulated: no measured record is at hand." +
+                              SimulationRemark(input, shown->record->name)
+                        : "");
   figure.csv = csv.Text();
   Script script;
   script.Line("set xlabel 'delayed derivative of p (units of p per second)'")

@@ -2,6 +2,7 @@
 // the model's loop closes a second time.
 #include <cmath>
 
+#include "estimation/half_width.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"
@@ -53,8 +54,7 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
     const ExperimentModel* fit = input.Fitted(point->name);
     if (fit == nullptr || fit->model.M <= 0.0) continue;
     const PhaseCrossing* best = nullptr;
-    const auto crossings =
-        PhaseCrossings(fit->model.Loop(), SimulatedSlope(input, *point, fit->model), top);
+    const auto crossings = PhaseCrossings(fit->model.Loop(), DrawnSlope(*point, fit->model), top);
     for (const PhaseCrossing& crossing : crossings) {
       if (crossing.frequency_hz < 1.5 * point->frequency_hz.value) continue;
       const auto better = [&] {

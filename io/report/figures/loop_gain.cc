@@ -2,6 +2,7 @@
 // one and the limit cycle vanishes.
 #include <cmath>
 
+#include "estimation/half_width.h"
 #include "estimation/vanishing_phi.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"

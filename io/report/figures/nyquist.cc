@@ -17,6 +17,16 @@ constexpr std::size_t kDrawnMembers = 12;
 constexpr double kMemberStepDeg = 4.0;
 constexpr double kMinGain = 0.05;  // crossings nearer to the origin are not named
 
+std::string SlopeRemark(bool has_slope, double loop_gain) {
+  if (!has_slope) {
+    return " The flame's slope was not measured: the curve is scaled to a loop gain of one at the "
+           "limit cycle.";
+  }
+  if (loop_gain >= 1.0) return "";
+  return " With the measured slope the fit's loop gain at the limit cycle is " +
+         Spelled(loop_gain) + ", below the one that (1b) asks of a loop that cycles by itself.";
+}
+
 }  // namespace
 
 std::optional<Figure> NyquistFigure(const ReportInput& input) {
@@ -24,7 +34,8 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   if (reference == nullptr || input.Fitted(reference->name) == nullptr) return std::nullopt;
   const LoopModel& model = input.Fitted(reference->name)->model;
   const bool has_slope = std::isfinite(reference->flame_slope.value);
-  const double slope = SimulatedSlope(input, *reference, model);
+  const double slope = DrawnSlope(*reference, model);
+  const double loop_gain = std::abs(slope) * std::abs(RateAt(model, reference->frequency_hz.value));
   const double max_hz = 4.2 * reference->frequency_hz.value;
   CsvWriter csv("curve,re,im,frequency_hz,label");
   // Of the fit: members that run far away leave the picture.
@@ -77,10 +88,7 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   figure.caption = "|Φ'(0)| L(j 2π f) up to " + Number(std::round(max_hz)) +
                    " Hz for the joint fit" + (drawn.empty() ? "" : " and some members (thin)") +
                    ". Bullets: crossings of the negative real axis (gain in brackets): " + told +
-                   ". Beyond −1 a crossing lets a cycle grow." +
-                   (has_slope ? ""
-                              : " The flame slope is not known: it is the one that simulate "
-                                "takes.");
+                   ". Beyond −1 a crossing lets a cycle grow." + SlopeRemark(has_slope, loop_gain);
   figure.csv = csv.Text();
   figure.height = 520;
   Script script;

@@ -41,11 +41,11 @@ std::optional<Figure> RecordsFigure(const ReportInput& input) {
   figure.name = "records";
   figure.seed = "1";
   figure.title = (shown->simulated ? "Simulated record of " : "Record of ") + name;
-  figure.caption =
-      (shown->simulated ? "No measured record is at hand: this is what the fitted loop "
-                          "does when simulated, in "
-                        : "Pressure and heat release as recorded in ") +
-      name + ", " + Number(1e3 * window_s) + " ms from its middle.";
+  figure.caption = (shown->simulated ? "No measured record is at hand: this is what the loop "
+                                       "does when simulated, in "
+                                     : "Pressure and heat release as recorded in ") +
+                   name + ", " + Number(1e3 * window_s) + " ms from its middle." +
+                   (shown->simulated ? SimulationRemark(input, name) : "");
   figure.csv = csv.Text();
   Script script;
   script.Line("set xrange [0:" + Number(1e3 * window_s) + "]").Line("unset key");

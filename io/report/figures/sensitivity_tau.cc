@@ -47,7 +47,7 @@ std::optional<Figure> DelaySensitivityFigure(const ReportInput& input) {
   figure.seed = "14";
   figure.title = "How τ moves the delay's phase, " + reference->name;
   figure.caption = "Phase of e^(−sτ) for the fitted τ and 3 % to either side.";
-  const auto crossing = SecondCrossing(base, SimulatedSlope(input, *reference, base), f);
+  const auto crossing = SecondCrossing(base, DrawnSlope(*reference, base), f);
   if (crossing) {
     const LoopSensitivity sensitivity = LoopSensitivityAt(base.Loop(), crossing->frequency_hz);
     char text[240];

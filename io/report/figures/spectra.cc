@@ -110,7 +110,9 @@ std::optional<Figure> SpectraFigure(const ReportInput& input) {
   figure.caption =
       "Welch's spectra, significant lines named: multiples of the fundamental f, and by their "
       "frequency in Hz the lines that are none." +
-      std::string(shown->simulated ? " Simulated: no measured record is at hand." : "");
+      (shown->simulated ? " Simulated: no measured record is at hand." +
+                              SimulationRemark(input, shown->record->name)
+                        : "");
   figure.csv = csv.Text();
   figure.script = script.Text();
   figure.height = 440;

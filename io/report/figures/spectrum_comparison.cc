@@ -54,9 +54,10 @@ std::optional<Figure> SpectrumComparisonFigure(const ReportInput& input) {
   figure.seed = "11";
   figure.title = "Simulated power spectrum of p, " + reference->name;
   figure.caption = measured != nullptr
-                       ? "Measured record and what the fitted loop gives when simulated with noise."
-                       : "What the fitted loop gives when simulated with noise; dashed: the "
+                       ? "Measured record and what the loop gives when simulated with noise."
+                       : "What the loop gives when simulated with noise; dashed: the "
                          "frequencies that were measured (no measured record is at hand).";
+  figure.caption += SimulationRemark(input, reference->name);
   figure.csv = csv.Text();
   Script script;
   script.Line("set xlabel 'frequency (Hz)'")

@@ -1,6 +1,7 @@
 // The two qualitative conditions of the seed's section 3.3 against each other: omega nearly
 // constant over the operating points, and damping small. One member can have less of one only for
 // more of the other.
+#include <algorithm>
 #include <cmath>
 
 #include "io/report/figures/catalogue.h"
@@ -40,12 +41,14 @@ std::optional<Figure> TradeoffFigure(const ReportInput& input) {
     for (const std::size_t member : input.members->Thinned(kDrawnMembers)) {
       csv.Cell("members").Cell(100.0 * input.members->omega_spread[member]);
       csv.Cell(input.members->xi_max[member]).Cell(static_cast<double>(member + 1)).EndRow();
-      members_top = std::max(members_top, input.members->xi_max[member]);
-      right = std::max(right, 100.0 * input.members->omega_spread[member]);
     }
+    members_top = std::ranges::max(input.members->xi_max);
+    right = std::max(right, 100.0 * std::ranges::max(input.members->omega_spread));
   }
-  // The curve runs away where omega is held constant: the test's region is what matters.
-  if (members_top > 0.0) top = std::min(top, 3.0 * std::max(members_top, xi_test));
+  // Every member and the test's limit are inside. The curve runs away where omega is held constant
+  // and may leave: the test's region is what matters.
+  const double region = std::max(members_top, std::isfinite(xi_test) ? xi_test : 0.0);
+  if (region > 0.0) top = std::clamp(top, region, 3.0 * region);
   Figure figure;
   figure.name = "tradeoff";
   figure.title = "Trade-off between constant ω and small damping";

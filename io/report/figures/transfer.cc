@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/half_width.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"
@@ -68,8 +69,8 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
     const std::size_t step = std::max<std::size_t>(1, rows.size() / kMostPoints);
     for (std::size_t k = 0; k < rows.size(); k += step) {
       const std::complex<double> h(table.Number(rows[k], "re"), table.Number(rows[k], "im"));
-      const double half = kNormal95 * std::sqrt(0.5 * (table.Number(rows[k], "variance_re") +
-                                                       table.Number(rows[k], "variance_im")));
+      const double half = HalfWidth95(std::sqrt(
+          0.5 * (table.Number(rows[k], "variance_re") + table.Number(rows[k], "variance_im"))));
       const double gain = std::abs(h);
       const double phase_half =
           half < gain ? std::asin(half / gain) * 180.0 / 3.14159265358979323846 : 180.0;
