@@ -10,46 +10,15 @@
 #include "io/report/figures/curves.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
+#include "io/report/spelled_interval.h"
 #include "io/results/verdict_remarks.h"
 
 namespace howl {
 namespace {
 
-constexpr int kLeastPlainPower = -3;  // 0.0012, but 1.2 · 10⁻⁴
-constexpr int kMostPlainPower = 4;
 constexpr std::size_t kNumbersLength = 36;  // a column with longer cells is words, which may break
 
 std::string Text(double value, int digits = 5) { return Spelled(value, digits); }
-
-// Exponent of ten that a value stands before: 0 where it needs none.
-int PowerOf(double value) {
-  if (value == 0.0) return 0;
-  const int power = static_cast<int>(std::floor(std::log10(std::abs(value))));
-  return power < kLeastPlainPower || power > kMostPlainPower ? power : 0;
-}
-
-std::string Rounded(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", std::max(decimals, 0), value);
-  const std::string out = text;
-  return out.front() == '-' ? "−" + out.substr(1) : out;
-}
-
-// "219.899 ± 0.010": the half width with two digits and the value to the same decimal, both before
-// one power of ten.
-std::string WithInterval(const Estimate& estimate, double scale = 1.0) {
-  if (!std::isfinite(estimate.value)) return "–";
-  const double value = scale * estimate.value;
-  const double half = std::abs(scale) * HalfWidth95(estimate);
-  if (!std::isfinite(half) || half == 0.0) return Text(value);
-  const int power = PowerOf(std::max(std::abs(value), half));
-  const double unit = std::pow(10.0, power);
-  const int decimals = 1 - static_cast<int>(std::floor(std::log10(half / unit)));
-  std::string out = Rounded(value / unit, decimals) + " ± " + Rounded(half / unit, decimals);
-  if (power == 0) return out;
-  const std::string raised = Spelled(unit, 1);  // "1 · 10⁻⁵"
-  return "(" + out + ")" + raised.substr(1);
-}
 
 std::string Percent(double share) {
   char text[32];
@@ -127,9 +96,9 @@ std::string MeasuredTable(const ReportInput& input) {
   std::vector<std::vector<std::string>> rows;
   for (const MeasuredPoint& point : input.measured) {
     rows.push_back({point.name + (point.reliable ? "" : " *"), Text(point.phi),
-                    WithInterval(point.frequency_hz), WithInterval(point.phase_deg),
-                    WithInterval(point.gain), WithInterval(point.tau_s, 1e3),
-                    WithInterval(point.flame_slope), WithInterval(point.loop_gain)});
+                    SpelledInterval(point.frequency_hz), SpelledInterval(point.phase_deg),
+                    SpelledInterval(point.gain), SpelledInterval(point.tau_s, 1e3),
+                    SpelledInterval(point.flame_slope), SpelledInterval(point.loop_gain)});
   }
   return Table(
       "Characteristics of the limit cycle; ± is half of a 95 % interval where one is "
@@ -141,16 +110,24 @@ std::string MeasuredTable(const ReportInput& input) {
 
 std::string FitTable(const ReportInput& input) {
   if (input.fitted.empty()) return {};
+  const bool two_modes =
+      std::ranges::any_of(input.fitted, [](const auto& fit) { return fit.model.M > 0.0; });
+  std::vector<std::string> head = {"experiment", input.OperatingLabel(), "ω (Hz)", "ξ", "N"};
+  if (two_modes) head.emplace_back("M");
+  head.emplace_back("τ (ms)");
   std::vector<std::vector<std::string>> rows;
   for (const ExperimentModel& fit : input.fitted) {
-    rows.push_back({fit.name, Text(fit.phi), Text(fit.model.omega_hz), Text(fit.model.xi, 4),
-                    Text(fit.model.N), Text(fit.model.M), Text(1e3 * fit.model.tau_s)});
+    std::vector<std::string>& row = rows.emplace_back();
+    row = {fit.name, Text(fit.phi), Text(fit.model.omega_hz), Text(fit.model.xi, 4),
+           Text(fit.model.N)};
+    if (two_modes) row.push_back(Text(fit.model.M));
+    row.push_back(Text(1e3 * fit.model.tau_s));
   }
   const bool converged = input.solution.value("converged", false);
   return Table("Joint fit: one choice among those that the data leave" +
-                   std::string(converged ? "" : "; no start converged") +
-                   ". N and M in (units of p per unit of q) rad/s",
-               {"experiment", input.OperatingLabel(), "ω (Hz)", "ξ", "N", "M", "τ (ms)"}, rows);
+                   std::string(converged ? "" : "; no start converged") + ". N" +
+                   (two_modes ? " and M" : "") + " in (units of p per unit of q) rad/s",
+               head, rows);
 }
 
 std::string FamilySummary(const ReportInput& input) {

@@ -133,7 +133,8 @@ std::optional<Figure> BifurcationFigure(const ReportInput& input) {
       script.Plot("data using (pick('" + branches[i].name +
                   " unstable',2)):3 with lines linewidth "
                   "1.3 dashtype 2 linecolor rgb '" +
-                  colour + "' title '" + title + ", not attracting'");
+                  colour +
+                  (branches[i].stable ? "' notitle" : "' title '" + std::string(title) + "'"));
     }
   }
   script.Plot(

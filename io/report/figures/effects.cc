@@ -36,12 +36,14 @@ std::optional<Figure> EffectsFigure(const ReportInput& input) {
   constexpr double kLowest = -0.5;
   CsvWriter csv("curve,shrinkage_percent,row,lo_percent,hi_percent,effect");
   std::string names;
+  std::size_t longest = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     csv.Cell(row.effect == verdict ? "verdict" : "other");
     csv.Cell(100.0 * std::max(row.shrinkage, kLowest)).Cell(static_cast<double>(i + 1));
     csv.Cell(100.0 * std::clamp(row.low, kLowest, 1.0)).Cell(100.0 * std::min(row.high, 1.0));
     csv.Cell(row.effect).EndRow();
+    longest = std::max(longest, row.effect.size());
     names += (i == 0 ? "" : ", ") + Quoted(row.effect) + " " + std::to_string(i + 1);
   }
   Figure figure;
@@ -52,11 +54,13 @@ std::optional<Figure> EffectsFigure(const ReportInput& input) {
       "intervals over the experiments (cut at −50 %)" +
       std::string(verdict.empty() ? "." : "; filled: the verdict.");
   figure.csv = csv.Text();
+  // Names of several effects take their room from a wider figure.
+  figure.width = std::max(figure.width, static_cast<int>(340 + 6.5 * static_cast<double>(longest)));
   figure.height = static_cast<int>(90 + 21 * rows.size());
   Script script;
   script.Line("unset key")
       .Line("set xlabel 'gap removed, held out (%)'")
-      .Line("set lmargin 27")
+      .Line("set lmargin " + Number(std::max(27.0, 0.85 * static_cast<double>(longest) + 1.0)))
       .Line("set ytics noenhanced (" + names + ")")
       .Line("set yrange [" + Number(static_cast<double>(rows.size()) + 0.7) + ":0.3]")
       .Line("set xrange [" + Number(100.0 * kLowest) + ":105]")

@@ -8,6 +8,7 @@
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"
+#include "io/report/spelled_interval.h"
 #include "io/results/csv_writer.h"
 
 namespace howl {
@@ -53,10 +54,7 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
   figure.caption =
       "Heat release against the delayed derivative of pressure, (4) with the fundamental alone; "
       "the characteristic is the mean of q in bins. Slope at zero " +
-      Spelled(curve.slope.value) +
-      (std::isfinite(curve.slope.std) ? " ± " + Spelled(HalfWidth95(curve.slope), 2) + " (95 %)"
-                                      : "") +
-      "." +
+      SpelledInterval(curve.slope) + (std::isfinite(curve.slope.std) ? " (95 %)." : ".") +
       (shown->simulated ? " Simulated: no measured record is at hand." +
                               SimulationRemark(input, shown->record->name)
                         : "");

@@ -72,10 +72,13 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   if (near) {
     figure.caption +=
         " A straight line through the stationary experiments reaches one at " +
-        Number(vanishing.phi) +
+        Spelled(vanishing.phi) +
         " (95 %: " + (std::isfinite(vanishing.lo) ? Spelled(vanishing.lo) : "no lower limit") +
         " to " + (std::isfinite(vanishing.hi) ? Spelled(vanishing.hi) : "no upper limit") +
         "; cut at the edges of the figure).";
+  } else if (vanishing.available) {
+    figure.caption +=
+        " A straight line through the stationary experiments does not reach one near them.";
   }
   figure.csv = csv.Text();
   Script script;

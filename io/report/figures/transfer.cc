@@ -61,6 +61,8 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
   CsvWriter csv("curve,frequency_hz,gain,gain_lo,gain_hi,phase_deg,phase_lo_deg,phase_hi_deg");
   double low = INFINITY;
   double high = 0.0;
+  bool any_transfer_fit = false;
+  bool any_joint_fit = false;
   for (const std::string& name : names) {
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -91,8 +93,14 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
         csv.Cell(PhaseDeg(value)).Cell(NAN).Cell(NAN).EndRow();
       }
     };
-    if (const auto fit = TransferFitModel(input, name)) add("transfer fit ", *fit);
-    if (const ExperimentModel* fit = input.Fitted(name)) add("joint fit ", fit->model);
+    if (const auto fit = TransferFitModel(input, name)) {
+      add("transfer fit ", *fit);
+      any_transfer_fit = true;
+    }
+    if (const ExperimentModel* fit = input.Fitted(name)) {
+      add("joint fit ", fit->model);
+      any_joint_fit = true;
+    }
   }
   if (!(high > low)) return std::nullopt;
   Figure figure;
@@ -100,8 +108,9 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
   figure.title = "Coherent q-to-p transfer, and the model's";
   figure.caption =
       "Where p and q are coherent the records show G beyond the limit cycle: measured transfer "
-      "with "
-      "95 % intervals, the model's modes fitted to it alone, and the joint fit." +
+      "with 95 % intervals" +
+      std::string(any_transfer_fit ? "; the model's modes fitted to it alone" : "") +
+      (any_joint_fit ? "; the joint fit" : "") + "." +
       std::string(names.size() < all.size()
                       ? " " + std::to_string(names.size()) + " of " + std::to_string(all.size()) +
                             " experiments; transfer.csv has all."
@@ -138,12 +147,16 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
       script.Plot(pick + (phase ? "6" : "3") +
                   " with points pointtype 7 pointsize 0.25 linecolor rgb '" + colour::kGrey +
                   "' title 'measured, 95 %'");
-      script.Plot("data using (pick(" + Quoted("transfer fit " + names[i]) +
-                  ",2)):" + (phase ? "6" : "3") + " with lines linewidth 1.6 linecolor rgb '" +
-                  colour::kVermillion + "' title 'fitted to the transfer'");
-      script.Plot("data using (pick(" + Quoted("joint fit " + names[i]) + ",2)):" +
-                  (phase ? "6" : "3") + " with lines linewidth 1.6 dashtype 2 linecolor rgb '" +
-                  colour::kBlue + "' title 'joint fit'");
+      if (any_transfer_fit) {
+        script.Plot("data using (pick(" + Quoted("transfer fit " + names[i]) +
+                    ",2)):" + (phase ? "6" : "3") + " with lines linewidth 1.6 linecolor rgb '" +
+                    colour::kVermillion + "' title 'fitted to the transfer'");
+      }
+      if (any_joint_fit) {
+        script.Plot("data using (pick(" + Quoted("joint fit " + names[i]) + ",2)):" +
+                    (phase ? "6" : "3") + " with lines linewidth 1.6 dashtype 2 linecolor rgb '" +
+                    colour::kBlue + "' title 'joint fit'");
+      }
       script.EndPlot();
     }
   }
