@@ -17,7 +17,7 @@ std::vector<NamedRecord> LoadRecords(const Config& config) {
 AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options) {
   AnalysisOptions analysis;
   analysis.characteristics.method = config.analysis.method;
-  analysis.characteristics.min_frequency_hz = config.analysis.min_frequency_hz;
+  analysis.characteristics.min_frequency_hz = config.analysis.min_frequency_hz.value_or(0.0);
   analysis.characteristics.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
   if (config.analysis.method == CharacteristicsMethod::kSeed) analysis.flame_curve.max_harmonic = 1;
   analysis.delay_branch = config.analysis.delay_branch;

@@ -32,7 +32,13 @@ Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
       FindLines(record, spectrum, HasCycle(analysis) && std::isfinite(f.value) ? f.value : 0.0,
                 options.lines);
   if (analysis.has_heat_release) {
-    analysis.transfer = EstimateTransfer(spectrum, analysis.lines, options.transfer);
+    TransferOptions transfer_options = options.transfer;
+    if (transfer_options.min_frequency_hz <= 0.0) {
+      transfer_options.min_frequency_hz =
+          std::isfinite(f.value) ? options.transfer_min_harmonic * f.value
+                                 : LowestSearched(record.sampling_hz, analysis.duration_s);
+    }
+    analysis.transfer = EstimateTransfer(spectrum, analysis.lines, transfer_options);
     if (options.model) {
       const TransferBand band =
           std::isfinite(f.value) ? TransferBandOf(*options.model, f.value) : TransferBand{};

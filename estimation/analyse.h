@@ -29,8 +29,9 @@ struct AnalysisOptions {
   // Whose acoustics are fitted to the transfer: the model that fit and family are about, no other.
   // Without one no transfer is fitted.
   std::optional<ModelSpec> model;
-  std::optional<int> delay_branch;  // else by consistency
-  int threads = 0;                  // 0: all
+  double transfer_min_harmonic = 1.0 / 11.0;  // lowest of its points: 20 Hz at the paper's 220 Hz
+  std::optional<int> delay_branch;            // else by consistency
+  int threads = 0;                            // 0: all
 };
 
 // What needs q is absent for a pressure-only record; what needs a limit cycle is absent without

@@ -21,7 +21,7 @@ constexpr std::string_view AnalysisMethodName(CharacteristicsMethod method) {
 struct AnalysisSpec {
   CharacteristicsMethod method = CharacteristicsMethod::kLocal;
   // Where the limit cycle is looked for.
-  double min_frequency_hz = 20.0;
+  std::optional<double> min_frequency_hz;  // absent: LowestSearched (estimation/characteristics.h)
   std::optional<double> max_frequency_hz;  // absent: four tenths of the sampling rate
   // Whole periods added to the delay of (3); absent: by consistency over the experiments.
   std::optional<int> delay_branch;

@@ -16,6 +16,7 @@ using Complexes = std::vector<std::complex<double>>;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMinBlockPeriods = 8.0;
 constexpr double kBlocksPerRecord = 24.0;
+constexpr double kLeastDiffusion = 5e-12;  // rad^2 a period: a steadier phase counts as this steady
 
 struct Peak {
   double frequency_hz = 0.0;
@@ -26,10 +27,9 @@ struct Peak {
 
 // The largest peak of p's spectrum in the search range, refined by the main lobe's centroid.
 Peak FindPeak(const CrossSpectrum& spectrum, const CharacteristicsOptions& options,
-              double sampling_hz) {
+              double lowest_hz, double sampling_hz) {
   const double top = options.max_frequency_hz > 0 ? options.max_frequency_hz : 0.4 * sampling_hz;
-  const int first =
-      std::max(static_cast<int>(std::ceil(options.min_frequency_hz / spectrum.bin_hz)), 2);
+  const int first = std::max(static_cast<int>(std::ceil(lowest_hz / spectrum.bin_hz)), 2);
   const int last =
       std::min(static_cast<int>(top / spectrum.bin_hz), static_cast<int>(spectrum.pp.size()) - 3);
   Peak peak;
@@ -183,6 +183,12 @@ void Classify(const CharacteristicsOptions& options, double duration_s, Characte
 
 }  // namespace
 
+double LowestSearched(double sampling_hz, double duration_s) {
+  constexpr double kRumbleHz = 20.0;
+  constexpr double kShare = 1.0 / 250.0;  // 20 Hz of the paper's 5 kHz
+  return std::max(std::min(kRumbleHz, kShare * sampling_hz), kMinBlockPeriods / duration_s);
+}
+
 std::string_view CycleStateName(CycleState state) {
   switch (state) {
     case CycleState::kLimitCycle:
@@ -225,10 +231,13 @@ Characteristics SeedCharacteristics(std::span<const double> p, std::span<const d
 Characteristics EstimateCharacteristics(const Record& record, const CrossSpectrum& spectrum,
                                         const CharacteristicsOptions& options) {
   Characteristics result;
-  const Peak peak = FindPeak(spectrum, options, record.sampling_hz);
   const std::vector<double> p = RemoveMean(record.pressure);
   const std::vector<double> q = RemoveMean(record.heat_release);
   const double duration_s = static_cast<double>(p.size()) / record.sampling_hz;
+  const double lowest_hz = options.min_frequency_hz > 0.0
+                               ? options.min_frequency_hz
+                               : LowestSearched(record.sampling_hz, duration_s);
+  const Peak peak = FindPeak(spectrum, options, lowest_hz, record.sampling_hz);
   if (!peak.significant || duration_s * peak.frequency_hz < kMinBlockPeriods) return result;
 
   // Blocks: 24 to a record, but at least eight periods, long enough for ten times the noise's
@@ -250,7 +259,8 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
     if (pass == 2) break;
     line = EstimateLineFrequency(p_blocks.amplitude, phase, p_blocks.hop_s);
     if (std::isfinite(line.offset_hz.value)) frequency += line.offset_hz.value;
-    const double coherent_s = 2.0 / std::max(line.diffusion_rad2_per_s, 1e-9);
+    const double coherent_s =
+        2.0 / std::max(line.diffusion_rad2_per_s, kLeastDiffusion * frequency);
     const double shortest_s = std::min(kMinBlockPeriods / frequency, longest_s);
     length_s = std::clamp(std::min(length_s, coherent_s), shortest_s, longest_s);
   }
@@ -282,8 +292,7 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
   if (options.method == CharacteristicsMethod::kSeed && !q.empty()) {
     const double top =
         options.max_frequency_hz > 0 ? options.max_frequency_hz : 0.4 * record.sampling_hz;
-    const Characteristics seed =
-        SeedCharacteristics(p, q, record.sampling_hz, options.min_frequency_hz, top);
+    const Characteristics seed = SeedCharacteristics(p, q, record.sampling_hz, lowest_hz, top);
     result.frequency_hz = {seed.frequency_hz.value, kNan};
     result.phase_deg = {seed.phase_deg.value, kNan};
     result.gain = {seed.gain.value, kNan};

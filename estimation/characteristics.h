@@ -34,8 +34,8 @@ enum class CharacteristicsMethod { kLocal, kSeed };
 
 struct CharacteristicsOptions {
   CharacteristicsMethod method = CharacteristicsMethod::kLocal;
-  double min_frequency_hz = 20.0;  // where the limit cycle is looked for
-  double max_frequency_hz = 0.0;   // 0: four tenths of the sampling rate
+  double min_frequency_hz = 0.0;  // where the limit cycle is looked for; 0: LowestSearched
+  double max_frequency_hz = 0.0;  // 0: four tenths of the sampling rate
   // The variance of A^2 over its squared mean, A the cycle's envelope: 0 for a steady cycle, 1 for
   // a resonance that noise excites, and pi/2 - 1 where a Van der Pol loop in noise is neutral.
   double intermittent_fluctuation = 0.25;
@@ -66,6 +66,11 @@ struct Characteristics {
   double block_noise_power = 0.0;  // of the noise floor in |P_b|^2
   std::vector<double> envelope;    // of p, one a block
 };
+
+// Where the search for a cycle begins: 20 Hz, below which rigs rumble and drift; of slow records a
+// 250th of the sampling rate, which 20 Hz is of the paper's; and nothing that has less than eight
+// periods in the record.
+double LowestSearched(double sampling_hz, double duration_s);
 
 // Needs at least eight periods of the cycle; a record without a significant peak gives
 // kNoLimitCycle with the fields it could estimate. `spectrum` is the record's WelchSpectrum.

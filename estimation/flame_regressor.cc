@@ -13,7 +13,8 @@ namespace {
 
 // A harmonic counts where its coherent mean is this many standard errors from zero.
 constexpr double kLockedSigmas = 4.0;
-constexpr double kHighestHarmonic = 0.4;  // of the sampling rate
+constexpr double kLeastDiffusion = 5e-12;  // rad^2 a period: a steadier phase counts as this steady
+constexpr double kHighestHarmonic = 0.4;   // of the sampling rate
 
 // Samples of the blocks that p's fundamental is joined from. Long ones let in less noise (a
 // relative variance of 0.4 |n|^2 / |P|^2, falling as 1 / length), short ones follow a wandering
@@ -23,7 +24,8 @@ int JoiningBlock(const Characteristics& cycle, double sampling_hz) {
   const double longest_s = cycle.block_samples / sampling_hz;
   const double noise =
       0.4 * cycle.block_noise_power * longest_s / (cycle.p_amplitude * cycle.p_amplitude);
-  const double diffusion = std::max(kRadPerSPerHz * cycle.line_width_hz, 1e-9);
+  const double diffusion =
+      std::max(kRadPerSPerHz * cycle.line_width_hz, kLeastDiffusion * cycle.frequency_hz.value);
   const double best_s = std::min(std::sqrt(noise / (0.1 * diffusion)), longest_s);
   const double periods = std::max(std::round(best_s * cycle.frequency_hz.value), 3.0);
   return static_cast<int>(std::lround(periods / cycle.frequency_hz.value * sampling_hz));

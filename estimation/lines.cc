@@ -88,6 +88,11 @@ Estimate RefineFrequency(std::span<const double> x, double sampling_hz, double f
   return result;
 }
 
+// 5 Hz of the paper's cycle at 220 Hz, sampled at 5 kHz.
+double LowestLine(double sampling_hz, double fundamental_hz) {
+  return fundamental_hz > 0.0 ? fundamental_hz / 44.0 : std::min(5.0, sampling_hz / 1000.0);
+}
+
 }  // namespace
 
 std::vector<double> NoiseFloor(std::span<const double> spectrum, double nu) {
@@ -119,7 +124,10 @@ std::vector<SpectralLine> FindLines(const Record& record, const CrossSpectrum& s
   const double threshold = PeakThreshold(nu, bins, options.false_alarm);
   const boost::math::fisher_f ratio(2.0 * nu, 2.0 * nu);
   const double prominence = boost::math::quantile(boost::math::complement(ratio, 1e-3));
-  const int first = static_cast<int>(std::ceil(options.min_frequency_hz / spectrum.bin_hz));
+  const double lowest_hz = options.min_frequency_hz > 0.0
+                               ? options.min_frequency_hz
+                               : LowestLine(record.sampling_hz, fundamental_hz);
+  const int first = static_cast<int>(std::ceil(lowest_hz / spectrum.bin_hz));
   const std::vector<double> p = RemoveMean(record.pressure);
   const std::vector<double> q = RemoveMean(record.heat_release);
   const std::vector<double> p_floor = NoiseFloor(spectrum.pp, nu);

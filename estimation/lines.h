@@ -31,9 +31,9 @@ struct SpectralLine {
 };
 
 struct LineOptions {
-  double false_alarm = 0.01;  // alpha, for each channel of a record
-  double max_width = 0.05;    // of a line, relative to its frequency
-  double min_frequency_hz = 5.0;
+  double false_alarm = 0.01;      // alpha, for each channel of a record
+  double max_width = 0.05;        // of a line, relative to its frequency
+  double min_frequency_hz = 0.0;  // 0: a 44th of the fundamental; without one at most 5 Hz
 };
 
 // Strongest over its floor first. fundamental_hz = 0: none is known.

@@ -77,6 +77,17 @@ double CrossSpectrum::DegreesOfFreedom(int bins) const {
   return count * count / sum;
 }
 
+namespace {
+
+// Next to the largest value; one where all are zero.
+double PowerOfTwo(std::span<const double> x) {
+  double largest = 0.0;
+  for (const double value : x) largest = std::max(largest, std::abs(value));
+  return largest > 0.0 && std::isfinite(largest) ? std::exp2(std::ilogb(largest)) : 1.0;
+}
+
+}  // namespace
+
 CrossSpectrum WelchSpectrum(std::span<const double> p, std::span<const double> q,
                             double sampling_hz, int segment) {
   CHECK(q.empty() || q.size() == p.size());
@@ -100,13 +111,15 @@ CrossSpectrum WelchSpectrum(std::span<const double> p, std::span<const double> q
   double power = 0.0;
   for (double w : window) power += w * w;
   Eigen::FFT<double> fft;
-  // Both channels in one complex transform: z = p + j q.
+  // Both channels in one complex transform: z = p + j q, each at an amplitude of about one, as the
+  // rounding of the larger would drown the smaller. By powers of two, which keep every bit.
+  const double p_unit = PowerOfTwo(p), q_unit = PowerOfTwo(q);
   std::vector<std::complex<double>> z(static_cast<std::size_t>(segment)), transform;
   for (int start = 0; start + segment <= n; start += Hop(segment)) {
     for (int t = 0; t < segment; ++t) {
       const auto i = static_cast<std::size_t>(start) + static_cast<std::size_t>(t);
       const double w = window[static_cast<std::size_t>(t)];
-      z[static_cast<std::size_t>(t)] = {w * p[i], q.empty() ? 0.0 : w * q[i]};
+      z[static_cast<std::size_t>(t)] = {w * (p[i] / p_unit), q.empty() ? 0.0 : w * (q[i] / q_unit)};
     }
     fft.fwd(transform, z);
     for (int k = 0; k < bins; ++k) {
@@ -124,9 +137,9 @@ CrossSpectrum WelchSpectrum(std::span<const double> p, std::span<const double> q
     ++spectrum.segments;
   }
   const double scale = 2.0 / (sampling_hz * power * spectrum.segments);
-  for (double& s : spectrum.pp) s *= scale;
-  for (double& s : spectrum.qq) s *= scale;
-  for (std::complex<double>& s : spectrum.qp) s *= scale;
+  for (double& s : spectrum.pp) s *= scale * (p_unit * p_unit);
+  for (double& s : spectrum.qq) s *= scale * (q_unit * q_unit);
+  for (std::complex<double>& s : spectrum.qp) s *= scale * (p_unit * q_unit);
   spectrum.degrees_of_freedom = spectrum.DegreesOfFreedom(1);
   return spectrum;
 }

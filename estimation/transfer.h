@@ -37,7 +37,7 @@ namespace howl {
 
 struct TransferOptions {
   int bins_per_point = 4;
-  double min_frequency_hz = 20.0;
+  double min_frequency_hz = 0.0;  // 0: the lowest that the spectrum's window resolves
   double max_frequency_hz = 0.0;  // 0: 0.45 of the sampling rate
   double min_coherence = 0.1;
   double strong_line = 100.0;  // a narrow line this far over its floor is left out
