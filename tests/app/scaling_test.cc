@@ -36,8 +36,8 @@ std::string Problem(double frequency_hz, double gain_unit) {
   return text + "family: {members: 20, width: 0.1}\n";
 }
 
-Json Run(const std::string& command, double frequency_hz, double gain_unit,
-         const std::string& written) {
+Json AnswerOf(const std::string& command, double frequency_hz, double gain_unit,
+              const std::string& written) {
   const TemporaryFolder folder;
   const auto config = folder.Write("scaled.yaml", Problem(frequency_hz, gain_unit));
   const ProgramResult run =
@@ -58,14 +58,14 @@ std::vector<double> Predictions(const Json& family, double frequency_hz) {
 
 // Growth rates were wrong above 2 kHz, the program aborted at 5 kHz, and ran for ever at 0.5 Hz.
 TEST(Scaling, FamilyFromHalfAHertzToHundredKilohertz) {
-  const Json expected = Run("family", 220.0, 1.0, "family.json");
+  const Json expected = AnswerOf("family", 220.0, 1.0, "family.json");
   const std::vector<double> predicted = Predictions(expected, 220.0);
   ASSERT_GE(predicted.size(), 8u);
   EXPECT_GT(predicted[0], 0.0);  // loop gains above one: the rest state grows
   for (const double frequency_hz : {0.5, 20.0, 1990.0, 2010.0, 5000.0, 1e5}) {
     for (const double gain_unit : {1.0, 1e-12, 1e12}) {
       if (gain_unit != 1.0 && frequency_hz != 20.0) continue;
-      const Json got = Run("family", frequency_hz, gain_unit, "family.json");
+      const Json got = AnswerOf("family", frequency_hz, gain_unit, "family.json");
       const std::vector<double> same = Predictions(got, frequency_hz);
       ASSERT_EQ(same.size(), predicted.size());
       for (std::size_t k = 0; k < same.size(); ++k) {
@@ -86,9 +86,9 @@ TEST(Scaling, FamilyFromHalfAHertzToHundredKilohertz) {
 }
 
 TEST(Scaling, FitFromHalfAHertzToHundredKilohertz) {
-  const Json expected = Run("fit", 220.0, 1.0, "solution.json");
+  const Json expected = AnswerOf("fit", 220.0, 1.0, "solution.json");
   for (const double frequency_hz : {0.5, 2010.0, 1e5}) {
-    const Json got = Run("fit", frequency_hz, 1e6, "solution.json");
+    const Json got = AnswerOf("fit", frequency_hz, 1e6, "solution.json");
     EXPECT_NEAR(got["cost"].get<double>(), expected["cost"].get<double>(), 1e-9);
     for (const std::size_t i : {0u, 1u}) {
       const Json& a = got["experiments"][i];

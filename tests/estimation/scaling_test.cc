@@ -214,16 +214,19 @@ TEST(Scaling, AnalysisOfARecord) {
   options.breathing = 0.05;
   options.line_ratio = 3.45;
   const Record record = testing::Synthesise(options, 7).record;
+  AnalysisOptions analysis;
+  analysis.model = TwoModes();
   const auto analyse = [&](const Units& u) {
     NamedRecord scaled{"exp1", 0.5, record};
     scaled.record.sampling_hz *= u.a;
     for (double& p : scaled.record.pressure) p *= u.b;
     for (double& q : scaled.record.heat_release) q *= u.c;
-    return AnalyseRecords(std::vector{scaled}).analyses[0];
+    return AnalyseRecords(std::vector{scaled}, analysis).analyses[0];
   };
   const Analysis expected = analyse({});
   ASSERT_EQ(expected.characteristics.state, CycleState::kLimitCycle);
   ASSERT_TRUE(expected.flame_curve && expected.transfer && expected.loop_gain);
+  ASSERT_TRUE(expected.transfer_fit.has_value());
   for (const Units& u : {Units{std::exp2(-8), 1.0, 1.0}, Units{std::exp2(9), 1.0, 1.0},
                          Units{1.0, std::exp2(-20), std::exp2(20)},
                          Units{std::exp2(8), std::exp2(20), std::exp2(-20)}}) {
