@@ -35,13 +35,22 @@ double* Tolerance(MembershipTest& test, Condition condition) {
       return nullptr;
     case Condition::kTransfer:
       return &test.transfer_distance_max;
+    case Condition::kSecondModeShare:
+      return &test.second_mode_share_max;
+    case Condition::kSecondCrossingGain:
+      return &test.second_crossing_gain_min;
   }
   return nullptr;
 }
 
+// What the condition asks for is a least value: it gives way downwards.
+bool IsMinimum(Condition condition) {
+  return condition == Condition::kLoopGain || condition == Condition::kSecondCrossingGain;
+}
+
 void SwitchOff(MembershipTest& test, Condition condition) {
   if (double* const value = Tolerance(test, condition)) {
-    *value = condition == Condition::kLoopGain ? 0.0 : kInfinity;
+    *value = IsMinimum(condition) ? 0.0 : kInfinity;
   } else {
     test.xi_increasing = false;
   }
@@ -49,9 +58,10 @@ void SwitchOff(MembershipTest& test, Condition condition) {
 
 // A search draws best within tolerances of a moderate size, and a member at those is one without
 // them: they stand for "switched off", from narrow to wide, before the real thing.
-constexpr MembershipTest kModerate[] = {{0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false, 8.0},
-                                        {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false, 20.0},
-                                        {0.6, 30.0, 90.0, 0.0, 180.0, 1.5, 1.0, false, kInfinity}};
+constexpr MembershipTest kModerate[] = {
+    {0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false, 8.0, 0.3, 0.0},
+    {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false, 20.0, 1.0, 0.0},
+    {0.6, 30.0, 90.0, 0.0, 180.0, 1.5, 1.0, false, kInfinity, kInfinity, 0.0}};
 
 void Widen(MembershipTest& test, Condition condition, const MembershipTest& to) {
   MembershipTest wide = to;
@@ -59,7 +69,7 @@ void Widen(MembershipTest& test, Condition condition, const MembershipTest& to) 
   const double* const target = Tolerance(wide, condition);
   if (value == nullptr || target == nullptr) {
     test.xi_increasing = false;
-  } else if (condition == Condition::kLoopGain) {
+  } else if (IsMinimum(condition)) {
     *value = 0.0;
   } else {
     *value = std::max(*value, *target);
@@ -113,6 +123,8 @@ std::optional<double> NeededLocally(const FamilyProblem& problem, Condition cond
     *value = std::expm1(share * std::log1p(*value));
   } else if (condition == Condition::kXiMax) {
     *value *= std::exp(share - 1.0);
+  } else if (condition == Condition::kSecondCrossingGain) {
+    *value *= std::exp(1.0 - share);
   } else {
     *value *= share;
   }
@@ -137,8 +149,8 @@ Relaxation Relax(const FamilyProblem& problem, Condition condition, bool searchi
   }
   // The family only grows with a tolerance: bisection between too tight and wide enough.
   double tight = relaxation.value;
-  double wide = condition == Condition::kLoopGain ? 0.0 : std::max(tight, 1e-3) * 2.0;
-  for (int doubling = 0; condition != Condition::kLoopGain && doubling < 40; ++doubling) {
+  double wide = IsMinimum(condition) ? 0.0 : std::max(tight, 1e-3) * 2.0;
+  for (int doubling = 0; !IsMinimum(condition) && doubling < 40; ++doubling) {
     *value = wide;
     if (DecideFeasible(at) == Feasibility::kMember) break;
     tight = wide;
@@ -152,6 +164,25 @@ Relaxation Relax(const FamilyProblem& problem, Condition condition, bool searchi
   }
   relaxation.needed = wide;
   return relaxation;
+}
+
+// The conditions that no model of this problem can fail: they are in no minimal set.
+unsigned InertConditions(const FamilyProblem& problem) {
+  const auto bit = [](Condition condition) { return 1u << static_cast<unsigned>(condition); };
+  const auto any = [&](const auto& is_so) {
+    return std::ranges::any_of(problem.experiments, is_so);
+  };
+  const bool two_modes = problem.model.modes == 2;
+  unsigned inert = 0;
+  if (!problem.HasTransfer()) inert |= bit(Condition::kTransfer);
+  if (!two_modes) inert |= bit(Condition::kSecondModeShare);
+  if (!two_modes || !any([](const Experiment& e) { return !e.lines.empty(); })) {
+    inert |= bit(Condition::kSecondCrossing);
+  }
+  if (!two_modes || !any([&](const Experiment& e) { return TestsLineGain(e, problem.test); })) {
+    inert |= bit(Condition::kSecondCrossingGain);
+  }
+  return inert;
 }
 
 }  // namespace
@@ -171,15 +202,14 @@ Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
   conflict.proved = whole == Feasibility::kEmpty;
   if (!conflict.is_empty) return conflict;
 
+  const unsigned inert = InertConditions(problem);
   std::vector<unsigned> minimal;
   std::vector<Member> known;  // found so far, to be tried first
   for (int size = 0; size <= static_cast<int>(kNumConditions); ++size) {
     std::vector<unsigned> candidates;
     for (unsigned set = 0; set < (1u << kNumConditions); ++set) {
       if (std::popcount(set) != size) continue;
-      if (!problem.HasTransfer() && ((set >> static_cast<unsigned>(Condition::kTransfer)) & 1u)) {
-        continue;
-      }
+      if ((set & inert) != 0) continue;
       const bool contains_smaller =
           std::any_of(minimal.begin(), minimal.end(),
                       [&](unsigned smaller) { return (set & smaller) == smaller; });

@@ -321,7 +321,8 @@ struct MemberDrawer::Impl {
         if (count == 0) return false;
         model.omega_hz = roots[random.Index(static_cast<std::size_t>(count))];
       } else {
-        model.omega_hz = Pick(random, wedge, focus.omega_end);
+        const double least = LeastOmega(f, xi_i, std::tan(-theta), wedge);
+        model.omega_hz = Pick(random, {least, wedge.hi}, focus.omega_end);
       }
       if (shared_omega) model.omega_hz = window_hz.lo;
       const ModeCoefficients coefficients =
@@ -336,7 +337,30 @@ struct MemberDrawer::Impl {
         model.M = second_kind == ParameterKind::kM ? globals.second : globals.second * model.N;
       }
     }
-    return SetTau(random, i, theta, globals, focus, model);
+    return KeepsSecond(i, model) && SetTau(random, i, theta, globals, focus, model);
+  }
+
+  // Below it the second mode would add more than second_mode_share_max: z = N U_1 + M U_r has its
+  // parts in the ratio of the sines of the angles to the other part's direction, and from the
+  // one-mode solution down the share only grows.
+  double LeastOmega(double frequency_hz, double xi_i, double tangent, const Range& wedge) const {
+    const auto is_minor = [&](double omega_hz) {
+      const double lag = std::atan(tangent);
+      const double first = std::atan(Detuning(frequency_hz, omega_hz) / xi_i) - lag;
+      const double second = lag - std::atan(Detuning(frequency_hz, ratio * omega_hz) / xi_i);
+      return std::sin(first) <= problem.test.second_mode_share_max * std::sin(second);
+    };
+    double lo = wedge.lo, hi = wedge.hi;
+    if (!std::isfinite(problem.test.second_mode_share_max) || is_minor(lo)) return lo;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (lo + hi);
+      (is_minor(middle) ? hi : lo) = middle;
+    }
+    return hi;
+  }
+
+  bool KeepsSecond(std::size_t i, const LoopModel& model) const {
+    return !two_modes || KeepsSecondMode(problem.experiments[i], model, problem.test);
   }
 
   // tau within the loop phase tolerance; with lines, within the part of it that closes the loop at
@@ -414,7 +438,7 @@ struct MemberDrawer::Impl {
       model.N = shared_N ? globals.N : (std::sqrt(discriminant) - b) / SquaredMagnitude(first);
     }
     const double theta = Angle(model.N * first + model.M * other);
-    return SetTau(random, i, theta, globals, focus, model);
+    return KeepsSecond(i, model) && SetTau(random, i, theta, globals, focus, model);
   }
 
   bool InDomain(const Member& models) const {

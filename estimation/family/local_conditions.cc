@@ -38,6 +38,15 @@ class RowMaker {
       Add(error / tolerance, i, IsSoft(Condition::kSecondCrossing));
       Add(-error / tolerance, i, IsSoft(Condition::kSecondCrossing));
     }
+    const MembershipTest& test = c_.problem.test;
+    for (const LocalJet& ln_gain : p.ln_line_gain) {
+      const double least = std::log(test.second_crossing_gain_min * (1.0 + kLocalMargin));
+      Add(1.0 + (least - ln_gain), i, IsSoft(Condition::kSecondCrossingGain));
+    }
+    if (std::isfinite(test.second_mode_share_max)) {
+      Add(p.second_mode_share / (test.second_mode_share_max * (1.0 - kLocalMargin)), i,
+          IsSoft(Condition::kSecondModeShare));
+    }
     if (!c_.shared_second) {
       Add(1.0 - p.above, i, false);
       Add(1.0 - p.below, i, false);

@@ -315,6 +315,10 @@ class Chart {
         return false;
       }
     }
+    if (two_modes_) {
+      const LoopModel model{place.omega_hz, place.xi, place.N, place.M, 0.0, ratio_};
+      if (!KeepsSecondMode(experiment, model, problem_.test)) return false;
+    }
     if (!has_lines_ && FreeLoopPhase()) return true;
     const double tau = shared_tau_ ? state.tau_s
                                    : TauFromPhase(targets_[i].frequency_hz, place.phase,
