@@ -62,6 +62,8 @@ FamilyProblem MakeFamilyProblem(const Config& config, std::vector<Experiment> ex
   const ModelSpec defaults = DefaultModelSpec();
   for (const ParameterKind kind : kParameterKinds) {
     const ParameterSpec& spec = config.model[kind];
+    // What is held at one value is the same for all experiments.
+    if (spec.fixed) problem.model[kind].scope = ParameterScope::kShared;
     if (spec.min != defaults[kind].min) problem.domain[kind].lo = spec.min;
     if (spec.max != defaults[kind].max) problem.domain[kind].hi = spec.max;
   }

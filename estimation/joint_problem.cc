@@ -131,7 +131,10 @@ void JointProblem::AddParameters() {
   std::vector<LoopModel> starts;
   for (const Experiment& experiment : experiments_) starts.push_back(StartModel(experiment));
   const auto add = [&](ParameterKind kind, int experiment, double start) {
-    const ParameterSpec& spec = model_[kind];
+    const ParameterSpec& spec =
+        experiment == kShared
+            ? model_[kind]
+            : model_.Of(kind, experiments_[static_cast<std::size_t>(experiment)].name);
     CHECK(spec.min > 0.0 && spec.min < spec.max) << ParameterName(kind);
     ParameterBlock block;
     block.name = std::string(ParameterName(kind));

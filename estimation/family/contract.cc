@@ -252,11 +252,11 @@ CellContractor::CellContractor(const FamilyProblem& problem) {
   const std::vector<ExperimentTarget> targets = MakeTargets(problem, -1e-13);
   constexpr double kPi = 3.14159265358979323846;
   const Interval pi = Widened(kPi, kPi);
-  const auto range_of = [&](ParameterKind kind) {
-    const Range range = problem.RangeOf(kind);
-    return Interval(range.lo, range.hi);
-  };
   for (std::size_t i = 0; i < targets.size(); ++i) {
+    const auto range_of = [&](ParameterKind kind) {
+      const Range range = problem.RangeOf(kind, i);
+      return Interval(range.lo, range.hi);
+    };
     const Experiment& experiment = problem.experiments[i];
     ContractTarget target;
     target.frequency_hz = Interval(experiment.frequency_hz);

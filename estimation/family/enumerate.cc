@@ -47,6 +47,7 @@ struct MemberDrawer::Impl {
   double ratio;
   ParameterKind second_kind;
   Range xi, omega, N, second, tau;
+  std::vector<Range> own_xi;
   Range window_support, second_support, N_support;
   bool supported = false;
 
@@ -68,6 +69,9 @@ struct MemberDrawer::Impl {
     N = p.RangeOf(ParameterKind::kN);
     second = p.RangeOf(second_kind);
     tau = p.RangeOf(ParameterKind::kTau);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      own_xi.push_back(Intersection(xi, p.RangeOf(ParameterKind::kXi, i)));
+    }
     for (const ExperimentTarget& target : targets) {
       if (target.IsEmpty()) return;
     }
@@ -197,11 +201,11 @@ struct MemberDrawer::Impl {
       ExperimentTarget target = targets[i];
       target.phase_rad = phases[i];
       if (!two_modes) {
-        xis[i] = XiInWindow(target, window_hz, xi);
+        xis[i] = XiInWindow(target, window_hz, own_xi[i]);
       } else {
         // y_r <= xi t <= y somewhere in the window: two one-mode conditions.
         const double unbounded = std::numeric_limits<double>::infinity();
-        xis[i] = XiInWindow(target, {window_hz.lo, unbounded}, xi);
+        xis[i] = XiInWindow(target, {window_hz.lo, unbounded}, own_xi[i]);
         xis[i] = XiInWindow(target, {0.0, ratio * window_hz.hi}, xis[i]);
         if (IsEmpty(xis[i])) return false;
         if (shared_second) xis[i] = TwoModeXi(i, phases[i], window_hz, xis[i], globals);
@@ -442,13 +446,21 @@ struct MemberDrawer::Impl {
   }
 
   bool InDomain(const Member& models) const {
-    for (const LoopModel& model : models) {
-      if (!omega.Contains(model.omega_hz) || !N.Contains(model.N) || !tau.Contains(model.tau_s)) {
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      const LoopModel& model = models[i];
+      const auto contains = [&](ParameterKind kind, const Range& common, double value) {
+        return problem.model.own.empty() ? common.Contains(value)
+                                         : problem.RangeOf(kind, i).Contains(value);
+      };
+      if (!contains(ParameterKind::kOmega, omega, model.omega_hz) ||
+          !contains(ParameterKind::kN, N, model.N) ||
+          !contains(ParameterKind::kTau, tau, model.tau_s)) {
         return false;
       }
       if (two_modes) {
         const double value = second_kind == ParameterKind::kM ? model.M : model.M / model.N;
-        if (!(value > 0.0) || (!shared_second && !second.Contains(value))) return false;
+        if (!(value > 0.0)) return false;
+        if (!shared_second && !contains(second_kind, second, value)) return false;
       }
     }
     return true;

@@ -256,7 +256,7 @@ class Greedy {
 }  // namespace
 
 bool HasGreedyTradeoff(const FamilyProblem& problem) {
-  if (problem.model.modes != 2 || !problem.test.xi_increasing || problem.HasTransfer()) {
+  if (problem.model.modes != 2 || !problem.model.own.empty() || !problem.test.xi_increasing || problem.HasTransfer()) {
     return false;
   }
   const bool shares_m = problem.IsShared(ParameterKind::kM);
