@@ -24,6 +24,7 @@ AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options
   if (config.analysis.method == CharacteristicsMethod::kSeed) analysis.flame_curve.max_harmonic = 1;
   analysis.delay_branch = config.analysis.delay_branch;
   analysis.model = config.model;
+  analysis.second_mode_share_max = config.family.test.second_mode_share_max;
   analysis.threads = options.threads;
   return analysis;
 }

@@ -350,9 +350,9 @@ struct MemberDrawer::Impl {
   double LeastOmega(double frequency_hz, double xi_i, double tangent, const Range& wedge) const {
     const auto is_minor = [&](double omega_hz) {
       const double lag = std::atan(tangent);
-      const double first = std::atan(Detuning(frequency_hz, omega_hz) / xi_i) - lag;
-      const double second = lag - std::atan(Detuning(frequency_hz, ratio * omega_hz) / xi_i);
-      return std::sin(first) <= problem.test.second_mode_share_max * std::sin(second);
+      const double to_first = std::atan(Detuning(frequency_hz, omega_hz) / xi_i) - lag;
+      const double to_second = lag - std::atan(Detuning(frequency_hz, ratio * omega_hz) / xi_i);
+      return std::sin(to_first) <= problem.test.second_mode_share_max * std::sin(to_second);
     };
     double lo = wedge.lo, hi = wedge.hi;
     if (!std::isfinite(problem.test.second_mode_share_max) || is_minor(lo)) return lo;

@@ -203,7 +203,7 @@ TEST(SecondModeTest, MembersStayOnThePapersBranchByDefault) {
 }
 
 TEST(SecondModeTest, ConflictNamesTheGainAtTheLineAndWhatWouldDo) {
-  FamilyProblem problem = Problem(2);
+  FamilyProblem problem = Problem(1);
   problem.test.second_crossing_gain_min = 100.0;
   const Conflict conflict = ExplainEmpty(problem, 2);
   ASSERT_TRUE(conflict.is_empty);
