@@ -1,9 +1,11 @@
 #include <cstdio>
+#include <optional>
 
 #include "app/command.h"
 #include "app/health_text.h"
 #include "app/problem_input.h"
 #include "app/record_input.h"
+#include "app/second_mode_text.h"
 #include "app/text_table.h"
 #include "app/vanishing_text.h"
 #include "estimation/family/membership.h"
@@ -118,18 +120,25 @@ int Run(const Options& options) {
   const JointProblem problem(input.experiments, config.model, config.residuals);
   const JointFit fit = SolveJoint(problem, config.solver, options.seed, options.threads);
   const VanishingPhi vanishing_phi = EstimateVanishingPhi(problem.experiments());
+  std::optional<BranchComparison> branches;
+  if (config.model.modes == 2) {
+    branches = CompareBranches(problem, config.residuals, fit, config.solver, options.seed,
+                               options.threads);
+  }
   const std::filesystem::path path = options.out / "solution.json";
   const Health health = CheckAll(config, options, input, problem, fit);
-  nlohmann::ordered_json solution = SolutionJson(problem, fit, vanishing_phi);
+  nlohmann::ordered_json solution = SolutionJson(problem, fit, vanishing_phi, branches);
   solution["health"] = HealthJson(health);
   WriteWholeFile(path, solution.dump(2) + "\n");
   if (!options.quiet) {
     PrintModels(problem, fit);
+    std::printf("%s", CrossingsText(problem, fit).c_str());
     PrintShared(problem, fit);
     std::printf("cost %s, %s a degree of freedom; %d of %d starts reached it; %s\n",
                 Significant(fit.cost).c_str(), Significant(CostPerDegreeOfFreedom(fit), 3).c_str(),
                 fit.starts_at_best, fit.starts,
                 fit.converged ? "converged" : fit.termination.c_str());
+    if (branches) std::printf("%s", BranchText(*branches).c_str());
     std::printf("%s", VanishingText(vanishing_phi, config.operating_parameter).c_str());
     PrintIdentifiability(fit);
     std::printf("written: %s\n", path.c_str());

@@ -19,6 +19,21 @@ std::string Shortcoming(const Analysis& analysis, const AnalysisOptions& options
   return text;
 }
 
+// The family's searches move omega, N and tau with xi, so that of one experiment's parameters they
+// can hold xi alone at a value.
+void CheckOwnParameters(const Config& config) {
+  for (const OwnParameter& own : config.model.own) {
+    if (!own.spec.fixed || own.kind == ParameterKind::kXi) continue;
+    const std::string key = own.experiment + "." + std::string(ParameterName(own.kind));
+    const LocatedMember* const parameters = config.tree.Find("parameters");
+    const LocatedMember* const member = parameters ? parameters->value.Find(key) : nullptr;
+    throw UserError(
+        config.source.string(), member ? member->key_line : 0, "parameters." + key,
+        "is fixed for one experiment, which the family takes for xi alone; expected min "
+        "and max, or the parameter fixed for all experiments");
+  }
+}
+
 }  // namespace
 
 ProblemInput LoadInput(const Config& config, const Options& options) {
@@ -75,9 +90,12 @@ FamilyProblem MakeFamilyProblem(const Config& config, std::vector<Experiment> ex
   problem.model = config.model;
   problem.test = config.family.test;
   problem.domain.delay_periods = problem.experiments.front().delay_periods;
+  CheckOwnParameters(config);
   const ModelSpec defaults = DefaultModelSpec();
   for (const ParameterKind kind : kParameterKinds) {
     const ParameterSpec& spec = config.model[kind];
+    // What is held at one value is the same for all experiments.
+    if (spec.fixed) problem.model[kind].scope = ParameterScope::kShared;
     if (spec.min != defaults[kind].min) problem.domain[kind].lo = spec.min;
     if (spec.max != defaults[kind].max) problem.domain[kind].hi = spec.max;
   }

@@ -29,9 +29,12 @@ AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options
   analysis.characteristics.method = config.analysis.method;
   analysis.characteristics.min_frequency_hz = config.analysis.min_frequency_hz.value_or(0.0);
   analysis.characteristics.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
+  analysis.transfer.min_frequency_hz = config.analysis.min_frequency_hz.value_or(0.0);
+  analysis.transfer.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
   if (config.analysis.method == CharacteristicsMethod::kSeed) analysis.flame_curve.max_harmonic = 1;
   analysis.delay_branch = config.analysis.delay_branch;
   analysis.model = config.model;
+  analysis.second_mode_share_max = config.family.test.second_mode_share_max;
   analysis.threads = options.threads;
   return analysis;
 }

@@ -42,7 +42,11 @@ Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
     if (options.model) {
       const TransferBand band =
           std::isfinite(f.value) ? TransferBandOf(*options.model, f.value) : TransferBand{};
-      TransferFit fit = FitTransfer(*analysis.transfer, *options.model, band);
+      std::optional<FirstModeCarries> first;
+      if (HasCycle(analysis) && std::isfinite(f.value)) {
+        first = {f.value, options.second_mode_share_max};
+      }
+      TransferFit fit = FitTransfer(*analysis.transfer, *options.model, band, first);
       if (fit.available) analysis.transfer_fit = std::move(fit);
     }
   } else if (std::isfinite(f.value)) {

@@ -16,6 +16,7 @@
 #include "estimation/growth.h"
 #include "estimation/lines.h"
 #include "estimation/record.h"
+#include "estimation/residual_spec.h"
 #include "estimation/transfer.h"
 #include "estimation/vanishing_phi.h"
 
@@ -30,8 +31,9 @@ struct AnalysisOptions {
   // Without one no transfer is fitted.
   std::optional<ModelSpec> model;
   double transfer_min_harmonic = 1.0 / 11.0;  // lowest of its points: 20 Hz at the paper's 220 Hz
-  std::optional<int> delay_branch;            // else by consistency
-  int threads = 0;                            // 0: all
+  double second_mode_share_max = kSecondModeShareMax;  // FirstModeCarries; infinite: not asked
+  std::optional<int> delay_branch;                     // else by consistency
+  int threads = 0;                                     // 0: all
 };
 
 // What needs q is absent for a pressure-only record; what needs a limit cycle is absent without

@@ -10,6 +10,7 @@
 #include "estimation/residuals/transfer_point.h"
 #include "estimation/transfer.h"
 #include "estimation/transfer_search.h"
+#include "model/second_mode.h"
 
 namespace howl {
 namespace {
@@ -18,7 +19,8 @@ using LogParameters = std::array<double, 4>;
 
 // For given omega and xi the model is linear in N and M: the best start of a grid by linear least
 // squares, M kept positive.
-LogParameters GridStart(std::span<const TransferPoint> points, double ratio, bool second_mode) {
+LogParameters GridStart(std::span<const TransferPoint> points, double ratio, bool second_mode,
+                        const std::optional<FirstModeCarries>& first_mode) {
   double best_cost = std::numeric_limits<double>::infinity();
   LogParameters best{};
   const double low = 0.5 * points.front().frequency_hz, high = 1.2 * points.back().frequency_hz;
@@ -48,13 +50,21 @@ LogParameters GridStart(std::span<const TransferPoint> points, double ratio, boo
         if (both(0) > 0.0 && both(1) > 0.0) x = both;
       }
       if (!(x(0) > 0.0)) continue;
+      const double second = std::max(x(1), 1e-3 * x(0));
+      if (second_mode && first_mode &&
+          SecondModeShare(Acoustics<double>{omega_hz, xi, x(0), second, ratio},
+                          first_mode->frequency_hz) > first_mode->second_mode_share_max) {
+        continue;
+      }
       const double cost = total - 2.0 * x.dot(rhs) + x.dot(normal * x);
       if (cost < best_cost) {
         best_cost = cost;
-        best = {std::log(omega_hz), std::log(xi), std::log(x(0)),
-                std::log(std::max(x(1), 1e-3 * x(0)))};
+        best = {std::log(omega_hz), std::log(xi), std::log(x(0)), std::log(second)};
       }
     }
+  }
+  if (!std::isfinite(best_cost) && first_mode) {
+    return GridStart(points, ratio, second_mode, std::nullopt);
   }
   return best;
 }
@@ -151,8 +161,8 @@ TransferBand TransferBandOf(const ModelSpec& model, double frequency_hz) {
   return {kLowest * frequency_hz, highest * frequency_hz};
 }
 
-TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model,
-                        const TransferBand& band) {
+TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const TransferBand& band,
+                        const std::optional<FirstModeCarries>& first) {
   CHECK(model.modes == 1 || model.modes == 2) << model.modes;
   const bool second_mode = model.modes == 2;
   TransferFit fit;
@@ -164,7 +174,7 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model,
   const double dof = 2.0 * static_cast<double>(points.size()) - free;
   const auto solve = [&](double error) {
     const std::vector<TransferPoint> softened = WithModelError(points, error);
-    return Solve(softened, model, GridStart(softened, model.harmonic_ratio, second_mode));
+    return Solve(softened, model, GridStart(softened, model.harmonic_ratio, second_mode, first));
   };
   Solution solution = solve(0.0);
   fit.chi_square_per_dof = 2.0 * solution.cost / dof;

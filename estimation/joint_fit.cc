@@ -28,10 +28,10 @@ struct StartResult {
   std::string termination;
 };
 
-StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver, std::uint64_t seed,
-                       int number) {
+StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver,
+                       const std::vector<double>& start) {
   StartResult result;
-  result.logs = problem.Start(number, seed);
+  result.logs = start;
   const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(result.logs.data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
@@ -159,20 +159,36 @@ Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector
   return ComputeIdentifiability(Jacobian(problem, logs), names);
 }
 
+double JointCost(const JointProblem& problem, std::vector<double> logs) {
+  const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(logs.data());
+  double cost = 0.0;
+  CHECK(ceres_problem->Evaluate({}, &cost, nullptr, nullptr, nullptr));
+  return cost;
+}
+
 JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::uint64_t seed,
                     int threads) {
   CHECK_GE(solver.starts, 1);
-  std::vector<StartResult> starts(static_cast<std::size_t>(solver.starts));
-  RunUnits(starts.size(), threads, [&](std::size_t number) {
-    starts[number] = SolveStart(problem, solver, seed, static_cast<int>(number));
-  });
+  std::vector<std::vector<double>> starts;
+  for (int number = 0; number < solver.starts; ++number) {
+    starts.push_back(problem.Start(number, seed));
+  }
+  return SolveJointFrom(problem, solver, starts, threads);
+}
+
+JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
+                        const std::vector<std::vector<double>>& from, int threads) {
+  CHECK(!from.empty());
+  std::vector<StartResult> starts(from.size());
+  RunUnits(starts.size(), threads,
+           [&](std::size_t number) { starts[number] = SolveStart(problem, solver, from[number]); });
   const auto best = BestStart(starts);
   JointFit fit;
   fit.converged = best->converged;
   fit.termination = best->termination;
   fit.cost = best->cost;
   fit.iterations = best->iterations;
-  fit.starts = solver.starts;
+  fit.starts = static_cast<int>(from.size());
   for (const StartResult& start : starts) {
     fit.starts_converged += start.converged ? 1 : 0;
     const bool same = std::abs(start.cost - best->cost) <= kSameCost * best->cost + kZeroCost;

@@ -54,6 +54,13 @@ struct JointFit {
 JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::uint64_t seed,
                     int threads);
 
+// From these starts, each of problem.parameters().size() logarithms, instead of the problem's own.
+JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
+                        const std::vector<std::vector<double>>& starts, int threads);
+
+// Cost at `logs`, weights and losses applied.
+double JointCost(const JointProblem& problem, std::vector<double> logs);
+
 // J and identifiability at `logs` (weights and losses applied).
 Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector<double>& logs);
 

@@ -17,6 +17,8 @@
 #include "estimation/residuals/limit_cycle_phase.h"
 #include "estimation/residuals/phase_equality.h"
 #include "estimation/residuals/second_crossing.h"
+#include "estimation/residuals/second_crossing_gain.h"
+#include "estimation/residuals/second_mode_minor.h"
 #include "estimation/residuals/transfer_point.h"
 #include "estimation/residuals/xi_increasing.h"
 #include "estimation/search_range.h"
@@ -108,7 +110,9 @@ bool ActsOn(const ResidualSet& residuals, ResidualKind kind, const Experiment& e
   if (!spec.experiments.empty()) {
     return std::ranges::find(spec.experiments, experiment.name) != spec.experiments.end();
   }
-  return kind != ResidualKind::kLimitCycleGain || experiment.reliable;
+  const bool asks_slope =
+      kind == ResidualKind::kLimitCycleGain || kind == ResidualKind::kSecondCrossingGain;
+  return !asks_slope || experiment.reliable;
 }
 
 JointProblem::JointProblem(std::vector<Experiment> experiments, const ModelSpec& model,
@@ -128,7 +132,10 @@ void JointProblem::AddParameters() {
   std::vector<LoopModel> starts;
   for (const Experiment& experiment : experiments_) starts.push_back(StartModel(experiment));
   const auto add = [&](ParameterKind kind, int experiment, double start) {
-    const ParameterSpec& spec = model_[kind];
+    const ParameterSpec& spec =
+        experiment == kShared
+            ? model_[kind]
+            : model_.Of(kind, experiments_[static_cast<std::size_t>(experiment)].name);
     const SearchRange range = MakeSearchRange(kind, spec, experiments_);
     CHECK(range.min > 0.0 && range.min < range.max) << ParameterName(kind);
     ParameterBlock block;
@@ -262,12 +269,35 @@ void JointProblem::AddEqualities(int i, const ResidualSet& residuals) {
                " " + std::to_string(std::lround(line.frequency_hz)) + " Hz");
     }
   }
+  if (two_modes) AddSecondMode(i, residuals);
   if (ActsOn(residuals, ResidualKind::kTransfer, experiment)) AddTransfer(i, residuals);
   if (ActsOn(residuals, ResidualKind::kDampingPrior, experiment)) {
     Add(residuals, ResidualKind::kDampingPrior, i,
         DampingPrior::Create(residuals[ResidualKind::kDampingPrior].center,
                              residuals[ResidualKind::kDampingPrior].std),
         {ParameterIndex(ParameterKind::kXi, i)});
+  }
+}
+
+void JointProblem::AddSecondMode(int i, const ResidualSet& residuals) {
+  const Experiment& experiment = experiments_[static_cast<std::size_t>(i)];
+  const SecondMode second{model_.harmonic_ratio, model_.second_mode_relative};
+  if (ActsOn(residuals, ResidualKind::kSecondModeMinor, experiment)) {
+    const ResidualSpec& spec = residuals[ResidualKind::kSecondModeMinor];
+    Add(residuals, ResidualKind::kSecondModeMinor, i,
+        SecondModeMinorResidual::CreateFull({experiment.frequency_hz, spec.center, spec.std},
+                                            second),
+        AcousticBlocks(i, true));
+  }
+  if (!ActsOn(residuals, ResidualKind::kSecondCrossingGain, experiment)) return;
+  if (!experiment.flame_slope) return;
+  for (const ObservedLine& line : experiment.lines) {
+    Add(residuals, ResidualKind::kSecondCrossingGain, i,
+        LimitCycleGainResidual::CreateFull(
+            SecondCrossingGain(line.frequency_hz, *experiment.flame_slope,
+                               residuals[ResidualKind::kSecondCrossingGain].std),
+            second),
+        AcousticBlocks(i, true), " " + std::to_string(std::lround(line.frequency_hz)) + " Hz");
   }
 }
 

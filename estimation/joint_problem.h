@@ -2,11 +2,11 @@
 //
 //   minimise over all parameters  1/2 sum_b weight_b loss_b(|residual_b|^2)
 //
-// with the residuals of estimation/residuals/ (equations (1a), (1b), (5a), (5c) and the qualitative
-// conditions of section 3.3). Each parameter is a block of size one holding the natural logarithm
-// of a positive quantity in its natural unit (omega_hz, xi, N, M or M / N, tau_s), shared by all
-// experiments or private to one. omega_prior and tau_prior add the common value that experiments
-// scatter about as a parameter of its own.
+// with the residuals of estimation/residuals/ (equations (1a), (1b), (5a) to (5c) and the
+// qualitative conditions of section 3.3). Each parameter is a block of size one holding the natural
+// logarithm of a positive quantity in its natural unit (omega_hz, xi, N, M or M / N, tau_s), shared
+// by all experiments or private to one. omega_prior and tau_prior add the common value that
+// experiments scatter about as a parameter of its own.
 #ifndef HOWL_ESTIMATION_JOINT_PROBLEM_H_
 #define HOWL_ESTIMATION_JOINT_PROBLEM_H_
 
@@ -81,6 +81,7 @@ class JointProblem {
   void AddParameters();
   void AddMean(ResidualKind prior, ParameterKind kind, const ResidualSet& residuals);
   void AddEqualities(int experiment, const ResidualSet& residuals);
+  void AddSecondMode(int experiment, const ResidualSet& residuals);
   void AddTransfer(int experiment, const ResidualSet& residuals);
   void AddXiOrder(const ResidualSet& residuals);
   void Add(const ResidualSet& residuals, ResidualKind kind, int experiment,
@@ -95,8 +96,9 @@ class JointProblem {
   std::vector<ResidualBlock> residuals_;
 };
 
-// True where `spec` acts on the experiment. limit_cycle_gain acts on reliable experiments alone
-// unless it names others, because the flame slope of an unreliable record is not to be trusted.
+// True where `spec` acts on the experiment. limit_cycle_gain and second_crossing_gain act on
+// reliable experiments alone unless they name others, because the flame slope of an unreliable
+// record is not to be trusted.
 bool ActsOn(const ResidualSet& residuals, ResidualKind kind, const Experiment& experiment);
 
 }  // namespace howl

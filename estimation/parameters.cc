@@ -16,4 +16,11 @@ ModelSpec DefaultModelSpec() {
   return model;
 }
 
+const ParameterSpec& ModelSpec::Of(ParameterKind kind, std::string_view experiment) const {
+  for (const OwnParameter& parameter : own) {
+    if (parameter.kind == kind && parameter.experiment == experiment) return parameter.spec;
+  }
+  return (*this)[kind];
+}
+
 }  // namespace howl

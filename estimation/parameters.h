@@ -5,7 +5,9 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "model/loop.h"
 
@@ -36,11 +38,20 @@ struct ParameterSpec {
   bool fixed = false;             // held at `initial`
 };
 
+// A parameter of one experiment alone, in the place of what holds for all of them; its scope is
+// kExperiment.
+struct OwnParameter {
+  std::string experiment;
+  ParameterKind kind = ParameterKind::kXi;
+  ParameterSpec spec;
+};
+
 struct ModelSpec {
   int modes = 1;  // 1: N alone; 2: N, and M or M_over_N
   double harmonic_ratio = kSeedHarmonicRatio;
   bool second_mode_relative = false;  // the free parameter is M / N instead of M
   std::array<ParameterSpec, kNumParameterKinds> parameters;
+  std::vector<OwnParameter> own;
 
   ParameterSpec& operator[](ParameterKind kind) {
     return parameters[static_cast<std::size_t>(kind)];
@@ -48,6 +59,8 @@ struct ModelSpec {
   const ParameterSpec& operator[](ParameterKind kind) const {
     return parameters[static_cast<std::size_t>(kind)];
   }
+  // What holds for an experiment: its own, or what holds for all.
+  const ParameterSpec& Of(ParameterKind kind, std::string_view experiment) const;
   bool Uses(ParameterKind kind) const {
     if (kind == ParameterKind::kM) return modes == 2 && !second_mode_relative;
     if (kind == ParameterKind::kMOverN) return modes == 2 && second_mode_relative;

@@ -15,6 +15,9 @@ ResidualSet DefaultResidualSet() {
   set[ResidualKind::kDampingPrior].std = 1.0;
   set[ResidualKind::kDampingPrior].center = 0.1;
   set[ResidualKind::kTauPrior].std = 0.03;
+  set[ResidualKind::kSecondModeMinor].std = 0.01;
+  set[ResidualKind::kSecondModeMinor].center = kSecondModeShareMax;
+  set[ResidualKind::kSecondCrossingGain].std = 0.05;
   return set;
 }
 

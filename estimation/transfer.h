@@ -23,6 +23,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -64,6 +65,14 @@ struct TransferBand {
   }
 };
 
+// Where the search starts with two modes: where the second adds no more than a share at the limit
+// cycle, (5b). Elsewhere the two may have changed places: a mode at omega is as well a second mode
+// at r times omega / r.
+struct FirstModeCarries {
+  double frequency_hz = 0.0;  // of the limit cycle
+  double second_mode_share_max = std::numeric_limits<double>::infinity();
+};
+
 TransferBand TransferBandOf(const ModelSpec& model, double frequency_hz);
 
 struct TransferFitPoint {
@@ -95,7 +104,8 @@ struct TransferFit {
 // The model has no default: a fit with other modes than those that its result is compared with
 // rejects right models. `band`: the points that take part.
 TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model,
-                        const TransferBand& band = {});
+                        const TransferBand& band = {},
+                        const std::optional<FirstModeCarries>& first = std::nullopt);
 
 }  // namespace howl
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "estimation/family/second_mode_bound.h"
 #include "estimation/family/targets.h"
 #include "model/complex.h"
 
@@ -179,6 +180,7 @@ bool ContractDelay(const ContractTarget& target, ExperimentBox& box) {
 }
 
 bool ContractLines(const ContractTarget& target, ExperimentBox& box) {
+  if (!target.has_line_error) return true;
   for (const Interval& line : target.lines_hz) {
     const Interval w = target.w_rad_s / target.frequency_hz * line;
     const Interval rate = target.w_rad_s / target.frequency_hz;
@@ -223,6 +225,23 @@ bool ContractLines(const ContractTarget& target, ExperimentBox& box) {
   return true;
 }
 
+namespace {
+
+// Widened by more than the rounding of the test, which is evaluated in doubles.
+void AskOfSecondMode(const Experiment& experiment, const MembershipTest& test,
+                     ContractTarget& target) {
+  constexpr double kSlack = 1e-12;
+  target.second_mode_share_max = test.second_mode_share_max * (1.0 + kSlack) + kSlack;
+  if (!TestsLineGain(experiment, test)) return;
+  for (const Interval& line : target.lines_hz) {
+    const Interval w = target.w_rad_s / target.frequency_hz * line;
+    target.line_response_min.push_back(Interval(test.second_crossing_gain_min * (1.0 - kSlack)) /
+                                       (w * Interval(std::abs(*experiment.flame_slope))));
+  }
+}
+
+}  // namespace
+
 CellContractor::CellContractor(const FamilyProblem& problem) {
   const RoundingGuard guard;
   two_modes_ = problem.model.modes == 2;
@@ -233,11 +252,11 @@ CellContractor::CellContractor(const FamilyProblem& problem) {
   const std::vector<ExperimentTarget> targets = MakeTargets(problem, -1e-13);
   constexpr double kPi = 3.14159265358979323846;
   const Interval pi = Widened(kPi, kPi);
-  const auto range_of = [&](ParameterKind kind) {
-    const Range range = problem.RangeOf(kind);
-    return Interval(range.lo, range.hi);
-  };
   for (std::size_t i = 0; i < targets.size(); ++i) {
+    const auto range_of = [&](ParameterKind kind) {
+      const Range range = problem.RangeOf(kind, i);
+      return Interval(range.lo, range.hi);
+    };
     const Experiment& experiment = problem.experiments[i];
     ContractTarget target;
     target.frequency_hz = Interval(experiment.frequency_hz);
@@ -246,13 +265,15 @@ CellContractor::CellContractor(const FamilyProblem& problem) {
     target.turns = pi * 1.5 + pi * (2.0 * problem.domain.delay_periods);
     target.phi = experiment.phi;
     const double line_tolerance = problem.test.second_crossing_tolerance_deg;
-    if (two_modes_ && line_tolerance < 180.0) {
-      for (const ObservedLine& line : experiment.lines) {
-        target.lines_hz.emplace_back(line.frequency_hz);
-      }
+    for (const ObservedLine& line : experiment.lines) {
+      target.lines_hz.emplace_back(line.frequency_hz);
+    }
+    target.has_line_error = two_modes_ && line_tolerance < 180.0;
+    if (target.has_line_error) {
       const double rad = Above(line_tolerance * kRadPerDeg);
       target.line_error_rad = Interval(-rad, rad);
     }
+    if (two_modes_) AskOfSecondMode(experiment, problem.test, target);
     if (experiment.transfer_ellipsoid && std::isfinite(problem.test.transfer_distance_max)) {
       target.transfer = MakeTransferBound(*experiment.transfer_ellipsoid, two_modes_,
                                           problem.test.transfer_distance_max);
@@ -303,8 +324,9 @@ bool CellContractor::ContractExperiment(std::size_t i, ExperimentBox& box) const
   const ContractTarget& target = targets_[i];
   if (!ContractTransfer(target, box)) return false;
   if (two_modes_) {
-    return ContractTwoModes(target, box) && ContractDelay(target, box) &&
-           ContractLines(target, box);
+    return ContractTwoModes(target, box) && ContractSecondModeShare(target, box) &&
+           ContractDelay(target, box) && ContractLines(target, box) &&
+           ContractLineGain(target, box);
   }
   return ContractPhase(target, box) && ContractGain(target, box) && ContractDelay(target, box);
 }

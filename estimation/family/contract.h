@@ -36,7 +36,11 @@ struct ContractTarget {
   Interval turns;  // 3 pi / 2 + 2 pi delay_periods
   double phi = 0.0;
   std::vector<Interval> lines_hz;
+  bool has_line_error = false;
   Interval line_error_rad;  // second crossing tolerance
+  // Least |G| at each line; empty where second_crossing_gain_min does not look at the experiment.
+  std::vector<Interval> line_response_min;
+  double second_mode_share_max = kUnbounded;
   TransferBound transfer;
 };
 

@@ -47,6 +47,7 @@ struct MemberDrawer::Impl {
   double ratio;
   ParameterKind second_kind;
   Range xi, omega, N, second, tau;
+  std::vector<Range> own_xi;
   Range window_support, second_support, N_support;
   bool supported = false;
 
@@ -68,6 +69,9 @@ struct MemberDrawer::Impl {
     N = p.RangeOf(ParameterKind::kN);
     second = p.RangeOf(second_kind);
     tau = p.RangeOf(ParameterKind::kTau);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      own_xi.push_back(Intersection(xi, p.RangeOf(ParameterKind::kXi, i)));
+    }
     for (const ExperimentTarget& target : targets) {
       if (target.IsEmpty()) return;
     }
@@ -197,11 +201,11 @@ struct MemberDrawer::Impl {
       ExperimentTarget target = targets[i];
       target.phase_rad = phases[i];
       if (!two_modes) {
-        xis[i] = XiInWindow(target, window_hz, xi);
+        xis[i] = XiInWindow(target, window_hz, own_xi[i]);
       } else {
         // y_r <= xi t <= y somewhere in the window: two one-mode conditions.
         const double unbounded = std::numeric_limits<double>::infinity();
-        xis[i] = XiInWindow(target, {window_hz.lo, unbounded}, xi);
+        xis[i] = XiInWindow(target, {window_hz.lo, unbounded}, own_xi[i]);
         xis[i] = XiInWindow(target, {0.0, ratio * window_hz.hi}, xis[i]);
         if (IsEmpty(xis[i])) return false;
         if (shared_second) xis[i] = TwoModeXi(i, phases[i], window_hz, xis[i], globals);
@@ -321,7 +325,8 @@ struct MemberDrawer::Impl {
         if (count == 0) return false;
         model.omega_hz = roots[random.Index(static_cast<std::size_t>(count))];
       } else {
-        model.omega_hz = Pick(random, wedge, focus.omega_end);
+        const double least = LeastOmega(f, xi_i, std::tan(-theta), wedge);
+        model.omega_hz = Pick(random, {least, wedge.hi}, focus.omega_end);
       }
       if (shared_omega) model.omega_hz = window_hz.lo;
       const ModeCoefficients coefficients =
@@ -336,7 +341,30 @@ struct MemberDrawer::Impl {
         model.M = second_kind == ParameterKind::kM ? globals.second : globals.second * model.N;
       }
     }
-    return SetTau(random, i, theta, globals, focus, model);
+    return KeepsSecond(i, model) && SetTau(random, i, theta, globals, focus, model);
+  }
+
+  // Below it the second mode would add more than second_mode_share_max: z = N U_1 + M U_r has its
+  // parts in the ratio of the sines of the angles to the other part's direction, and from the
+  // one-mode solution down the share only grows.
+  double LeastOmega(double frequency_hz, double xi_i, double tangent, const Range& wedge) const {
+    const auto is_minor = [&](double omega_hz) {
+      const double lag = std::atan(tangent);
+      const double to_first = std::atan(Detuning(frequency_hz, omega_hz) / xi_i) - lag;
+      const double to_second = lag - std::atan(Detuning(frequency_hz, ratio * omega_hz) / xi_i);
+      return std::sin(to_first) <= problem.test.second_mode_share_max * std::sin(to_second);
+    };
+    double lo = wedge.lo, hi = wedge.hi;
+    if (!std::isfinite(problem.test.second_mode_share_max) || is_minor(lo)) return lo;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (lo + hi);
+      (is_minor(middle) ? hi : lo) = middle;
+    }
+    return hi;
+  }
+
+  bool KeepsSecond(std::size_t i, const LoopModel& model) const {
+    return !two_modes || KeepsSecondMode(problem.experiments[i], model, problem.test);
   }
 
   // tau within the loop phase tolerance; with lines, within the part of it that closes the loop at
@@ -414,17 +442,25 @@ struct MemberDrawer::Impl {
       model.N = shared_N ? globals.N : (std::sqrt(discriminant) - b) / SquaredMagnitude(first);
     }
     const double theta = Angle(model.N * first + model.M * other);
-    return SetTau(random, i, theta, globals, focus, model);
+    return KeepsSecond(i, model) && SetTau(random, i, theta, globals, focus, model);
   }
 
   bool InDomain(const Member& models) const {
-    for (const LoopModel& model : models) {
-      if (!omega.Contains(model.omega_hz) || !N.Contains(model.N) || !tau.Contains(model.tau_s)) {
+    for (std::size_t i = 0; i < models.size(); ++i) {
+      const LoopModel& model = models[i];
+      const auto contains = [&](ParameterKind kind, const Range& common, double value) {
+        return problem.model.own.empty() ? common.Contains(value)
+                                         : problem.RangeOf(kind, i).Contains(value);
+      };
+      if (!contains(ParameterKind::kOmega, omega, model.omega_hz) ||
+          !contains(ParameterKind::kN, N, model.N) ||
+          !contains(ParameterKind::kTau, tau, model.tau_s)) {
         return false;
       }
       if (two_modes) {
         const double value = second_kind == ParameterKind::kM ? model.M : model.M / model.N;
-        if (!(value > 0.0) || (!shared_second && !second.Contains(value))) return false;
+        if (!(value > 0.0)) return false;
+        if (!shared_second && !contains(second_kind, second, value)) return false;
       }
     }
     return true;

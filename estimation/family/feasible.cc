@@ -13,7 +13,7 @@ bool HasExactWindows(const FamilyProblem& problem) {
     const Range range = problem.RangeOf(kind);
     return range.lo <= 0.0 && !std::isfinite(range.hi);
   };
-  return problem.model.modes == 1 && !problem.HasTransfer() &&
+  return problem.model.modes == 1 && problem.model.own.empty() && !problem.HasTransfer() &&
          !problem.IsShared(ParameterKind::kN) && !problem.IsShared(ParameterKind::kTau) &&
          is_free(ParameterKind::kN) && is_free(ParameterKind::kTau) &&
          is_free(ParameterKind::kOmega);

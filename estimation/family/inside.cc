@@ -4,6 +4,7 @@
 
 #include "estimation/family/contract.h"
 #include "estimation/family/interval.h"
+#include "estimation/family/second_mode_bound.h"
 #include "model/loop.h"
 
 namespace howl {
@@ -81,7 +82,15 @@ void TestExperiment(const Experiment& experiment, const ModelBox& box, double ha
     for (const ObservedLine& line : experiment.lines) {
       TestAngle(minus_loop(response(line.frequency_hz), line.frequency_hz),
                 test.second_crossing_tolerance_deg, verdict);
+      if (!TestsLineGain(experiment, test)) continue;
+      const Complex<Interval> at_line = response(line.frequency_hz);
+      verdict.At(sqrt(square(at_line.re) + square(at_line.im)) * two_pi *
+                     Interval(line.frequency_hz) * Interval(std::abs(*experiment.flame_slope)),
+                 test.second_crossing_gain_min, kUnbounded);
     }
+    verdict.At(SecondModeShareOf(Of(box.omega_hz), Of(box.xi), Of(box.M) / Of(box.N),
+                                 Interval(harmonic_ratio), Interval(experiment.frequency_hz)),
+               -kUnbounded, test.second_mode_share_max);
   }
   verdict.At(Of(box.xi), 0.0, test.xi_max);
   if (experiment.transfer_ellipsoid && std::isfinite(test.transfer_distance_max)) {

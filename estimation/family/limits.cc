@@ -27,6 +27,12 @@ double LimitPassedByOne(const Experiment& experiment, const LoopModel& model, Co
       return model.xi;
     case Condition::kTransfer:
       return errors.transfer_distance;
+    case Condition::kSecondModeShare:
+      return errors.second_mode_share;
+    case Condition::kSecondCrossingGain:
+      return experiment.reliable && std::isfinite(errors.second_crossing_gain)
+                 ? errors.second_crossing_gain
+                 : kInfinity;
     case Condition::kOmegaSpread:
     case Condition::kXiIncreasing:
       break;
@@ -56,11 +62,17 @@ double* LimitOf(MembershipTest& test, Condition condition) {
       return nullptr;
     case Condition::kTransfer:
       return &test.transfer_distance_max;
+    case Condition::kSecondModeShare:
+      return &test.second_mode_share_max;
+    case Condition::kSecondCrossingGain:
+      return &test.second_crossing_gain_min;
   }
   return nullptr;
 }
 
-bool IsLeast(Condition condition) { return condition == Condition::kLoopGain; }
+bool IsLeast(Condition condition) {
+  return condition == Condition::kLoopGain || condition == Condition::kSecondCrossingGain;
+}
 
 void SwitchOff(MembershipTest& test, Condition condition) {
   if (double* const limit = LimitOf(test, condition)) {
@@ -90,6 +102,11 @@ bool Binds(const FamilyProblem& problem, Condition condition) {
       return problem.experiments.size() > 1;
     case Condition::kTransfer:
       return problem.HasTransfer();
+    case Condition::kSecondModeShare:
+      return problem.model.modes == 2;
+    case Condition::kSecondCrossingGain:
+      return problem.model.modes == 2 &&
+             any([&](const Experiment& e) { return TestsLineGain(e, problem.test); });
     case Condition::kGain:
     case Condition::kPhase:
     case Condition::kLoopPhase:

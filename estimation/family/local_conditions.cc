@@ -38,6 +38,15 @@ class RowMaker {
       Add(error / tolerance, i, IsSoft(Condition::kSecondCrossing));
       Add(-error / tolerance, i, IsSoft(Condition::kSecondCrossing));
     }
+    const MembershipTest& test = c_.problem.test;
+    for (const LocalJet& ln_gain : p.ln_line_gain) {
+      const double least = std::log(test.second_crossing_gain_min * (1.0 + kLocalMargin));
+      Add(1.0 + (least - ln_gain), i, IsSoft(Condition::kSecondCrossingGain));
+    }
+    if (std::isfinite(test.second_mode_share_max)) {
+      Add(p.second_mode_share / (test.second_mode_share_max * (1.0 - kLocalMargin)), i,
+          IsSoft(Condition::kSecondModeShare));
+    }
     if (!c_.shared_second) {
       Add(1.0 - p.above, i, false);
       Add(1.0 - p.below, i, false);
@@ -51,7 +60,7 @@ class RowMaker {
     if (c_.two_modes && !c_.shared_second) {
       AddRange(i, c_.SecondKind(), c_.relative ? p.ln_M - p.ln_N : p.ln_M);
     }
-    const Range tau = c_.problem.RangeOf(ParameterKind::kTau);
+    const Range tau = c_.problem.RangeOf(ParameterKind::kTau, i);
     if (tau.lo > 0.0) Add(1.0 + (1.0 - p.tau_s / tau.lo), i, soft_.domain);
     if (std::isfinite(tau.hi)) Add(1.0 + (p.tau_s / tau.hi - 1.0), i, soft_.domain);
   }
@@ -130,7 +139,7 @@ class RowMaker {
   }
 
   void AddRange(std::size_t i, ParameterKind kind, const LocalJet& ln) {
-    const Range range = c_.problem.RangeOf(kind);
+    const Range range = c_.problem.RangeOf(kind, i);
     if (range.lo > 0.0) Add(1.0 + (std::log(range.lo) - ln), i, soft_.domain);
     if (std::isfinite(range.hi)) Add(1.0 + (ln - std::log(range.hi)), i, soft_.domain);
   }

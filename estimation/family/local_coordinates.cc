@@ -15,8 +15,10 @@ bool IsSupported(const LocalCoordinates& c) {
   for (const ParameterKind kind :
        {ParameterKind::kOmega, ParameterKind::kXi, ParameterKind::kN, ParameterKind::kTau}) {
     if (p.IsShared(kind) && p.experiments.size() > 1) return false;
-    const Range range = p.RangeOf(kind);
-    if (!(range.lo < range.hi)) return false;
+    for (std::size_t i = 0; i < p.experiments.size(); ++i) {
+      const Range range = p.RangeOf(kind, i);
+      if (!(range.lo < range.hi)) return false;
+    }
   }
   if (!(c.ln_spread > 0.0)) return false;
   if (c.two_modes) {
@@ -43,7 +45,7 @@ Range SecondBox(const LocalCoordinates& c) {
 
 LocalScale MakeScale(const LocalCoordinates& c, std::size_t i, const Range& second) {
   const MembershipTest& test = c.problem.test;
-  const Range xi = c.problem.RangeOf(ParameterKind::kXi);
+  const Range xi = c.problem.RangeOf(ParameterKind::kXi, i);
   const Experiment& e = c.problem.experiments[i];
   const ExperimentTarget& target = c.targets[i];
   LocalScale scale{};

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "model/loop.h"
+#include "model/second_mode.h"
 
 namespace howl {
 
@@ -133,16 +134,27 @@ bool TwoModes(const LocalCoordinates& c, double f, const Response<T>& response, 
   return true;
 }
 
+// What the test asks of the second mode.
 template <typename T>
-void Lines(const LocalCoordinates& c, std::size_t experiment, LocalPoint<T>& point) {
+void SecondModeAsked(const LocalCoordinates& c, std::size_t experiment, LocalPoint<T>& point) {
   using std::exp;
+  using std::log;
+  const Experiment& e = c.problem.experiments[experiment];
+  const MembershipTest& test = c.problem.test;
+  const LoopParameters<T> loop{
+      {exp(point.ln_omega), exp(point.ln_xi), exp(point.ln_N), exp(point.ln_M), T(c.ratio)},
+      point.tau_s};
+  point.second_mode_share = SecondModeShare(loop.acoustics, T(e.frequency_hz));
   point.line_rad.clear();
-  if (!(c.problem.test.second_crossing_tolerance_deg < 180.0)) return;
-  for (const ObservedLine& line : c.problem.experiments[experiment].lines) {
-    const LoopParameters<T> loop{
-        {exp(point.ln_omega), exp(point.ln_xi), exp(point.ln_N), exp(point.ln_M), T(c.ratio)},
-        point.tau_s};
-    point.line_rad.push_back(LoopPhaseError(loop, T(line.frequency_hz)));
+  point.ln_line_gain.clear();
+  for (const ObservedLine& line : e.lines) {
+    const T f(line.frequency_hz);
+    if (test.second_crossing_tolerance_deg < 180.0) {
+      point.line_rad.push_back(LoopPhaseError(loop, f));
+    }
+    if (TestsLineGain(e, test)) {
+      point.ln_line_gain.push_back(log(LoopGain(loop, f, T(*e.flame_slope))));
+    }
   }
 }
 
@@ -182,7 +194,7 @@ bool BuildLocalPoint(const LocalCoordinates& c, std::size_t experiment,
   if (!TwoModes(c, f, Response<T>{xi, across, stretch, top}, v[kLocalSecond], omega_hz, point)) {
     return false;
   }
-  Lines(c, experiment, point);
+  SecondModeAsked(c, experiment, point);
   return true;
 }
 

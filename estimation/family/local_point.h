@@ -26,8 +26,10 @@ using LocalJet = ceres::Jet<double, kLocals>;
 template <typename T>
 struct LocalPoint {
   T ln_omega, ln_xi, ln_N, ln_M, tau_s;
-  T above, below;           // y - xi t and xi t - y_r: positive where M and N are
-  std::vector<T> line_rad;  // loop phase errors
+  T above, below;               // y - xi t and xi t - y_r: positive where M and N are
+  std::vector<T> line_rad;      // loop phase errors
+  std::vector<T> ln_line_gain;  // of |L Phi'(0)|, where the test looks at it
+  T second_mode_share;          // with two modes
 };
 
 // False where there is no such model. `omega_hz` starts the search for the root and is left there.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/loop.h"
+#include "model/second_mode.h"
 
 namespace howl {
 
@@ -27,10 +28,38 @@ ExperimentErrors ComputeErrors(const Experiment& experiment, const LoopModel& mo
       errors.second_crossing_error_deg = error_deg;
     }
   }
+  errors.second_crossing_gain = SecondCrossingGain(experiment, loop);
+  errors.second_mode_share = SecondModeShare(loop.acoustics, experiment.frequency_hz);
   if (experiment.transfer_ellipsoid) {
     errors.transfer_distance = TransferDistance(*experiment.transfer_ellipsoid, model);
   }
   return errors;
+}
+
+bool TestsLineGain(const Experiment& experiment, const MembershipTest& test) {
+  return test.second_crossing_gain_min > 0.0 && experiment.reliable &&
+         experiment.flame_slope.has_value() && !experiment.lines.empty();
+}
+
+double SecondCrossingGain(const Experiment& experiment, const LoopParameters<double>& loop) {
+  if (!experiment.flame_slope || experiment.lines.empty()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const ObservedLine& line : experiment.lines) {
+    least = std::min(least, LoopGain(loop, line.frequency_hz, *experiment.flame_slope));
+  }
+  return least;
+}
+
+bool KeepsSecondMode(const Experiment& experiment, const LoopModel& model,
+                     const MembershipTest& test) {
+  const LoopParameters<double> loop = model.Loop();
+  if (!(SecondModeShare(loop.acoustics, experiment.frequency_hz) <= test.second_mode_share_max)) {
+    return false;
+  }
+  return !TestsLineGain(experiment, test) ||
+         SecondCrossingGain(experiment, loop) >= test.second_crossing_gain_min;
 }
 
 namespace {
@@ -56,6 +85,13 @@ void FalsifyOne(const Experiment& experiment, const LoopModel& model, const Memb
   if (!(model.xi <= test.xi_max)) failed.Insert(Condition::kXiMax);
   if (!(errors.transfer_distance <= test.transfer_distance_max)) {
     failed.Insert(Condition::kTransfer);
+  }
+  if (model.M > 0.0 && !(errors.second_mode_share <= test.second_mode_share_max)) {
+    failed.Insert(Condition::kSecondModeShare);
+  }
+  if (model.M > 0.0 && TestsLineGain(experiment, test) &&
+      !(errors.second_crossing_gain >= test.second_crossing_gain_min)) {
+    failed.Insert(Condition::kSecondCrossingGain);
   }
 }
 

@@ -10,20 +10,26 @@
 //   omega_spread_max           max omega / min omega - 1 <= maximum        over experiments
 //   xi_max                     xi                        <= maximum
 //   xi_increasing              xi does not fall as phi grows
+//   second_mode_share_max      |M U_r| / |N U_1| at f    <= maximum        (5b): the second mode
+//                              hardly matters at the limit cycle (two modes)
+//   second_crossing_gain_min   |L Phi'(0)| at every observed line >= minimum   (1b) at the second
+//                              crossing (two modes, reliable experiments with a flame slope)
 //   transfer_distance_max      distance of (omega, xi, N, M) from the broadband q-to-p transfer, in
 //                              standard deviations (estimation/transfer_ellipsoid.h): experiments
 //                              whose record has one
 //
-// An infinite tolerance or maximum, or a loop_gain_min of zero, switches its condition off.
+// An infinite tolerance or maximum, or a minimum of zero, switches its condition off.
 #ifndef HOWL_ESTIMATION_FAMILY_MEMBERSHIP_H_
 #define HOWL_ESTIMATION_FAMILY_MEMBERSHIP_H_
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string_view>
 
 #include "estimation/experiment.h"
 #include "estimation/parameters.h"
+#include "estimation/residual_spec.h"
 
 namespace howl {
 
@@ -37,12 +43,21 @@ enum class Condition {
   kXiMax,
   kXiIncreasing,
   kTransfer,
+  kSecondModeShare,
+  kSecondCrossingGain,
 };
 
-inline constexpr std::array kConditions = {
-    Condition::kGain,     Condition::kPhase,          Condition::kLoopPhase,
-    Condition::kLoopGain, Condition::kSecondCrossing, Condition::kOmegaSpread,
-    Condition::kXiMax,    Condition::kXiIncreasing,   Condition::kTransfer};
+inline constexpr std::array kConditions = {Condition::kGain,
+                                           Condition::kPhase,
+                                           Condition::kLoopPhase,
+                                           Condition::kLoopGain,
+                                           Condition::kSecondCrossing,
+                                           Condition::kOmegaSpread,
+                                           Condition::kXiMax,
+                                           Condition::kXiIncreasing,
+                                           Condition::kTransfer,
+                                           Condition::kSecondModeShare,
+                                           Condition::kSecondCrossingGain};
 inline constexpr std::size_t kNumConditions = kConditions.size();
 
 // The condition's key in a config's `family: test:`.
@@ -55,7 +70,9 @@ constexpr std::string_view ConditionName(Condition condition) {
                                                                    "omega_spread_max",
                                                                    "xi_max",
                                                                    "xi_increasing",
-                                                                   "transfer_distance_max"};
+                                                                   "transfer_distance_max",
+                                                                   "second_mode_share_max",
+                                                                   "second_crossing_gain_min"};
   return kNames[static_cast<std::size_t>(condition)];
 }
 
@@ -71,6 +88,9 @@ struct MembershipTest {
   // The squared distance of a true model is chi-square with four degrees of freedom at most: it is
   // beyond 4 with a probability of 0.3 % an experiment, 2 % over six of them.
   double transfer_distance_max = 4.0;
+  // estimation/residual_spec.h says where these two come from.
+  double second_mode_share_max = kSecondModeShareMax;
+  double second_crossing_gain_min = 1.0;
 };
 
 // How far one experiment's model is from the data; zero is a perfect fit.
@@ -81,10 +101,24 @@ struct ExperimentErrors {
   double loop_gain = 0.0;                  // |L Phi'(0)|; NaN where the slope is not known
   double second_crossing_error_deg = 0.0;  // largest over the lines; zero without lines
   double transfer_distance = 0.0;          // zero without a transfer
+  double second_mode_share = 0.0;          // |M U_r| / |N U_1| at the limit cycle
+  // Smallest |L Phi'(0)| over the lines; NaN without lines, or where the slope is not known.
+  double second_crossing_gain = std::numeric_limits<double>::quiet_NaN();
 };
 
 // In the full form (5a); with M = 0 it is the reduced form (5c).
 ExperimentErrors ComputeErrors(const Experiment& experiment, const LoopModel& model);
+
+// second_crossing_gain_min looks at the experiment: like loop_gain_min, at reliable ones alone.
+bool TestsLineGain(const Experiment& experiment, const MembershipTest& test);
+
+// Smallest |L Phi'(0)| over the experiment's lines; NaN without lines or without a flame slope.
+double SecondCrossingGain(const Experiment& experiment, const LoopParameters<double>& loop);
+
+// second_mode_share_max and second_crossing_gain_min alone, of a model with two modes; its tau does
+// not matter.
+bool KeepsSecondMode(const Experiment& experiment, const LoopModel& model,
+                     const MembershipTest& test);
 
 // A set of Conditions.
 class ConditionSet {

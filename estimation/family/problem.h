@@ -54,13 +54,10 @@ struct FamilyProblem {
   bool IsShared(ParameterKind kind) const {
     return model.Uses(kind) && model[kind].scope == ParameterScope::kShared;
   }
-  // The domain of one parameter; a fixed one is held at its initial value.
-  Range RangeOf(ParameterKind kind) const {
-    if (model[kind].fixed && model[kind].initial) {
-      return {*model[kind].initial, *model[kind].initial};
-    }
-    return domain[kind];
-  }
+  // The domain of one parameter of an experiment; a fixed one is held at its initial value.
+  Range RangeOf(ParameterKind kind, std::size_t experiment) const;
+  // Holds those of all experiments.
+  Range RangeOf(ParameterKind kind) const;
 };
 
 // One member: a model for each experiment.

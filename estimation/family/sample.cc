@@ -1,6 +1,7 @@
 #include "estimation/family/sample.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "estimation/family/convergence.h"
@@ -61,6 +62,12 @@ class Chart {
     xi_ = problem.RangeOf(ParameterKind::kXi);
     xi_.lo = std::max(xi_.lo, kTinyXi);
     xi_.hi = std::min({xi_.hi, problem.test.xi_max, std::max(kXiCap, 10.0 * xi_.lo)});
+    for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
+      std::array<Range, kNumParameterKinds>& own = ranges_.emplace_back();
+      for (const ParameterKind kind : kParameterKinds) {
+        own[static_cast<std::size_t>(kind)] = problem.RangeOf(kind, i);
+      }
+    }
     factor_ = 1.0 + problem.test.omega_spread_max * (1.0 - 1e-12);
   }
 
@@ -173,20 +180,33 @@ class Chart {
   }
 
  private:
+  Range Narrowest(ParameterKind kind) const {
+    Range range;
+    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+      range.lo = std::max(range.lo, RangeOf(kind, i).lo);
+      range.hi = std::min(range.hi, RangeOf(kind, i).hi);
+    }
+    return range;
+  }
   // Gain and loop phase error that nothing else depends on are drawn afresh for each member.
   bool FreeGain() const {
-    const Range N = problem_.RangeOf(ParameterKind::kN);
+    const Range N = Narrowest(ParameterKind::kN);
     return !two_modes_ && !shared_N_ && N.lo <= 0.0 && !std::isfinite(N.hi) &&
            !problem_.HasTransfer();
   }
   bool FreeLoopPhase() const {
-    const Range tau = problem_.RangeOf(ParameterKind::kTau);
+    const Range tau = Narrowest(ParameterKind::kTau);
     return !has_lines_ && !shared_tau_ && tau.lo <= 0.0 && !std::isfinite(tau.hi);
   }
   bool NeedsRoot() const { return two_modes_ && shared_second_ && !shared_omega_; }
 
+  const Range& RangeOf(ParameterKind kind, std::size_t i) const {
+    return ranges_[i][static_cast<std::size_t>(kind)];
+  }
+
   Range XiRange(const State& state, std::size_t i) const {
-    Range range = xi_;
+    const Range& own = RangeOf(ParameterKind::kXi, i);
+    Range range{std::max(xi_.lo, own.lo), std::min(xi_.hi, own.hi)};
     if (!problem_.test.xi_increasing) return range;
     for (std::size_t j = 0; j < state.places.size(); ++j) {
       if (targets_[j].phi < targets_[i].phi) range.lo = std::max(range.lo, state.places[j].xi);
@@ -301,10 +321,9 @@ class Chart {
   }
 
   bool InDomain(std::size_t i, const State& state, const Place& place) const {
-    if (!problem_.RangeOf(ParameterKind::kOmega).Contains(place.omega_hz)) return false;
-    if (!problem_.RangeOf(ParameterKind::kN).Contains(place.N)) return false;
-    if (two_modes_ &&
-        !problem_.RangeOf(second_kind_).Contains(relative_ ? place.M / place.N : place.M)) {
+    if (!RangeOf(ParameterKind::kOmega, i).Contains(place.omega_hz)) return false;
+    if (!RangeOf(ParameterKind::kN, i).Contains(place.N)) return false;
+    if (two_modes_ && !RangeOf(second_kind_, i).Contains(relative_ ? place.M / place.N : place.M)) {
       return false;
     }
     const Experiment& experiment = problem_.experiments[i];
@@ -315,11 +334,15 @@ class Chart {
         return false;
       }
     }
+    if (two_modes_) {
+      const LoopModel model{place.omega_hz, place.xi, place.N, place.M, 0.0, ratio_};
+      if (!KeepsSecondMode(experiment, model, problem_.test)) return false;
+    }
     if (!has_lines_ && FreeLoopPhase()) return true;
     const double tau = shared_tau_ ? state.tau_s
                                    : TauFromPhase(targets_[i].frequency_hz, place.phase,
                                                   place.loop_phase, problem_.domain.delay_periods);
-    if (!problem_.RangeOf(ParameterKind::kTau).Contains(tau)) return false;
+    if (!RangeOf(ParameterKind::kTau, i).Contains(tau)) return false;
     if (!has_lines_) return true;
     const LoopModel model{place.omega_hz, place.xi, place.N, place.M, tau, ratio_};
     for (const ObservedLine& line : problem_.experiments[i].lines) {
@@ -406,6 +429,7 @@ class Chart {
   }
 
   const FamilyProblem& problem_;
+  std::vector<std::array<Range, kNumParameterKinds>> ranges_;  // of each experiment
   std::vector<ExperimentTarget> targets_;
   ParameterKind second_kind_;
   bool two_modes_, relative_, shared_omega_, shared_xi_, shared_N_, shared_tau_, shared_second_;

@@ -257,7 +257,13 @@ class Greedy {
 }  // namespace
 
 bool HasGreedyTradeoff(const FamilyProblem& problem) {
-  if (problem.model.modes != 2 || !problem.test.xi_increasing || problem.HasTransfer()) {
+  if (problem.model.modes != 2 || !problem.model.own.empty() || !problem.test.xi_increasing ||
+      problem.HasTransfer()) {
+    return false;
+  }
+  if (std::ranges::any_of(problem.experiments, [&](const Experiment& experiment) {
+        return TestsLineGain(experiment, problem.test);
+      })) {
     return false;
   }
   const bool shares_m = problem.IsShared(ParameterKind::kM);

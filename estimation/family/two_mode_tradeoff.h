@@ -16,7 +16,7 @@
 namespace howl {
 
 // Two modes, M or M / N shared with a finite upper bound, nothing else shared, N and tau free,
-// xi ordered by phi.
+// xi ordered by phi, and no least gain at a line: that may ask for more than the least xi.
 bool HasGreedyTradeoff(const FamilyProblem& problem);
 
 // The smallest largest-xi found under the problem's own omega_spread_max; nothing where no member

@@ -14,9 +14,10 @@ namespace {
 // A search draws best within tolerances of a moderate size, and a member at those is one without
 // them: they stand for "switched off", from narrow to wide, before the real thing.
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr MembershipTest kModerate[] = {{0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false, 8.0},
-                                        {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false, 20.0},
-                                        {0.6, 30.0, 90.0, 0.0, 180.0, 1.5, 1.0, false, kInfinity}};
+constexpr MembershipTest kModerate[] = {
+    {0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false, 8.0, 0.3, 0.0},
+    {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false, 20.0, 1.0, 0.0},
+    {0.6, 30.0, 90.0, 0.0, 180.0, 1.5, 1.0, false, kInfinity, kInfinity, 0.0}};
 
 void Widen(MembershipTest& test, Condition condition, const MembershipTest& to) {
   MembershipTest wide = to;

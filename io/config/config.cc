@@ -38,6 +38,21 @@ std::string ReadOperatingParameter(const ConfigCursor& root) {
   return name;
 }
 
+// For the parameters that one experiment has to itself; what is wrong with a name is left to the
+// schema's check.
+std::vector<std::string> ReadNames(const LocatedNode& tree) {
+  std::vector<std::string> names;
+  const LocatedMember* const experiments = tree.Find("experiments");
+  if (experiments == nullptr) return names;
+  for (const LocatedNode& item : experiments->value.items) {
+    const LocatedMember* const name = item.Find("name");
+    if (name != nullptr && name->value.kind == LocatedNode::Kind::kText) {
+      names.push_back(name->value.text);
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 Config LoadConfig(const std::filesystem::path& path) {
@@ -48,7 +63,7 @@ Config LoadConfig(const std::filesystem::path& path) {
   Config config;
   config.source = path;
   config.operating_parameter = ReadOperatingParameter(root);
-  CheckSchema(file, tree, ConfigSchemaFor(config.operating_parameter));
+  CheckSchema(file, tree, ConfigSchemaFor(config.operating_parameter, ReadNames(tree)));
   root.Read("title", config.title);
   ReadExperiments(root, config);
   ReadModel(root, config);

@@ -23,6 +23,8 @@ void ReadTest(const ConfigCursor& cursor, MembershipTest& test) {
   ReadLimit(cursor, "xi_max", kInfinity, test.xi_max);
   cursor.Read("xi_increasing", test.xi_increasing);
   ReadLimit(cursor, "transfer_distance_max", kInfinity, test.transfer_distance_max);
+  ReadLimit(cursor, "second_mode_share_max", kInfinity, test.second_mode_share_max);
+  ReadLimit(cursor, "second_crossing_gain_min", 0.0, test.second_crossing_gain_min);
 }
 
 }  // namespace

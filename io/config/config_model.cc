@@ -66,6 +66,24 @@ void ReadModel(const ConfigCursor& root, Config& config) {
     const auto parameter = parameters->Find(std::string(ParameterName(kind)));
     if (parameter) ReadParameter(*parameter, config.model[kind]);
   }
+  for (const ExperimentConfig& each : config.experiments) {
+    const std::string& name = each.experiment.name;
+    for (const ParameterKind kind : kParameterKinds) {
+      const std::string key = name + "." + std::string(ParameterName(kind));
+      const auto parameter = parameters->Find(key);
+      if (!parameter) continue;
+      if (!config.model.Uses(kind)) {
+        parameters->FailAt(key, "is not a parameter of this model, expected one that is");
+      }
+      if (config.model[kind].scope == ParameterScope::kShared) {
+        parameters->FailAt(key, "is shared by all experiments, expected " +
+                                    std::string(ParameterName(kind)) + ": {scope: experiment}");
+      }
+      OwnParameter& own = config.model.own.emplace_back(
+          OwnParameter{name, kind, config.model[kind]});
+      ReadParameter(*parameter, own.spec);
+    }
+  }
 }
 
 }  // namespace howl

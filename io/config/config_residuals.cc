@@ -45,6 +45,7 @@ void ReadResidual(const ConfigCursor& cursor, ResidualKind kind,
   cursor.Read("enabled", spec.enabled);
   cursor.Read(ResidualStdKey(kind), spec.std);
   if (kind == ResidualKind::kDampingPrior) cursor.Read("xi_typical", spec.center);
+  if (kind == ResidualKind::kSecondModeMinor) cursor.Read("share_max", spec.center);
   cursor.Read("weight", spec.weight);
   if (const auto loss = cursor.Find("loss")) spec.loss = LossOf(loss->Node().text);
   cursor.Read("loss_scale", spec.loss_scale);
@@ -68,6 +69,8 @@ const char* ResidualStdKey(ResidualKind kind) {
       return "std_deg";
     case ResidualKind::kLimitCycleGain:
     case ResidualKind::kXiIncreasing:
+    case ResidualKind::kSecondModeMinor:
+    case ResidualKind::kSecondCrossingGain:
       return "std";
   }
   LOG(FATAL) << "unknown residual";

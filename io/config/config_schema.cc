@@ -13,8 +13,18 @@ const nlohmann::json& ConfigSchema() {
   return schema;
 }
 
-nlohmann::json ConfigSchemaFor(const std::string& operating_parameter) {
+nlohmann::json ConfigSchemaFor(const std::string& operating_parameter,
+                               const std::vector<std::string>& experiments) {
   nlohmann::json schema = ConfigSchema();
+  nlohmann::json& parameters = schema["properties"]["parameters"]["properties"];
+  const nlohmann::json common = parameters;
+  for (const std::string& name : experiments) {
+    for (const auto& [key, parameter] : common.items()) {
+      nlohmann::json& own = parameters[name + "." + key] = parameter;
+      own["description"] = "the same for experiment " + name + " alone";
+      own["properties"].erase("scope");
+    }
+  }
   if (operating_parameter == "phi") return schema;
   nlohmann::json& experiment = schema["definitions"]["experiment"];
   nlohmann::json& properties = experiment["properties"];

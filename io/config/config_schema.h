@@ -4,13 +4,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace howl {
 
 const nlohmann::json& ConfigSchema();
 
 // The schema with experiments that carry the key `operating_parameter` in place of phi.
-nlohmann::json ConfigSchemaFor(const std::string& operating_parameter);
+nlohmann::json ConfigSchemaFor(const std::string& operating_parameter,
+                               const std::vector<std::string>& experiments = {});
 
 // Follows a "$ref" into the schema's definitions; any other schema is returned as it is.
 const nlohmann::json& ResolveRef(const nlohmann::json& root, const nlohmann::json& schema);

@@ -20,7 +20,11 @@ Json TestJson(const MembershipTest& test) {
           {"omega_spread_max", NumberOrNull(test.omega_spread_max)},
           {"xi_max", NumberOrNull(test.xi_max)},
           {"xi_increasing", test.xi_increasing},
-          {"transfer_distance_max", NumberOrNull(test.transfer_distance_max)}};
+          {"transfer_distance_max", NumberOrNull(test.transfer_distance_max)},
+          {"second_mode_share_max", NumberOrNull(test.second_mode_share_max)},
+          {"second_crossing_gain_min",
+           test.second_crossing_gain_min > 0.0 ? Json(test.second_crossing_gain_min)
+                                               : Json(nullptr)}};
 }
 
 Json OptionalNumber(const std::optional<double>& value) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "estimation/family/membership.h"
+#include "estimation/loop_crossings.h"
 
 namespace howl {
 namespace {
@@ -14,7 +15,44 @@ Json OptionalNumber(const std::optional<double>& value) {
   return value ? NumberOrNull(*value) : Json(nullptr);
 }
 
-Json ExperimentJson(const Experiment& experiment, const LoopModel& model) {
+Json CrossingsJson(const Experiment& experiment, const LoopModel& model, const ModelSpec& spec) {
+  Json crossings = Json::array();
+  for (const ObservedCrossing& one : LoopCrossings(experiment, model, spec)) {
+    const bool seen = one.observed_hz.has_value();
+    crossings.push_back(
+        {{"frequency_hz", one.crossing.frequency_hz},
+         {"loop_gain", NumberOrNull(one.crossing.gain)},
+         {"phase_rate_deg_per_hz", one.crossing.phase_rate_deg_per_hz},
+         {"observed_hz", OptionalNumber(one.observed_hz)},
+         {"observed_loop_gain", seen ? NumberOrNull(one.observed_gain) : Json(nullptr)},
+         {"phase_error_deg", seen ? Json(one.phase_error_deg) : Json(nullptr)}});
+  }
+  return crossings;
+}
+
+Json BranchJson(const ModeBranch& branch, const BranchComparison& comparison) {
+  Json models = Json::array();
+  for (const LoopModel& model : branch.models) {
+    models.push_back({{"omega_hz", model.omega_hz},
+                      {"xi", model.xi},
+                      {"N", model.N},
+                      {"M", model.M},
+                      {"tau_s", model.tau_s}});
+  }
+  return {{"cost", branch.cost},
+          {"second_mode_share", branch.share},
+          {"second_mode_minor", branch.IsPapers(comparison.share_max)},
+          {"models", models}};
+}
+
+Json BranchesJson(const BranchComparison& comparison) {
+  return {{"share_max", comparison.share_max},
+          {"data_prefer_other", comparison.DataPreferOther()},
+          {"fit", BranchJson(comparison.fit, comparison)},
+          {"other", comparison.other ? BranchJson(*comparison.other, comparison) : Json(nullptr)}};
+}
+
+Json ExperimentJson(const Experiment& experiment, const LoopModel& model, const ModelSpec& spec) {
   const ExperimentErrors errors = ComputeErrors(experiment, model);
   Json json = {{"name", experiment.name},
                {"phi", experiment.phi},
@@ -35,7 +73,10 @@ Json ExperimentJson(const Experiment& experiment, const LoopModel& model) {
                {"loop_phase_error_deg", errors.loop_phase_error_deg}};
   if (!experiment.lines.empty()) {
     json["second_crossing_error_deg"] = errors.second_crossing_error_deg;
+    json["second_crossing_gain"] = NumberOrNull(errors.second_crossing_gain);
   }
+  if (spec.modes == 2) json["second_mode_share"] = errors.second_mode_share;
+  json["crossings"] = CrossingsJson(experiment, model, spec);
   return json;
 }
 
@@ -90,10 +131,11 @@ Json VanishingJson(const VanishingPhi& vanishing) {
 }
 
 Json SolutionJson(const JointProblem& problem, const JointFit& fit,
-                  const VanishingPhi& vanishing_phi) {
+                  const VanishingPhi& vanishing_phi,
+                  const std::optional<BranchComparison>& branches) {
   Json experiments = Json::array();
   for (std::size_t i = 0; i < fit.models.size(); ++i) {
-    experiments.push_back(ExperimentJson(problem.experiments()[i], fit.models[i]));
+    experiments.push_back(ExperimentJson(problem.experiments()[i], fit.models[i], problem.model()));
   }
   Json shared = Json::object();
   for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
@@ -106,21 +148,23 @@ Json SolutionJson(const JointProblem& problem, const JointFit& fit,
                          {"weight", residual.weight},
                          {"standard_deviations", residual.values}});
   }
-  return {{"schema", "howl.solution/1"},
-          {"experiments", experiments},
-          {"shared", shared},
-          {"vanishing_phi", VanishingJson(vanishing_phi)},
-          {"cost", fit.cost},
-          {"termination", fit.termination},
-          {"converged", fit.converged},
-          {"iterations", fit.iterations},
-          {"starts",
-           {{"tried", fit.starts},
-            {"converged", fit.starts_converged},
-            {"at_best_cost", fit.starts_at_best}}},
-          {"parameters", ParametersJson(fit)},
-          {"identifiability", IdentifiabilityJson(fit)},
-          {"residuals", residuals}};
+  Json json = {{"schema", "howl.solution/1"},
+               {"experiments", experiments},
+               {"shared", shared},
+               {"vanishing_phi", VanishingJson(vanishing_phi)},
+               {"cost", fit.cost},
+               {"termination", fit.termination},
+               {"converged", fit.converged},
+               {"iterations", fit.iterations},
+               {"starts",
+                {{"tried", fit.starts},
+                 {"converged", fit.starts_converged},
+                 {"at_best_cost", fit.starts_at_best}}},
+               {"parameters", ParametersJson(fit)},
+               {"identifiability", IdentifiabilityJson(fit)},
+               {"residuals", residuals}};
+  if (branches) json["branches"] = BranchesJson(*branches);
+  return json;
 }
 
 }  // namespace howl

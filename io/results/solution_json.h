@@ -3,15 +3,18 @@
 #define HOWL_IO_RESULTS_SOLUTION_JSON_H_
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "estimation/joint_fit.h"
+#include "estimation/mode_branch.h"
 #include "estimation/vanishing_phi.h"
 
 namespace howl {
 
-// Numbers that are not known or not finite become null.
+// Numbers that are not known or not finite become null. `branches`: of two modes.
 nlohmann::ordered_json SolutionJson(const JointProblem& problem, const JointFit& fit,
-                                    const VanishingPhi& vanishing_phi);
+                                    const VanishingPhi& vanishing_phi,
+                                    const std::optional<BranchComparison>& branches = std::nullopt);
 
 // {"value", "lo", "hi"}, or null where the line through the loop gains says nothing.
 nlohmann::ordered_json VanishingJson(const VanishingPhi& vanishing_phi);

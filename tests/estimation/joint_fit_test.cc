@@ -96,6 +96,8 @@ TEST(JointFit, WithoutPriorsOneDirectionAnExperimentIsFree) {
   }
 }
 
+std::complex<double> SeedLoop(const LoopModel& m, double f);
+
 TEST(JointFit, NonHarmonicLineDeterminesTheSecondMode) {
   ModelSpec model = DefaultModelSpec();
   model.modes = 2;
@@ -103,6 +105,7 @@ TEST(JointFit, NonHarmonicLineDeterminesTheSecondMode) {
   ResidualSet residuals = DefaultResidualSet();
   residuals[ResidualKind::kDampingPrior].center = 0.2;  // sections 3.3 and 4
   residuals[ResidualKind::kDampingPrior].std = 0.5;
+  residuals[ResidualKind::kSecondCrossingGain].enabled = false;  // the line's frequency alone
   std::vector<Experiment> experiments = R228();
   const JointFit without = SolveJoint(JointProblem(experiments, model, residuals), {}, 1, 2);
   for (Experiment& experiment : experiments) {
@@ -116,6 +119,18 @@ TEST(JointFit, NonHarmonicLineDeterminesTheSecondMode) {
   EXPECT_LT(Find(with, "M").std_relative, 1.0);
   // The ratio that the seed's figures 11 and 12 imply is 0.415 for experiment 1 (notes, item 9).
   EXPECT_NEAR(with.models[0].M / with.models[0].N, 0.415, 0.15);
+  // Section 4 asks for magnitude above one there, which that ratio does not give (0.87, the same
+  // note): with its residual the second mode grows.
+  residuals[ResidualKind::kSecondCrossingGain].enabled = true;
+  const JointFit loud = SolveJoint(JointProblem(experiments, model, residuals), {}, 1, 2);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double quiet_gain =
+        std::abs(SeedLoop(with.models[i], 750.0) * *experiments[i].flame_slope);
+    const double loud_gain =
+        std::abs(SeedLoop(loud.models[i], 750.0) * *experiments[i].flame_slope);
+    EXPECT_GT(loud_gain, quiet_gain) << i;
+    EXPECT_GT(loud_gain, 0.9) << i;
+  }
 }
 
 TEST(JointFit, SameAnswerWithAnyNumberOfThreads) {
@@ -214,6 +229,7 @@ TEST(JointFit, RecoversDrawnParameters) {
   model[ParameterKind::kXi].scope = ParameterScope::kShared;
   ResidualSet residuals = WithoutPriors();
   residuals[ResidualKind::kLimitCycleGain].enabled = false;
+  residuals[ResidualKind::kSecondCrossingGain].enabled = false;
   int failures = 0;
   int draws = 0;
   std::mt19937_64 generator(3);

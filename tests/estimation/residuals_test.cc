@@ -16,6 +16,8 @@
 #include "estimation/residuals/limit_cycle_phase.h"
 #include "estimation/residuals/phase_equality.h"
 #include "estimation/residuals/second_crossing.h"
+#include "estimation/residuals/second_crossing_gain.h"
+#include "estimation/residuals/second_mode_minor.h"
 #include "estimation/residuals/xi_increasing.h"
 #include "tests/residual_jacobian.h"
 
@@ -112,6 +114,20 @@ std::vector<Block> AllBlocks() {
       "second_crossing", "t",
       [](auto& g) { return SecondCrossing(Draw(g, 700, 800), Draw(g, 0, 10), 3.4e-3, 5.0); },
       blocks);
+  AddAllForms<LimitCycleGainResidual, LimitCycleGain>(
+      "second_crossing_gain", "",
+      [](auto& g) {
+        return SecondCrossingGain(Draw(g, 700, 800), -Draw(g, 1e-6, 1e-4), Draw(g, 0.01, 0.1));
+      },
+      blocks);
+  for (const bool relative : {false, true}) {
+    blocks.push_back({relative ? "second_mode_minor, M over N" : "second_mode_minor, M",
+                      relative ? "wxNm" : "wxNM", [relative](auto& g) {
+                        return CostPtr(SecondModeMinorResidual::CreateFull(
+                            {Draw(g, 180, 220), Draw(g, 0.001, 0.2), Draw(g, 0.01, 0.1)},
+                            {relative ? 2.7 : 3.0, relative}));
+                      }});
+  }
   blocks.push_back({"omega_prior", "ww",
                     [](auto& g) { return CostPtr(ConstantPrior::Create(Draw(g, 0.01, 1))); }});
   blocks.push_back({"tau_prior", "tt",
@@ -245,6 +261,34 @@ TEST(Residuals, SecondCrossingCarriesTheLinesOwnError) {
   // 3.4 ms of delay turn the phase by 1.224 degrees per hertz.
   const LimitCyclePhase crossing = SecondCrossing(750.0, 10.0, 3.4e-3, 5.0);
   EXPECT_NEAR(crossing.std_deg, std::sqrt(25.0 + 12.24 * 12.24), 1e-12);
+}
+
+// The modes' contributions by std::complex, one at a time.
+TEST(Residuals, SecondModeMinorIsTheShareBeyondWhatIsAllowed) {
+  const std::vector<double> logs = {std::log(200.0), std::log(0.2), std::log(6000.0),
+                                    std::log(9000.0)};
+  const double share = std::abs(SeedAcoustics(200.0, 0.2, 0.0, 9000.0, 3.0, 215.0)) /
+                       std::abs(SeedAcoustics(200.0, 0.2, 6000.0, 0.0, 3.0, 215.0));
+  const CostPtr above(SecondModeMinorResidual::CreateFull({215.0, 0.5 * share, 0.01}, {}));
+  EXPECT_NEAR(Evaluate(*above, logs), 0.5 * share / 0.01, 1e-9);
+  const CostPtr below(SecondModeMinorResidual::CreateFull({215.0, 1.01 * share, 0.01}, {}));
+  EXPECT_EQ(Evaluate(*below, logs), 0.0);
+}
+
+// The paper's section 4 (omega 215 Hz, xi 0.2, M / N 0.415 and 0.75, N 6609, slope 0.703e-4 of
+// experiment 1): reading note 9 gives the gain 0.87 at the second crossing, and one above one.
+TEST(Residuals, SecondCrossingGainAsksForMoreThanOne) {
+  const double line_hz = 750.0;
+  const auto residual = [&](double ratio) {
+    const CostPtr cost(LimitCycleGainResidual::CreateFull(
+        SecondCrossingGain(line_hz, -0.703e-4, 0.05), {3.0, true}));
+    return Evaluate(*cost, {std::log(215.0), std::log(0.2), std::log(6609.0), std::log(ratio)});
+  };
+  const double gain = std::abs(SeedAcoustics(215.0, 0.2, 6609.0, 0.415 * 6609.0, 3.0, line_hz)) *
+                      2.0 * kPi * line_hz * 0.703e-4;
+  EXPECT_NEAR(gain, 0.87, 0.01);
+  EXPECT_NEAR(residual(0.415), (1.0 - gain) / 0.05, 1e-9);
+  EXPECT_EQ(residual(0.75), 0.0);
 }
 
 TEST(Residuals, PriorsAtPointsWorkedByHand) {

@@ -58,6 +58,8 @@ Defaults StructDefaults() {
       {"family.test.xi_max", Dump(config.family.test.xi_max)},
       {"family.test.xi_increasing", Dump(config.family.test.xi_increasing)},
       {"family.test.transfer_distance_max", Dump(config.family.test.transfer_distance_max)},
+      {"family.test.second_mode_share_max", Dump(config.family.test.second_mode_share_max)},
+      {"family.test.second_crossing_gain_min", Dump(config.family.test.second_crossing_gain_min)},
       {"family.draw", Dump(config.family.draw == MemberDraw::kSpread ? "spread" : "uniform")},
       {"simulate.flame_shape", Dump(std::string(FlameShapeName(config.simulation.flame_shape)))},
       {"simulate.saturation", Dump(config.simulation.saturation)},
@@ -87,6 +89,7 @@ Defaults StructDefaults() {
     defaults[key + ".loss"] = Dump("none");
     defaults[key + ".loss_scale"] = Dump(spec.loss_scale);
     if (kind == ResidualKind::kDampingPrior) defaults[key + ".xi_typical"] = Dump(spec.center);
+    if (kind == ResidualKind::kSecondModeMinor) defaults[key + ".share_max"] = Dump(spec.center);
     if (kind == ResidualKind::kGainEquality || kind == ResidualKind::kPhaseEquality) {
       defaults[key + ".form"] = Dump("auto");
     }

@@ -23,7 +23,19 @@ FamilyProblem Problem(std::size_t experiments, int modes) {
     // Without a least xi the two modes may cancel each other at any size: N and M have no bound.
     problem.domain[ParameterKind::kXi].lo = 0.05;
     problem.model[ParameterKind::kM].scope = ParameterScope::kExperiment;
+    problem.test.second_mode_share_max = std::numeric_limits<double>::infinity();
   }
+  return problem;
+}
+
+// With the conditions on the second mode: minor at the limit cycle, and a second crossing that the
+// line bounds from below.
+FamilyProblem MinorProblem(std::size_t experiments) {
+  FamilyProblem problem = Problem(experiments, 2);
+  problem.test.second_mode_share_max = 0.1;
+  problem.test.second_crossing_gain_min = 0.9;
+  problem.test.second_crossing_tolerance_deg = 90.0;
+  for (Experiment& experiment : problem.experiments) experiment.lines = {{750.0, 10.0}};
   return problem;
 }
 
@@ -52,7 +64,9 @@ void ExpectWithinOuter(const Enclosure& enclosure, const std::vector<Experiment>
 // the errors are drawn from somewhat more than the tolerances, so that many pass and many fail.
 class BruteForce {
  public:
-  BruteForce(const FamilyProblem& problem, unsigned seed) : problem_(problem), random_(seed) {}
+  BruteForce(const FamilyProblem& problem, unsigned seed) : problem_(problem), random_(seed) {
+    minor_ = std::isfinite(problem.test.second_mode_share_max) && problem.model.modes == 2;
+  }
 
   Member Draw() {
     const std::size_t n = problem_.experiments.size();
@@ -80,6 +94,12 @@ class BruteForce {
       } else {
         m.omega_hz = common * (0.9 + 0.2 * Uniform());
         if (Uniform() < 0.1) m.omega_hz = 60.0 + 160.0 * Uniform();
+        if (minor_) {
+          // Below the one-mode solution, mostly as little as a minor second mode allows.
+          const double t = std::tan(-phase);
+          const double top = e.frequency_hz * (std::sqrt(m.xi * m.xi * t * t + 1) - m.xi * t);
+          m.omega_hz = top * (1.0 - (Uniform() < 0.1 ? 0.7 : 0.2 * m.xi) * Uniform());
+        }
         // N u_1 + M u_3 = z: two real equations.
         const std::complex<double> u1 = Mode(m.omega_hz, m.xi, w);
         const std::complex<double> u3 = Mode(3 * m.omega_hz, m.xi, w);
@@ -103,6 +123,7 @@ class BruteForce {
   }
   const FamilyProblem& problem_;
   std::mt19937_64 random_;
+  bool minor_;
 };
 
 bool InBox(const std::vector<ModelBox>& box, const Member& member) {
@@ -121,13 +142,15 @@ struct Case {
   int modes;
   std::size_t draws;  // one million over the cases
   std::size_t least;  // that pass
+  bool minor = false;
 };
 
 class BruteForceTest : public testing::TestWithParam<Case> {};
 
 TEST_P(BruteForceTest, EveryModelThatPassesLiesWithinOuterAndNoneThatFailsInAnInsideBox) {
   const Case c = GetParam();
-  const FamilyProblem problem = Problem(c.experiments, c.modes);
+  const FamilyProblem problem =
+      c.minor ? MinorProblem(c.experiments) : Problem(c.experiments, c.modes);
   Enclosure enclosure(problem, {.max_cells = c.modes == 2 ? 60u : 0u, .threads = 2});
   ASSERT_TRUE(enclosure.Run());
   std::vector<std::vector<ModelBox>> boxes;
@@ -175,10 +198,13 @@ TEST_P(BruteForceTest, EveryModelThatPassesLiesWithinOuterAndNoneThatFailsInAnIn
 INSTANTIATE_TEST_SUITE_P(All, BruteForceTest,
                          testing::Values(Case{1, 1, 200000, 50000}, Case{4, 1, 200000, 10000},
                                          Case{6, 1, 200000, 1000}, Case{1, 2, 200000, 50000},
-                                         Case{4, 2, 100000, 200}, Case{6, 2, 100000, 50}),
+                                         Case{4, 2, 100000, 200}, Case{6, 2, 100000, 50},
+                                         Case{1, 2, 100000, 5000, true},
+                                         Case{3, 2, 100000, 50, true}),
                          [](const auto& one) {
                            return std::to_string(one.param.experiments) + "_experiments_" +
-                                  std::to_string(one.param.modes) + "_modes";
+                                  std::to_string(one.param.modes) + "_modes" +
+                                  (one.param.minor ? "_second_minor" : "");
                          });
 
 // Shared M: the members come from the enumeration, and are confirmed by the independent test.

@@ -66,6 +66,17 @@ inline bool Passes(const std::vector<Experiment>& experiments, const std::vector
               test.second_crossing_tolerance_deg * more)) {
           return false;
         }
+        if (e.reliable && e.flame_slope &&
+            !(std::abs(L(m, line.frequency_hz) * Real(*e.flame_slope)) * more >=
+              test.second_crossing_gain_min)) {
+          return false;
+        }
+      }
+      const Model first{m.omega_hz, m.xi, m.N, 0, m.tau_s, m.r};
+      const Model second{m.omega_hz, m.xi, 0, m.M, m.tau_s, m.r};
+      if (!(std::abs(G(second, e.frequency_hz)) <=
+            test.second_mode_share_max * more * std::abs(G(first, e.frequency_hz)))) {
+        return false;
       }
     }
     if (!(m.xi <= test.xi_max * more)) return false;

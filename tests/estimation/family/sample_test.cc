@@ -143,6 +143,7 @@ TEST(SampleTest, TwoModeMarginalsAgreeWithRejection) {
   problem.test.gain_tolerance = 0.2;
   problem.test.loop_gain_min = 0.0;
   problem.test.phase_tolerance_deg = 5.0;
+  problem.test.second_mode_share_max = std::numeric_limits<double>::infinity();
   problem.domain[ParameterKind::kXi].lo = 0.1;
   problem.domain[ParameterKind::kM].hi = 40000.0;
   const MemberSample sample =

@@ -115,6 +115,7 @@ TEST(TradeoffTest, TwoModesByTwoAlgorithmsAtTenSpreads) {
   problem.domain[ParameterKind::kXi].lo = 0.02;
   problem.domain[ParameterKind::kM].hi = 5000.0;
   problem.test.second_crossing_tolerance_deg = 30.0;
+  problem.test.second_crossing_gain_min = 0.0;  // the first algorithm does not know it
   std::vector<double> spreads;
   for (int k = 0; k < 10; ++k) spreads.push_back(0.16 + 0.01 * k);
   const std::vector<TradeoffPoint> points = ComputeTradeoff(problem, spreads, 2, 1);

@@ -1,0 +1,19 @@
+// What fit prints of the loop's crossings, and of the branch of two modes that the fit is on.
+#ifndef HOWL_APP_SECOND_MODE_TEXT_H_
+#define HOWL_APP_SECOND_MODE_TEXT_H_
+
+#include <string>
+
+#include "estimation/joint_fit.h"
+#include "estimation/mode_branch.h"
+
+namespace howl {
+
+std::string CrossingsText(const JointProblem& problem, const JointFit& fit);
+
+// Empty where the fit is on the paper's branch and the data do not prefer the other.
+std::string BranchText(const BranchComparison& comparison);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_SECOND_MODE_TEXT_H_
