@@ -51,6 +51,11 @@ void PrintCommandHelp(const Command& command) {
   PrintOptions(CommonOptions());
 }
 
+int PrintVersion() {
+  std::printf("howl %s\n", std::string(Version()).c_str());
+  return kDone;
+}
+
 // What glog has to say is asked for by --v or --vmodule, or it is an error.
 void LogAsAsked() {
   const bool asked = FLAGS_v > 0 || !FLAGS_vmodule.empty();
@@ -62,11 +67,8 @@ int Run(const std::vector<std::string>& words) {
   std::optional<std::string> word = line.NextWord();
   const bool asks = word == "help";  // howl help [COMMAND]
   if (asks) word = line.NextWord();
-  if (line.WantsVersion()) {
-    std::printf("howl %s\n", std::string(Version()).c_str());
-    return kDone;
-  }
   if (!word) {
+    if (line.WantsVersion()) return PrintVersion();
     PrintHelp();
     return kDone;
   }
@@ -76,6 +78,7 @@ int Run(const std::vector<std::string>& words) {
   if (const auto second = config ? line.NextWord() : std::nullopt) {
     throw UsageError(*second + ": a second config, expected one, after " + *config);
   }
+  if (line.WantsVersion()) return PrintVersion();
   if (asks || line.WantsHelp()) {
     PrintCommandHelp(command);
     return kDone;

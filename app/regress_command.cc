@@ -61,7 +61,7 @@ Json FreshFamily(const Config& config, const Options& options,
 
 // What the config's stored results hold: figures, no samples. The analysis where there are records,
 // solution and family where p and q have a cycle, the trade-off for published tables.
-Json FreshResults(const Config& config, const Options& options) {
+Json FreshResults(const Config& config, const Options& options, bool with_family) {
   const ProblemInput input = LoadInput(config, options);
   Json results = {{"schema", kReferenceSchema}};
   if (input.analysis) results["analysis"] = AnalysisJson(*input.analysis);
@@ -69,7 +69,7 @@ Json FreshResults(const Config& config, const Options& options) {
     results["solution"] = FreshSolution(config, options, input.experiments);
   }
   if (!input.analysis) results["tradeoff"] = FreshTradeoff(config, options, input.experiments);
-  if (!input.experiments.empty()) {
+  if (with_family && !input.experiments.empty()) {
     results["family"] = FreshFamily(config, options, input.experiments);
   }
   return results;
@@ -102,15 +102,15 @@ int Run(const Options& options) {
   // What is damaged is said before the work, not after it.
   Json reference;
   if (!updates) reference = ReadReference(path);
-  Json fresh = FreshResults(config, options);
+  const bool is_earlier = !updates && reference["schema"] == kReferenceSchemaBefore;
+  Json fresh = FreshResults(config, options, !is_earlier);
   if (updates) {
     WriteWholeFile(path, fresh.dump(1) + "\n");
     if (!options.quiet) std::printf("written: %s\n", path.c_str());
     return kDone;
   }
-  if (reference["schema"] == kReferenceSchemaBefore) {
+  if (is_earlier) {
     fresh["schema"] = kReferenceSchemaBefore;
-    if (!reference.contains("family")) fresh.erase("family");
     if (!options.quiet) {
       std::printf("%s holds no family (schema %s): howl regress --update stores it\n", path.c_str(),
                   kReferenceSchemaBefore);

@@ -48,8 +48,8 @@ StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver,
   result.iterations = static_cast<int>(summary.iterations.size());
   result.termination = std::string(ceres::TerminationTypeToString(summary.termination_type)) +
                        ": " + summary.message;
-  VLOG(2) << "start " << number << ": cost " << summary.initial_cost << " to " << result.cost
-          << " in " << result.iterations << " iterations; " << result.termination;
+  VLOG(2) << "a start: cost " << summary.initial_cost << " to " << result.cost << " in "
+          << result.iterations << " iterations; " << result.termination;
   return result;
 }
 

@@ -40,8 +40,8 @@ struct Line {
   double amplitude = 0.0;
 };
 
-// By a Hann window, whose main lobe is near a parabola in the logarithm: the top of one through the
-// three largest points is within 2 % of a point's distance, and 0.2 % of the amplitude.
+// By a Hann window, whose transform at d bins from a line is sinc(d) / (1 - d^2): the two largest
+// neighbours give d, and that the amplitude (Grandke 1983). Exact for a line far from others.
 Line StrongestLine(std::span<const double> p, double sampling_hz) {
   const std::size_t n = p.size();
   double mean = 0.0;
@@ -59,14 +59,19 @@ Line StrongestLine(std::span<const double> p, double sampling_hz) {
   for (std::size_t k = 2; k + 2 < n / 2; ++k) {
     if (std::norm(spectrum[k]) > std::norm(spectrum[top])) top = k;
   }
-  const auto log_at = [&](std::size_t k) { return std::log(std::abs(spectrum[k]) + 1e-300); };
-  const double left = log_at(top - 1);
-  const double middle = log_at(top);
-  const double right = log_at(top + 1);
-  const double bend = left - 2.0 * middle + right;
-  const double shift = bend < 0.0 ? std::clamp(0.5 * (left - right) / bend, -0.5, 0.5) : 0.0;
-  return {(static_cast<double>(top) + shift) * sampling_hz / static_cast<double>(n),
-          2.0 * std::exp(middle - 0.25 * (left - right) * shift) / static_cast<double>(n)};
+  const double left = std::abs(spectrum[top - 1]);
+  const double middle = std::abs(spectrum[top]);
+  const double right = std::abs(spectrum[top + 1]);
+  if (!(middle > 0.0)) return {};
+  const double ratio = std::max(left, right) / middle;
+  const double distance = std::clamp((2.0 * ratio - 1.0) / (1.0 + ratio), 0.0, 0.5);
+  const double lobe = distance > 0.0
+                          ? std::sin(std::numbers::pi * distance) / (std::numbers::pi * distance) /
+                                (1.0 - distance * distance)
+                          : 1.0;
+  return {(static_cast<double>(top) + (right > left ? distance : -distance)) * sampling_hz /
+              static_cast<double>(n),
+          2.0 * middle / (lobe * static_cast<double>(n))};
 }
 
 }  // namespace

@@ -25,7 +25,9 @@ std::optional<Member> FindMember(const FamilyProblem& problem) {
     if (starts.empty()) return std::nullopt;
     return std::move(starts[0]);
   }
-  const Enumeration enumeration = EnumerateMembers(problem, 1, 0, 1);
+  // Attempts are counted by members asked for: one would be given up too soon in a thin family.
+  constexpr std::size_t kAsked = 50;
+  const Enumeration enumeration = EnumerateMembers(problem, kAsked, 0, 1);
   if (enumeration.members.empty()) return std::nullopt;
   return enumeration.members[0];
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "estimation/half_width.h"
 #include "io/report/script.h"
@@ -27,6 +28,13 @@ std::string Rounded(double value, int decimals) {
   return out.front() == '-' ? "−" + out.substr(1) : out;
 }
 
+std::string Raised(int power) {
+  static constexpr const char* kRaised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out = power < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(power))) out += kRaised[digit - '0'];
+  return out;
+}
+
 }  // namespace
 
 std::string SpelledInterval(const Estimate& estimate, double scale) {
@@ -41,7 +49,7 @@ std::string SpelledInterval(const Estimate& estimate, double scale) {
   const int decimals = (one_digit ? 0 : 1) - leading;
   const std::string out = Rounded(value / unit, decimals) + " ± " + Rounded(half / unit, decimals);
   if (power == 0) return out;
-  return "(" + out + ")" + Spelled(unit, 1).substr(1);  // after the 1 of "1 · 10⁻⁵"
+  return "(" + out + ") · 10" + Raised(power);
 }
 
 }  // namespace howl

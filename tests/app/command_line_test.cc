@@ -168,7 +168,7 @@ TEST(CommandLine, TheNearestIsNamed) {
            {"--advise fit " + config, "expected after the command"},
            // What gflags and glog have beside: no part of howl.
            {"fit " + config + " --logbufsecs 3", "no such option of howl fit"},
-           {"fit " + config + " --helpxml", "expected the nearest one, --help"}}) {
+           {"fit " + config + " --helpxml", "no such option of howl fit"}}) {
     const ProgramResult run = RunHowl(arguments);
     EXPECT_EQ(run.status, 2) << arguments;
     EXPECT_THAT(run.err, HasSubstr(expected)) << arguments;

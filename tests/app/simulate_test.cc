@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -11,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "estimation/joint_fit.h"
-#include "io/config/config.h"
 #include "model/crossings.h"
 #include "tests/app/program.h"
 
@@ -95,16 +94,18 @@ TEST(Section4, TheShippedConfigHasBothLinesAndHysteresis) {
   EXPECT_GT(Power(p, high_hz), 30.0 * between);
 
   // Figure 12: the loop closes at both, with a gain above one, and the outer one is near 750 Hz.
-  const howl::Config config = LoadConfig(Config("r228_section4"));
-  const JointProblem problem({config.experiments.front().experiment}, config.model,
-                             config.residuals);
-  const LoopModel model = SolveJoint(problem, config.solver, 1, 1).models.front();
-  EXPECT_DOUBLE_EQ(model.omega_hz, 215.0);
-  EXPECT_DOUBLE_EQ(model.tau_s, 0.00346);
-  EXPECT_DOUBLE_EQ(model.xi, 0.2);
+  ASSERT_EQ(RunHowl("fit " + Config("r228_section4") + " --out " + folder.path().string()).status,
+            0);
+  const nlohmann::json fit =
+      nlohmann::json::parse(ReadFile(folder.path() / "solution.json"))["experiments"][0];
+  EXPECT_DOUBLE_EQ(fit["omega_hz"], 215.0);
+  EXPECT_DOUBLE_EQ(fit["xi"], 0.2);
+  EXPECT_DOUBLE_EQ(fit["tau_s"], 0.00346);
+  const LoopParameters<double> loop = {{fit["omega_hz"], fit["xi"], fit["N"], fit["M"], 3.0},
+                                       fit["tau_s"]};
   double inner = 0.0;
   double outer = 0.0;
-  for (const PhaseCrossing& crossing : PhaseCrossings(model.Loop(), -0.703e-4, 900.0)) {
+  for (const PhaseCrossing& crossing : PhaseCrossings(loop, -0.703e-4, 900.0)) {
     if (std::abs(crossing.frequency_hz - 216.0) < 5.0) inner = crossing.gain;
     if (std::abs(crossing.frequency_hz - 746.0) < 10.0) outer = crossing.gain;
   }

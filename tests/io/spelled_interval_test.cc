@@ -24,6 +24,7 @@ TEST(SpelledInterval, EndsAtTheDecimalOfTheHalfWidth) {
 
 TEST(SpelledInterval, OnePowerOfTenForBoth) {
   EXPECT_EQ(Spelled95(-7.0231e-5, 1.1e-7), "(−7.023 ± 0.011) · 10⁻⁵");
+  EXPECT_EQ(Spelled95(-9.07e-4, 4.1e-5), "(−9.1 ± 0.4) · 10⁻⁴");
   EXPECT_EQ(Spelled95(3.3381e-3, 2.4e-7, 1e3), "3.33810 ± 0.00024");
   EXPECT_EQ(Spelled95(2.5e6, 1.3e4), "(2.500 ± 0.013) · 10⁶");
 }

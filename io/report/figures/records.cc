@@ -44,7 +44,7 @@ std::optional<Figure> RecordsFigure(const ReportInput& input) {
   figure.caption = (shown->simulated ? "No measured record is at hand: this is what the loop "
                                        "does when simulated, in "
                                      : "Pressure and heat release as recorded in ") +
-                   name + ", " + Number(1e3 * window_s) + " ms from its middle." +
+                   name + ", " + Spelled(1e3 * window_s, 3) + " ms from its middle." +
                    (shown->simulated ? SimulationRemark(input, name) : "");
   figure.csv = csv.Text();
   Script script;

@@ -95,6 +95,12 @@ TEST(SingleChangeTest, TwoModesWithTransfers) {
   EXPECT_GT(seen.helping, 0);
 }
 
+TEST(SingleChangeTest, SharedDelay) {
+  const Seen seen = CheckDrawn({.modes = 1, .shared_tau = true}, 500, 520);
+  EXPECT_GT(seen.empty, 3);
+  EXPECT_GT(seen.helping, 8);
+}
+
 // The same over more problems, minutes of them: ctest -R single_change_all.
 TEST(SingleChangeTest, DISABLED_ManyMore) {
   for (const int modes : {1, 2}) {
