@@ -14,13 +14,6 @@
 
 namespace howl {
 
-namespace {
-
-// Without a prior: some delays are half as long again as others.
-constexpr double kWidestScatter = 0.3;
-
-}  // namespace
-
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) {
   const std::string file = config.source.string();
   std::vector<DiagnosisExperiment> experiments;
@@ -52,10 +45,6 @@ BaseModel BaseOf(const Config& config) {
   const LocatedMember* const model = config.tree.Find("model");
   if (model != nullptr && model->value.Find("modes") != nullptr) base.modes = config.model.modes;
   base.harmonic_ratio = config.model.harmonic_ratio;
-  const ResidualSpec& prior = config.residuals[ResidualKind::kTauPrior];
-  base.delay_scatter_max = config.model[ParameterKind::kTau].scope == ParameterScope::kShared ? 0.0
-                           : prior.enabled ? prior.std
-                                           : kWidestScatter;
   return base;
 }
 

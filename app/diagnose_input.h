@@ -14,7 +14,7 @@ namespace howl {
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
 
 // The loop that the config states. Where it does not state `modes`, two: with M zero they are one.
-// Delays of their own (scope: experiment) scatter as far as the fit's tau_prior lets them.
+// One delay serves all experiments.
 BaseModel BaseOf(const Config& config);
 
 // Operating points are found by name or parameter, and interpolated in between.

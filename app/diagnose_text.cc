@@ -69,9 +69,6 @@ std::string BaseText(const Diagnosis& diagnosis) {
   text += diagnosis.model.modes == 1
               ? "one mode"
               : "two modes, ratio " + Significant(diagnosis.model.harmonic_ratio, 4);
-  text += diagnosis.model.delay_scatter_max == 0.0
-              ? "; one delay for all"
-              : "; the delays scatter by " + Fixed(kPerCent * diagnosis.delay_scatter, 2) + " %";
   return text + "\n";
 }
 

@@ -1,6 +1,7 @@
 #include "app/record_input.h"
 
 #include "io/records/records.h"
+#include "io/records/time_unit.h"
 
 namespace howl {
 
@@ -18,7 +19,9 @@ std::vector<RateSource> RateSources(const Config& config) {
   std::vector<RateSource> sources;
   for (const ExperimentConfig& each : config.experiments) {
     if (!each.record) continue;
-    const bool by_times = each.record->time && !each.record->sampling_hz;
+    // A name with a unit leaves nothing to guess.
+    const bool by_times =
+        each.record->time && !each.record->sampling_hz && !TimeUnitOfName(*each.record->time);
     sources.push_back(by_times ? RateSource::kTimeColumn : RateSource::kNumber);
   }
   return sources;

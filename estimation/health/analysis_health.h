@@ -24,8 +24,9 @@ enum class RateSource : std::uint8_t { kNumber, kTimeColumn };
 // Nothing for a steady one.
 Health CheckState(const Analysis& analysis, const CharacteristicsOptions& options);
 
-// A rate at which the search range is empty, or a record without a cycle that has one if its time
-// is in milliseconds or microseconds (its rate in kHz or MHz).
+// A rate at which the search range is empty, or a record whose cycle is slower than 1 Hz, or that
+// has none, and has one in reach if its time is in milliseconds or microseconds (its rate in kHz or
+// MHz).
 Health CheckSampling(const NamedRecord& record, const Analysis& analysis,
                      const AnalysisOptions& options, RateSource source);
 

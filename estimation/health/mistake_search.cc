@@ -51,13 +51,13 @@ class Search {
          const MistakeSearch& search)
       : model_(problem.model()), residuals_(residuals), search_(search) {
     for (Experiment experiment : problem.experiments()) {
-      has_transfer_ = has_transfer_ || !experiment.transfer.empty();
+      has_transfer_.push_back(!experiment.transfer.empty());
       experiment.transfer.clear();
       experiment.transfer_ellipsoid.reset();
       experiments_.push_back(std::move(experiment));
     }
     solver_ = search.solver;
-    if (has_transfer_) {
+    if (std::ranges::count(has_transfer_, true) > 0) {
       const JointProblem without(experiments_, model_, residuals_);
       Suspect(without, SolveJoint(without, solver_, search_.seed, search_.threads));
     } else {
@@ -76,10 +76,11 @@ class Search {
       slope_costs_.push_back(CostOf(problem, fit, i, true));
     }
   }
-  bool Applies(const Mistake& mistake, const Experiment& experiment) const {
-    const bool recorded =
-        std::ranges::find(search_.recorded, experiment.name) != search_.recorded.end();
-    return recorded ? mistake.in_records : mistake.in_tables;
+  bool Applies(const Mistake& mistake, std::size_t i) const {
+    if (std::ranges::find(search_.recorded, experiments_[i].name) == search_.recorded.end()) {
+      return mistake.in_tables;
+    }
+    return mistake.in_records && !(mistake.in_transfer && has_transfer_[i]);
   }
   void Try(const Mistake& mistake, int alone);
   void Refit(Trial& trial) const;
@@ -89,7 +90,7 @@ class Search {
   MistakeSearch search_;
   SolverSpec solver_;
   std::vector<Experiment> experiments_;
-  bool has_transfer_ = false;
+  std::vector<bool> has_transfer_;
   double cost_ = 0.0;
   std::vector<double> slope_costs_;  // of limit_cycle_gain, for each experiment
   std::vector<int> worst_;
@@ -100,13 +101,14 @@ void Search::Try(const Mistake& mistake, int alone) {
   Trial trial{.mistake = &mistake, .experiments = experiments_, .alone = alone, .before = cost_};
   bool any = false;
   for (int i = 0; i < static_cast<int>(experiments_.size()); ++i) {
-    Experiment& experiment = trial.experiments[static_cast<std::size_t>(i)];
-    if ((alone != kShared && alone != i) || !Applies(mistake, experiment)) continue;
+    const auto at = static_cast<std::size_t>(i);
+    Experiment& experiment = trial.experiments[at];
+    if ((alone != kShared && alone != i) || !Applies(mistake, at)) continue;
     const bool had_slope = experiment.flame_slope.has_value();
     if (!mistake.undo(experiment)) continue;
     any = true;
     if (had_slope && !experiment.flame_slope) {
-      trial.before -= slope_costs_[static_cast<std::size_t>(i)];
+      trial.before -= slope_costs_[at];
     }
   }
   if (any) trials_.push_back(std::move(trial));

@@ -7,8 +7,10 @@
 // several do nearly as well as the best (within kAlike nats), all are named: the data cannot tell
 // them apart. A fit that costs less than kMuchBetter is never suspected.
 //
-// Transfers take no part: what they say of sign and order is record_health.h's, which sees them
-// whole. Costs are compared over the same residuals.
+// Transfers take no part. What they say of sign and order is analysis_health.h's, which sees them
+// whole: a record that has one is not suspected of these here, where a rig whose delay varies over
+// its operating points can look like p and q taken for each other. Costs are compared over the same
+// residuals.
 #ifndef HOWL_ESTIMATION_HEALTH_MISTAKE_SEARCH_H_
 #define HOWL_ESTIMATION_HEALTH_MISTAKE_SEARCH_H_
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHalfTurnDeg = 180.0;
 constexpr double kPerKilo = 1e3;
-// In hertz and in kilohertz: no rig's cycle is slower than a tenth of a hertz in howl's own range.
+// In kHz, the end of the joint fit's own search: a larger number is in Hz already.
 constexpr double kLargestKilohertz = 100.0;
 
 void InvertGain(Experiment& e) {
@@ -44,6 +44,7 @@ Mistake Inverted() {
           .text = "p or q with the wrong sign, as from an inverted transducer",
           .undone = "with phase_deg turned by 180 degrees",
           .in_records = true,
+          .in_transfer = true,
           .undo = [](Experiment& e) {
             e.phase_deg = WrapDeg(e.phase_deg + kHalfTurnDeg);
             return true;
@@ -66,6 +67,7 @@ Mistake Swapped(bool of_records) {
           .undone = "with p and q exchanged",
           .in_tables = !of_records,
           .in_records = of_records,
+          .in_transfer = true,
           .undo = [of_records](Experiment& e) {
             e.phase_deg = -e.phase_deg;
             InvertGain(e);

@@ -30,8 +30,9 @@ struct Mistake {
   std::string undone;     // "with phase_deg + 180"
   bool in_tables = true;  // a published row can have it
   bool in_records = false;
-  bool alone = true;     // one experiment can have it while others have not
-  bool together = true;  // undone in all at once it changes what fits
+  bool in_transfer = false;  // a record's transfer shows it, and is the better judge
+  bool alone = true;         // one experiment can have it while others have not
+  bool together = true;      // undone in all at once it changes what fits
   // False where the experiment shows that it has not this mistake.
   std::function<bool(Experiment&)> undo;
 };

@@ -7,9 +7,11 @@
 namespace howl {
 namespace {
 
-// Rates up to this many times the lowest frequency that is searched may be a thousand times too
-// low: above it the range is wide enough for the cycles that the user expects.
-constexpr double kSuspectRates = 50.0;
+// A record without a cycle is read again at another rate up to this one: at faster sampling the
+// range of frequencies is wide enough for the cycles that a user expects.
+constexpr double kSuspectRateHz = 1000.0;
+// A duct whose lowest mode is slower is longer than a hundred metres.
+constexpr double kSlowestCycleHz = 1.0;
 
 struct OtherUnit {
   double per_second;
@@ -35,8 +37,10 @@ Health CheckSampling(const NamedRecord& record, const Analysis& analysis,
   const PeakTest& peak = analysis.characteristics.peak;
   const double rate_hz = record.record.sampling_hz;
   const bool empty = !(peak.low_hz < peak.high_hz);
-  const bool suspect = analysis.characteristics.state == CycleState::kNoLimitCycle &&
-                       rate_hz <= kSuspectRates * options.characteristics.min_frequency_hz;
+  const Characteristics& cycle = analysis.characteristics;
+  const bool has_cycle = cycle.state != CycleState::kNoLimitCycle;
+  const bool suspect =
+      has_cycle ? cycle.frequency_hz.value < kSlowestCycleHz : rate_hz <= kSuspectRateHz;
   if (!empty && !suspect) return {};
   const std::string origin =
       source == RateSource::kTimeColumn
@@ -48,11 +52,12 @@ Health CheckSampling(const NamedRecord& record, const Analysis& analysis,
     const Analysis other = AtRate(record, options, other_hz);
     if (other.characteristics.state == CycleState::kNoLimitCycle) continue;
     finding.limit = other_hz;
-    finding.text = record.name + ": " + origin +
-                   (source == RateSource::kTimeColumn ? unit.time : unit.rate) +
-                   ", the sampling rate is " + NumberWord(other_hz, 6) +
-                   " Hz, and the record has a cycle at " +
-                   NumberWord(other.characteristics.frequency_hz.value, 4) + " Hz";
+    finding.text =
+        record.name + ": " + origin + (source == RateSource::kTimeColumn ? unit.time : unit.rate) +
+        ", the sampling rate is " + NumberWord(other_hz, 6) +
+        " Hz, and the record has a cycle at " +
+        NumberWord(other.characteristics.frequency_hz.value, 4) + " Hz" +
+        (has_cycle ? ", not at " + NumberWord(cycle.frequency_hz.value, 4) + " Hz" : std::string());
     return {finding};
   }
   if (!empty) return {};

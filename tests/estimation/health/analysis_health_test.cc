@@ -117,6 +117,20 @@ TEST(AnalysisHealth, ASlowRigIsNotAccused) {
   EXPECT_EQ(std::ranges::count_if(health, IsAccusation), 0) << Texts(health);
 }
 
+TEST(AnalysisHealth, ACycleBelowOneHertzIsSuspected) {
+  // Searched as low as it takes, the record in milliseconds has its cycle at 0.2 Hz.
+  std::vector<NamedRecord> records = RightRecords(2);
+  for (NamedRecord& each : records) each.record.sampling_hz /= 1000.0;
+  AnalysisOptions options = OneMode();
+  options.characteristics.min_frequency_hz = 0.02;
+  options.transfer.min_frequency_hz = 0.02;
+  options.lines.min_frequency_hz = 0.005;
+  const Health health = Check(records, options);
+  EXPECT_EQ(std::ranges::count(health, FindingKind::kSampling, &Finding::kind), kRightPoints)
+      << Texts(health);
+  EXPECT_THAT(Texts(health), HasSubstr("has a cycle at 216.3 Hz, not at 0.2163 Hz"));
+}
+
 TEST(AnalysisHealth, NoLimitCycleSaysWhatFailed) {
   // Noise excites a loop at three fifths of the gain that it takes to oscillate: its squared
   // amplitude varies by about its squared mean.
