@@ -64,7 +64,10 @@ struct Characteristics {
 
   int block_samples = 0;
   double block_noise_power = 0.0;  // of the noise floor in |P_b|^2
-  std::vector<double> envelope;    // of p, one a block
+  // The share of that floor which is not coherent with q, and so may be noise of p's own; the rest
+  // is pressure that the flame feels. One without q.
+  double floor_incoherent_share = 1.0;
+  std::vector<double> envelope;  // of p, one a block
 };
 
 // Needs at least eight periods of the cycle; a record without a significant peak gives
