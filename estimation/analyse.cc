@@ -60,9 +60,12 @@ void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions
               Analysis* analysis) {
   const Characteristics& c = analysis->characteristics;
   analysis->tau_s = tau_s;
-  FlameCurve curve = EstimateFlameCurve(record, c, tau_s.value, options.flame_curve);
+  const CrossSpectrum spectrum = WelchSpectrum(
+      RemoveMean(record.pressure), RemoveMean(record.heat_release), record.sampling_hz);
+  FlameCurve curve = EstimateFlameCurve(record, spectrum, c, tau_s.value, options.flame_curve);
   if (std::isfinite(curve.slope.value)) {
     analysis->loop_gain = LoopGainFromSlope(c.gain, c.frequency_hz, curve.slope);
+    analysis->low_loop_gain = ExplainLowLoopGain(c, curve, *analysis->loop_gain);
   }
   analysis->flame_curve = std::move(curve);
 }

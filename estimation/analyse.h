@@ -15,6 +15,7 @@
 #include "estimation/flame_curve.h"
 #include "estimation/growth.h"
 #include "estimation/lines.h"
+#include "estimation/loop_gain_reason.h"
 #include "estimation/record.h"
 #include "estimation/residual_spec.h"
 #include "estimation/transfer.h"
@@ -47,6 +48,7 @@ struct Analysis {
   std::optional<Estimate> tau_s;
   std::optional<FlameCurve> flame_curve;
   std::optional<Estimate> loop_gain;
+  std::optional<LowLoopGain> low_loop_gain;  // in a cycle, below one beyond its error: why
   std::optional<Transfer> transfer;
   std::optional<TransferFit> transfer_fit;
   std::optional<Growth> growth;  // of a pressure-only record whose envelope grows out of noise

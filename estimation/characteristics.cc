@@ -59,6 +59,28 @@ Peak FindPeak(const CrossSpectrum& spectrum, const CharacteristicsOptions& optio
   return peak;
 }
 
+// Of the floor beside the peak: the median incoherent power of p over its median power, over the
+// bins of the floor's running median outside the peak's main lobe. With nu averages a coherence of
+// zero comes out as 1 / nu, which is taken out.
+double IncoherentShare(const CrossSpectrum& spectrum, double frequency_hz) {
+  constexpr int kReach = 30;  // bins, as NoiseFloor's
+  const double nu = spectrum.degrees_of_freedom;
+  if (!spectrum.HasHeatRelease() || nu < 2.0) return 1.0;
+  const int peak = static_cast<int>(std::lround(frequency_hz / spectrum.bin_hz));
+  const int last = static_cast<int>(spectrum.pp.size()) - 1;
+  std::vector<double> power, incoherent;
+  for (int k = std::max(peak - kReach, 3); k <= std::min(peak + kReach, last); ++k) {
+    if (std::abs(k - peak) <= kBlackmanHarrisMainLobeBins) continue;
+    const auto i = static_cast<std::size_t>(k);
+    if (!(spectrum.qq[i] > 0.0)) return 1.0;
+    power.push_back(spectrum.pp[i]);
+    incoherent.push_back(
+        std::max(spectrum.pp[i] - std::norm(spectrum.qp[i]) / spectrum.qq[i], 0.0));
+  }
+  if (power.empty()) return 1.0;
+  return std::clamp(Median(incoherent) / Median(power) * nu / (nu - 1.0), 0.0, 1.0);
+}
+
 double MeanSquare(const Complexes& z) {
   double sum = 0.0;
   for (const auto& value : z) sum += std::norm(value);
@@ -291,6 +313,7 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
   result.frequency_drift_hz_per_s = line.drift_hz_per_s;
   result.line_width_hz = line.diffusion_rad2_per_s / kRadPerSPerHz;
   result.block_noise_power = 3.0 * peak.noise_psd / p_blocks.length_s;
+  result.floor_incoherent_share = IncoherentShare(spectrum, peak.frequency_hz);
   EstimateEnvelope(p_blocks.amplitude, p_blocks.hop_s, &result);
   Classify(options, duration_s, &result);
 

@@ -85,7 +85,10 @@ struct Characteristics {
 
   int block_samples = 0;
   double block_noise_power = 0.0;  // of the noise floor in |P_b|^2
-  std::vector<double> envelope;    // of p, one a block
+  // The share of that floor which is not coherent with q, and so may be noise of p's own; the rest
+  // is pressure that the flame feels. One without q.
+  double floor_incoherent_share = 1.0;
+  std::vector<double> envelope;  // of p, one a block
 };
 
 // Where the search for a cycle begins: 20 Hz, below which rigs rumble and drift; of slow records a

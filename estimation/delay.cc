@@ -13,7 +13,8 @@ Estimate DelayOnBranch(const DelayInput& input, int branch) {
   const double f = input.frequency_hz.value;
   const double tau_s = DelayFromPhase(f, input.phase_deg.value, branch);
   const double phase_std = std::isfinite(input.phase_deg.std) ? input.phase_deg.std : 0.0;
-  return {tau_s, phase_std / (360.0 * f)};
+  const double frequency_std = std::isfinite(input.frequency_hz.std) ? input.frequency_hz.std : 0.0;
+  return {tau_s, std::hypot(phase_std / 360.0, tau_s * frequency_std) / f};
 }
 
 DelayChoice EstimateDelays(std::span<const DelayInput> given, std::optional<int> branch,

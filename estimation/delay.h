@@ -25,9 +25,10 @@ struct DelayInput {
   Estimate phase_deg;
 };
 
-// phase_deg is taken as it is, not wrapped. The error is the phase's alone (an unknown one, NaN,
-// counts as zero): where a record's frequency wanders, its phase wanders with it by 360 tau, and
-// tau stays.
+// phase_deg is taken as it is, not wrapped. The errors of phase and frequency count as independent
+// (an unknown one, NaN, as zero). Were tau to stay while the frequency wanders, the phase would
+// wander with it by 360 tau and the frequency's error would cancel; on measured records it does
+// not: between halves of a record tau moves with the frequency.
 Estimate DelayOnBranch(const DelayInput& input, int branch);
 
 struct DelayBranch {

@@ -19,11 +19,18 @@ using LogParameters = std::array<double, 4>;
 
 // For given omega and xi the model is linear in N and M: the best start of a grid by linear least
 // squares, M kept positive.
-LogParameters GridStart(std::span<const TransferPoint> points, double ratio, bool second_mode,
+LogParameters GridStart(std::span<const TransferPoint> points, const ModelSpec& model,
+                        const TransferBand& band,
                         const std::optional<FirstModeCarries>& first_mode) {
+  const double ratio = model.harmonic_ratio;
+  const bool second_mode = model.modes == 2;
   double best_cost = std::numeric_limits<double>::infinity();
   LogParameters best{};
-  const double low = 0.5 * points.front().frequency_hz, high = 1.2 * points.back().frequency_hz;
+  double low = 0.5 * points.front().frequency_hz, high = 1.2 * points.back().frequency_hz;
+  if (second_mode && band.cycle_frequency_hz > 0.0) {
+    low = band.cycle_frequency_hz / std::sqrt(ratio);
+    high = band.cycle_frequency_hz * std::sqrt(ratio);
+  }
   constexpr int kOmegas = 60;
   for (int i = 0; i < kOmegas; ++i) {
     const double omega_hz = low * std::pow(high / low, static_cast<double>(i) / (kOmegas - 1));
@@ -78,7 +85,7 @@ struct Solution {
 };
 
 Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
-               const LogParameters& start) {
+               const TransferBand& band, const LogParameters& start) {
   Solution solution{.x = start};
   LogParameters& x = solution.x;
   ceres::Problem problem;
@@ -96,6 +103,11 @@ Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
   problem.SetParameterLowerBound(&x[1], 0, std::log(kTransferXiMin));
   problem.SetParameterUpperBound(&x[1], 0, std::log(kTransferXiMax));
   if (model.modes == 2) {
+    if (band.cycle_frequency_hz > 0.0) {
+      const double reach = 0.5 * std::log(model.harmonic_ratio);
+      problem.SetParameterLowerBound(&x[0], 0, std::log(band.cycle_frequency_hz) - reach);
+      problem.SetParameterUpperBound(&x[0], 0, std::log(band.cycle_frequency_hz) + reach);
+    }
     problem.SetParameterLowerBound(&x[3], 0, x[2] + std::log(1e-6));
     problem.SetParameterUpperBound(&x[3], 0, x[2] + std::log(1e6));
   }
@@ -158,7 +170,7 @@ TransferBand TransferBandOf(const ModelSpec& model, double frequency_hz) {
   constexpr double kHighestTwoModes = 5.0 / 3.0;  // over the second mode's frequency
   const double highest =
       model.modes == 2 ? kHighestTwoModes * model.harmonic_ratio : kHighestOneMode;
-  return {kLowest * frequency_hz, highest * frequency_hz};
+  return {kLowest * frequency_hz, highest * frequency_hz, frequency_hz};
 }
 
 TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const TransferBand& band,
@@ -174,7 +186,7 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const 
   const double dof = 2.0 * static_cast<double>(points.size()) - free;
   const auto solve = [&](double error) {
     const std::vector<TransferPoint> softened = WithModelError(points, error);
-    return Solve(softened, model, GridStart(softened, model.harmonic_ratio, second_mode, first));
+    return Solve(softened, model, band, GridStart(softened, model, band, first));
   };
   Solution solution = solve(0.0);
   fit.chi_square_per_dof = 2.0 * solution.cost / dof;

@@ -2,31 +2,26 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <utility>
 
+#include "estimation/flame_dither.h"
+#include "estimation/flame_polynomial.h"
 #include "estimation/flame_regressor.h"
 #include "model/units.h"
 
 namespace howl {
 namespace {
 
-constexpr int kCoefficients = 6;
-constexpr int kScoreBlocks = 48;
 constexpr int kFewestSamples = 100;
 constexpr double kClearPreference = 2.0;  // standard errors
-using Coefficients = Eigen::Matrix<double, kCoefficients, 1>;
-
-// u^0 .. u^5
-Coefficients Powers(double u) {
-  Coefficients f;
-  f(0) = 1.0;
-  for (int i = 1; i < kCoefficients; ++i) f(i) = f(i - 1) * u;
-  return f;
-}
+constexpr double kLargestNoise = 0.3;     // s^2 / X^2: beyond, first order says nothing
+// The flame is taken to feel p's harmonics, or what lies below one and a half times the cycle's
+// frequency alone.
+constexpr double kFundamentalBand = 1.5;
 
 void FillBins(const std::vector<double>& x, const std::vector<double>& q, double limit, int count,
               std::vector<FlameCurveBin>* bins) {
@@ -56,113 +51,91 @@ void FillBins(const std::vector<double>& x, const std::vector<double>& q, double
   }
 }
 
-// One regressor and the heat release beside it.
-struct Samples {
-  std::vector<double> x;
-  std::vector<double> q;
-  double q_mean = 0.0;
-  double hysteresis = 0.0;
-};
-
-Samples Collect(const Record& record, const FlameRegressor& regressor, bool with_harmonics) {
-  Samples samples;
-  double area = 0.0, in_phase = 0.0, quadrature_sum = 0.0, fundamental_sum = 0.0;
+FlameSamples Collect(const Record& record, const FlameRegressor& regressor, bool with_harmonics) {
+  FlameSamples samples;
   for (int t = regressor.first(); t < regressor.last(); ++t) {
     const std::complex<double> z = regressor.Fundamental(t);
     const double q = record.heat_release[static_cast<std::size_t>(t)];
     samples.x.push_back(z.real() + (with_harmonics ? regressor.Harmonics(z) : 0.0));
     samples.q.push_back(q);
     samples.q_mean += q;
-    area -= q * z.imag();
-    in_phase += q * z.real();
-    quadrature_sum -= z.imag();
-    fundamental_sum += z.real();
   }
   samples.q_mean /= static_cast<double>(samples.x.size());
-  area -= samples.q_mean * quadrature_sum;
-  in_phase -= samples.q_mean * fundamental_sum;
-  samples.hysteresis = area / std::hypot(area, in_phase);
   return samples;
 }
 
-// q - mean as a polynomial of x / limit over |x| <= range * limit.
-struct PolynomialFit {
-  Coefficients coefficients;
-  Coefficients slope_row;  // of the inverse normal matrix: the slope's influence function
-  Coefficients offset_row;
-
-  double Residual(const Samples& samples, std::size_t t, double limit) const {
-    return samples.q[t] - samples.q_mean - coefficients.dot(Powers(samples.x[t] / limit));
+// The mean cycle of q over the phase of x: its first harmonic and the others relative to it.
+void FillMeanCycle(const Record& record, const FlameRegressor& regressor, double q_mean,
+                   FlameCurve& curve) {
+  std::complex<double> weighted = 0.0;  // by the amplitude of x
+  std::array<std::complex<double>, kMeanCycleHarmonics + 1> sum{};
+  for (int t = regressor.first(); t < regressor.last(); ++t) {
+    const std::complex<double> z = regressor.Fundamental(t);
+    const double q = record.heat_release[static_cast<std::size_t>(t)] - q_mean;
+    const std::complex<double> back = std::conj(z) / std::abs(z);
+    weighted += q * std::conj(z);
+    std::complex<double> power = 1.0;
+    for (auto& harmonic : sum) {
+      harmonic += q * power;
+      power *= back;
+    }
   }
-};
-
-PolynomialFit FitPolynomial(const Samples& samples, double limit, double range) {
-  Eigen::Matrix<double, kCoefficients, kCoefficients> normal;
-  normal.setZero();
-  Coefficients rhs = Coefficients::Zero();
-  for (std::size_t t = 0; t < samples.x.size(); ++t) {
-    if (std::abs(samples.x[t]) > range * limit) continue;
-    const Coefficients f = Powers(samples.x[t] / limit);
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(f);
-    rhs += (samples.q[t] - samples.q_mean) * f;
+  curve.hysteresis = weighted.imag() / std::abs(weighted);
+  for (int k = 1; k <= kMeanCycleHarmonics; ++k) {
+    // Turned so that the first is real: what is left is the shape, free of an error of tau.
+    const std::complex<double> turn = std::polar(1.0, -k * std::arg(-sum[1]));
+    curve.mean_cycle.push_back(sum[static_cast<std::size_t>(k)] * turn / -std::abs(sum[1]));
   }
-  const Eigen::LDLT<Eigen::Matrix<double, kCoefficients, kCoefficients>> solver(
-      normal.selfadjointView<Eigen::Lower>());
-  PolynomialFit fit;
-  fit.coefficients = solver.solve(rhs);
-  fit.slope_row = solver.solve(Coefficients::Unit(1));
-  fit.offset_row = solver.solve(Coefficients::Unit(0));
-  return fit;
 }
 
-// By how many standard errors `b` leaves q less scattered than `a`: positive where b is the better
-// regressor. Over the same samples, in blocks that outlast the correlation of the residuals.
-double ScatterPreference(const Samples& a, const PolynomialFit& fit_a, const Samples& b,
-                         const PolynomialFit& fit_b, double limit, double range) {
-  std::vector<double> differences(kScoreBlocks, 0.0);
-  for (std::size_t t = 0; t < a.x.size(); ++t) {
-    if (std::abs(a.x[t]) > range * limit || std::abs(b.x[t]) > range * limit) continue;
-    const double ra = fit_a.Residual(a, t, limit);
-    const double rb = fit_b.Residual(b, t, limit);
-    differences[t * kScoreBlocks / a.x.size()] += ra * ra - rb * rb;
+// Fundamental and harmonics, at the delay near the given one that leaves q least scattered: where
+// x has harmonics, the phase of q's fundamental is no longer that of x's, and (3) misses the delay
+// by a little. A golden-section search within a hundredth of the period.
+FlameSamples CollectWithHarmonics(const Record& record, const FlameRegressor& regressor,
+                                  double period_s, double limit, double range) {
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr int kSteps = 8;
+  const auto scatter = [&](double shift) {
+    const FlameSamples samples =
+        Collect(record, regressor.Delayed(regressor.tau_s() + shift * period_s), true);
+    return FlamePolynomial(samples, limit, range).MeanSquareResidual(samples);
+  };
+  double low = -0.01, high = 0.01;
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = scatter(a), at_b = scatter(b);
+  for (int i = 0; i < kSteps; ++i) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a;
+      a = high - kGolden * (high - low);
+      at_a = scatter(a);
+    } else {
+      low = a, a = b, at_a = at_b;
+      b = low + kGolden * (high - low);
+      at_b = scatter(b);
+    }
   }
-  double mean = 0.0;
-  for (const double difference : differences) mean += difference / kScoreBlocks;
-  const double variance = ErrorOfMean(differences, 0.0).covariance(0, 0);
-  return variance > 0.0 ? mean / std::sqrt(variance) : 0.0;
+  const double shift = at_a < at_b ? a : b;
+  return Collect(record, regressor.Delayed(regressor.tau_s() + shift * period_s), true);
 }
 
-void FillErrors(const Samples& samples, const PolynomialFit& fit, double limit, double range,
-                FlameCurve& curve) {
-  std::vector<double> slope_scores(kScoreBlocks, 0.0), offset_scores(kScoreBlocks, 0.0);
-  double low_sum = 0, high_sum = 0;
+// Means of q beyond the fitted range, on either side.
+void FillSaturation(const FlameSamples& samples, double edge, FlameCurve& curve) {
+  double low_sum = 0.0, high_sum = 0.0;
   int low_count = 0, high_count = 0;
   for (std::size_t t = 0; t < samples.x.size(); ++t) {
-    const double u = samples.x[t] / limit;
-    if (u > range) high_sum += samples.q[t], ++high_count;
-    if (u < -range) low_sum += samples.q[t], ++low_count;
-    if (std::abs(u) > range) continue;
-    const Coefficients f = Powers(u);
-    const double residual = fit.Residual(samples, t, limit);
-    const std::size_t block = t * kScoreBlocks / samples.x.size();
-    slope_scores[block] += kScoreBlocks * fit.slope_row.dot(f) * residual;
-    offset_scores[block] += kScoreBlocks * fit.offset_row.dot(f) * residual;
+    if (samples.x[t] > edge) high_sum += samples.q[t], ++high_count;
+    if (samples.x[t] < -edge) low_sum += samples.q[t], ++low_count;
   }
-  const MeanError slope_error = ErrorOfMean(slope_scores, 0.0);
-  const MeanError offset_error = ErrorOfMean(offset_scores, 0.0);
-  const double inflation = StudentInflation(slope_error.degrees_of_freedom);
   const double positive = high_count > 0 ? high_sum / high_count : samples.q_mean;
   const double negative = low_count > 0 ? low_sum / low_count : samples.q_mean;
   curve.saturation_low = std::min(positive, negative);
   curve.saturation_high = std::max(positive, negative);
-  curve.offset = {samples.q_mean + fit.coefficients(0),
-                  std::sqrt(offset_error.covariance(0, 0)) * inflation};
-  curve.slope.std = std::sqrt(slope_error.covariance(0, 0)) * inflation / limit;
 }
 
 }  // namespace
 
-FlameCurve EstimateFlameCurve(const Record& record, const Characteristics& cycle, double tau_s,
+FlameCurve EstimateFlameCurve(const Record& record, const CrossSpectrum& spectrum,
+                              const Characteristics& cycle, double tau_s,
                               const FlameCurveOptions& options) {
   CHECK_EQ(record.heat_release.size(), record.pressure.size());
   const FlameRegressor regressor(record, cycle, tau_s, options.max_harmonic);
@@ -171,38 +144,52 @@ FlameCurve EstimateFlameCurve(const Record& record, const Characteristics& cycle
   const double limit = kRadPerSPerHz * cycle.frequency_hz.value * cycle.p_amplitude;
   curve.x_amplitude = limit;
 
-  Samples samples = Collect(record, regressor, false);
+  FlameSamples samples = Collect(record, regressor, false);
   double undecided = 0.0;
-  PolynomialFit fit = FitPolynomial(samples, limit, options.fit_range);
   if (regressor.locked_harmonics() > 0) {
-    Samples full = Collect(record, regressor, true);
-    const PolynomialFit full_fit = FitPolynomial(full, limit, options.fit_range);
+    FlameSamples full = CollectWithHarmonics(record, regressor, 1.0 / cycle.frequency_hz.value,
+                                             limit, options.fit_range);
+    const FlamePolynomial fit(samples, limit, options.fit_range);
+    const FlamePolynomial full_fit(full, limit, options.fit_range);
+    // Of the highest degree: what a low one misses of the curve is no scatter.
+    constexpr int kDegree = FlamePolynomial::kHighestDegree;
     const double preference =
-        ScatterPreference(samples, fit, full, full_fit, limit, options.fit_range);
-    // Where the scatter cannot tell the two apart, neither can the slope be known better than to
-    // half of their distance.
-    if (std::abs(preference) < kClearPreference) {
-      undecided = 0.5 * (full_fit.coefficients(1) - fit.coefficients(1)) / limit;
-    }
-    if (preference > 0.0) {
+        ScatterPreference(samples, FlamePolynomial(samples, limit, options.fit_range, kDegree),
+                          full, FlamePolynomial(full, limit, options.fit_range, kDegree));
+    // Where the scatter cannot tell the two apart, the seed's (4) stands, and the slope is known no
+    // better than to half of their distance.
+    if (preference > kClearPreference) {
       samples = std::move(full);
-      fit = full_fit;
       curve.harmonics = regressor.locked_harmonics();
+      undecided = full_fit.Coefficient(1) / limit * std::sqrt(regressor.harmonic_slope_variance());
+    } else if (preference > -kClearPreference) {
+      undecided = 0.5 * (full_fit.Coefficient(1) - fit.Coefficient(1)) / limit;
     }
   }
-  curve.hysteresis = samples.hysteresis;
+  FillMeanCycle(record, regressor, samples.q_mean, curve);
   FillBins(samples.x, samples.q, 1.05 * limit, options.bins, &curve.bins);
-  FillErrors(samples, fit, limit, options.fit_range, curve);
+  FillSaturation(samples, options.fit_range * limit, curve);
+  const FlameSlopeFit fit = FitFlameSlope(samples, limit, options.fit_range);
+  curve.degree = fit.degree;
+  curve.offset = fit.offset;
 
-  // Joining the blocks leaves 0.79 of their noise's variance, half of it in the real part.
-  curve.regressor_noise = 0.5 * 0.79 * cycle.block_noise_power * cycle.block_samples /
-                          regressor.block_samples() / (cycle.p_amplitude * cycle.p_amplitude);
-  const Coefficients& c = fit.coefficients;
-  const double r = std::min(curve.regressor_noise, 0.3);  // beyond, first order says nothing
-  curve.slope.value = (c(1) / (1.0 + r) - 3.0 * r * c(3)) / limit;
-  const double correction = curve.slope.value - c(1) / limit;
-  curve.relative_correction = c(1) != 0.0 ? curve.slope.value * limit / c(1) - 1.0 : 0.0;
-  curve.slope.std = std::hypot(curve.slope.std, 0.5 * correction, undecided);
+  // Joining the blocks leaves 0.79 of their noise's variance, half of it in the real part. Of the
+  // floor, what is coherent with q is pressure, which the flame felt, and no error of x.
+  curve.regressor_noise = 0.5 * 0.79 * cycle.floor_incoherent_share * cycle.block_noise_power *
+                          cycle.block_samples / regressor.block_samples() /
+                          (cycle.p_amplitude * cycle.p_amplitude);
+  const double band = curve.harmonics > 0 ? options.max_harmonic + 0.5 : kFundamentalBand;
+  curve.dither = DitherVariance(spectrum, cycle.frequency_hz.value,
+                                regressor.block_samples() / record.sampling_hz,
+                                band * cycle.frequency_hz.value) /
+                 (limit * limit);
+  const double noise = std::min(curve.regressor_noise, kLargestNoise);
+  const double smoothing = std::min(curve.regressor_noise + curve.dither, kLargestNoise);
+  const double corrected = fit.slope.value / (1.0 + noise) - 3.0 * smoothing * fit.cubic;
+  const double correction = corrected - fit.slope.value;
+  curve.relative_correction = fit.slope.value != 0.0 ? correction / fit.slope.value : 0.0;
+  curve.slope = {corrected / limit,
+                 std::hypot(fit.slope.std / limit, 0.5 * correction / limit, undecided)};
   return curve;
 }
 

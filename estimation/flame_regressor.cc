@@ -16,14 +16,14 @@ constexpr double kLockedSigmas = 4.0;
 constexpr double kLeastDiffusion = 5e-12;  // rad^2 a period: a steadier phase counts as this steady
 constexpr double kHighestHarmonic = 0.4;   // of the sampling rate
 
-// Samples of the blocks that p's fundamental is joined from. Long ones let in less noise (a
-// relative variance of 0.4 |n|^2 / |P|^2, falling as 1 / length), short ones follow a wandering
-// phase (an error of about 0.1 D length). A whole number of periods, three at least, keeps
-// harmonics out.
+// Samples of the blocks that p's fundamental is joined from. Long ones let in less noise of p's own
+// (a relative variance of 0.4 |n|^2 / |P|^2, falling as 1 / length), short ones follow a wandering
+// phase (an error of about 0.1 D length) and whatever else q is coherent with. A whole number of
+// periods, three at least, keeps harmonics out.
 int JoiningBlock(const Characteristics& cycle, double sampling_hz) {
   const double longest_s = cycle.block_samples / sampling_hz;
-  const double noise =
-      0.4 * cycle.block_noise_power * longest_s / (cycle.p_amplitude * cycle.p_amplitude);
+  const double noise = 0.4 * cycle.floor_incoherent_share * cycle.block_noise_power * longest_s /
+                       (cycle.p_amplitude * cycle.p_amplitude);
   const double diffusion =
       std::max(kRadPerSPerHz * cycle.line_width_hz, kLeastDiffusion * cycle.frequency_hz.value);
   const double best_s = std::min(std::sqrt(noise / (0.1 * diffusion)), longest_s);
@@ -61,6 +61,8 @@ FlameRegressor::FlameRegressor(const Record& record, const Characteristics& cycl
       power += std::norm(locked) / count;
     }
     const double variance_of_mean = std::max(power - std::norm(mean), 0.0) / count;
+    const double slope_error = order * order * std::sqrt(variance_of_mean) / cycle.p_amplitude;
+    harmonic_slope_variance_ += 0.5 * slope_error * slope_error;
     if (std::norm(mean) <= kLockedSigmas * kLockedSigmas * variance_of_mean) continue;
     // j k w m_k (P_1 / |P_1|)^k with P_1 / |P_1| = -j F / |F|, F = j w P_1.
     const std::complex<double> j(0.0, 1.0);

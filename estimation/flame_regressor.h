@@ -26,11 +26,22 @@ class FlameRegressor {
   FlameRegressor(const Record& record, const Characteristics& cycle, double tau_s,
                  int max_harmonic);
 
+  // The same with another delay, near to the first: the samples that have a regressor stay.
+  FlameRegressor Delayed(double tau_s) const {
+    FlameRegressor other = *this;
+    other.tau_s_ = tau_s;
+    return other;
+  }
+
   // Samples [first, last) of the record have a regressor.
+  double tau_s() const { return tau_s_; }
   int first() const { return first_; }
   int last() const { return last_; }
   int block_samples() const { return block_samples_; }
   int locked_harmonics() const { return static_cast<int>(locked_.size()); }  // beyond the first
+  // Relative, of the slope at zero: the k-th harmonic, of amplitude |m_k| relative to the first,
+  // changes it by k^2 |m_k| where it counts, and each m_k, locked or not, is known to an error.
+  double harmonic_slope_variance() const { return harmonic_slope_variance_; }
 
   // j w P_1(t - tau): the real part is (4).
   std::complex<double> Fundamental(int sample) const;
@@ -48,6 +59,7 @@ class FlameRegressor {
   double frequency_hz_ = 0.0;
   double sampling_hz_ = 0.0;
   double tau_s_ = 0.0;
+  double harmonic_slope_variance_ = 0.0;
   int block_samples_ = 0;
   int first_ = 0;
   int last_ = 0;

@@ -70,6 +70,14 @@ LineFrequency EstimateLineFrequency(std::span<const std::complex<double>> blocks
   line.offset_hz = {trend.slope.value * to_hz, trend.slope.std * to_hz};
   line.drift_hz_per_s = {trend.curvature.value * to_hz / hop_s,
                          trend.curvature.std * to_hz / hop_s};
+  // A frequency that drifts is not one number: what the drift, beyond its own error, spreads it
+  // over the record (a uniform distribution's deviation) is what another stretch may differ by.
+  const double drift = std::sqrt(
+      std::max(line.drift_hz_per_s.value * line.drift_hz_per_s.value -
+                   kNormal95 * kNormal95 * line.drift_hz_per_s.std * line.drift_hz_per_s.std,
+               0.0));
+  const double duration_s = static_cast<double>(blocks.size()) * hop_s;
+  line.offset_hz.std = std::hypot(line.offset_hz.std, drift * duration_s / std::sqrt(12.0));
   line.diffusion_rad2_per_s = trend.walk_variance / hop_s;
   return line;
 }

@@ -24,8 +24,8 @@ struct LineFrequency {
   double diffusion_rad2_per_s = 0.0;
 };
 
-// Slope of the phase by FitTrend, or where the phase cannot be unwrapped the power-weighted mean
-// frequency arg(sum z_{b+1} conj(z_b)) / (2 pi hop).
+// Slope of the phase by FitTrend, its error widened by a significant drift; or where the phase
+// cannot be unwrapped the power-weighted mean frequency arg(sum z_{b+1} conj(z_b)) / (2 pi hop).
 LineFrequency EstimateLineFrequency(std::span<const std::complex<double>> blocks,
                                     const PhaseSeries& phase, double hop_s);
 

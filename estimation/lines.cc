@@ -74,9 +74,14 @@ double Amplitude(std::span<const double> s, std::span<const double> floor, int b
   return std::sqrt(2.0 * std::max(power, 0.0) * bin_hz);
 }
 
-Estimate RefineFrequency(std::span<const double> x, double sampling_hz, double frequency_hz) {
+// A line whose phase cannot be followed is a resonance, and its frequency the place of a maximum of
+// a spectrum known to 1 / sqrt(nu): within half the width times nu^(-1/4) of the peak of a
+// Lorentzian the spectrum falls by less than that.
+Estimate RefineFrequency(std::span<const double> x, double sampling_hz, double frequency_hz,
+                         double width_hz, double nu) {
   const int n = static_cast<int>(x.size());
   Estimate result{frequency_hz, std::numeric_limits<double>::quiet_NaN()};
+  bool followed = true;
   for (int pass = 0; pass < 2; ++pass) {
     // Long blocks first: unwrapping needs every block well above the noise.
     const Blocks blocks = Demodulate(x, sampling_hz, result.value, n / 12);
@@ -84,7 +89,9 @@ Estimate RefineFrequency(std::span<const double> x, double sampling_hz, double f
     const LineFrequency line = EstimateLineFrequency(blocks.amplitude, phase, blocks.hop_s);
     if (!std::isfinite(line.offset_hz.value)) break;
     result = {result.value + line.offset_hz.value, line.offset_hz.std};
+    followed = phase.reliable;
   }
+  if (!followed) result.std = std::hypot(result.std, 0.5 * width_hz / std::sqrt(std::sqrt(nu)));
   return result;
 }
 
@@ -170,8 +177,8 @@ std::vector<SpectralLine> FindLines(const Record& record, const CrossSpectrum& s
       sum += s[static_cast<std::size_t>(j)];
       moment += j * s[static_cast<std::size_t>(j)];
     }
-    line.frequency_hz =
-        RefineFrequency(by_p ? p : q, record.sampling_hz, moment / sum * spectrum.bin_hz);
+    line.frequency_hz = RefineFrequency(by_p ? p : q, record.sampling_hz,
+                                        moment / sum * spectrum.bin_hz, line.width_hz, nu);
     line.narrow =
         line.width_hz < std::max(options.max_width * line.frequency_hz.value, line.resolution_hz);
     if (fundamental_hz > 0.0) {

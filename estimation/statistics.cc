@@ -54,6 +54,8 @@ std::array<double, 3> SmoothedWalkCovariance() {
 struct IncrementBasis {
   Eigen::MatrixXd vectors;
   Eigen::VectorXd walk;
+  Eigen::MatrixXd cosines;                    // the K slowest, one a column
+  Eigen::VectorXd cosine_noise, cosine_walk;  // variances of their sums by either
 };
 
 std::shared_ptr<const IncrementBasis> BasisFor(int n) {
@@ -75,8 +77,17 @@ std::shared_ptr<const IncrementBasis> BasisFor(int n) {
     }
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(walk_matrix,
                                                                            noise_matrix);
+    const int count = CosineCount(n);
+    Eigen::MatrixXd cosines(n, count);
+    for (int j = 0; j < count; ++j) {
+      for (int t = 0; t < n; ++t) cosines(t, j) = std::cos(kPi * (j + 1) * (t + 0.5) / n);
+    }
+    const auto variances = [&](const Eigen::MatrixXd& covariance) -> Eigen::VectorXd {
+      return (cosines.transpose() * covariance * cosines).diagonal();
+    };
     entry = std::make_shared<IncrementBasis>(
-        IncrementBasis{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0)});
+        IncrementBasis{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0), cosines,
+                       variances(noise_matrix), variances(walk_matrix)});
   }
   return entry;
 }
@@ -88,7 +99,9 @@ double StudentInflation(double degrees_of_freedom) {
   return boost::math::quantile(distribution, 0.975) / kNormal95;
 }
 
-int CosineCount(int n) { return std::clamp(n / 3, 3, 20); }
+int CosineCount(int n) {
+  return std::max(static_cast<int>(std::lround(0.4 * std::cbrt(static_cast<double>(n) * n))), 3);
+}
 
 MeanError ErrorOfMean(std::span<const std::complex<double>> values, double lag_one_correlation) {
   const int n = static_cast<int>(values.size());
@@ -170,7 +183,12 @@ TrendFit FitTrend(std::span<const double> series) {
   const double variance = std::max(second / total - slope * slope, 0.0);
   fit.walk_variance = walk_sum / total;
   fit.noise_variance = white / total;
-  fit.slope = {slope, std::sqrt(variance) * StudentInflation(n - 1)};
+  const Eigen::ArrayXd sums = (basis->cosines.transpose() * increments).array();
+  const Eigen::ArrayXd expected = fit.noise_variance * basis->cosine_noise.array() +
+                                  fit.walk_variance * basis->cosine_walk.array();
+  const double slow_excess = (sums.square() / expected.max(1e-300)).mean();
+  fit.slope = {slope, std::sqrt(variance * slow_excess) *
+                          StudentInflation(static_cast<double>(basis->cosines.cols()))};
 
   const double walk_share = fit.walk_variance / fit.noise_variance;
   const Eigen::VectorXd w = (noise + walk_share * walk).array().inverse();

@@ -30,7 +30,9 @@ struct Estimate {
 // Student's 0.975 quantile over the normal's: what turns a standard error into a reported std.
 double StudentInflation(double degrees_of_freedom);
 
-// K for n values: about n / 3, at least 3, at most 20.
+// K for n values: 0.4 n^(2/3), at least 3 (Lazarus, Lewis, Stock and Watson 2018, their recommended
+// choice). More cosines would take the fast part of the scatter for the slow one, which on measured
+// records is larger.
 int CosineCount(int n);
 
 // Covariance of the mean of complex values, as a 2x2 of real and imaginary parts, not inflated.
@@ -47,8 +49,10 @@ MeanError ErrorOfMean(std::span<const double> values, double lag_one_correlation
 // Slope of a series y_b = a + mu b + random walk + white noise, seen through half-overlapping Hann
 // blocks (which correlate neighbours), with the strengths d and r of walk and noise unknown:
 // generalised least squares on the increments, averaged over d / r by its restricted likelihood
-// with probability `kNoWalkPrior` for d = 0. White noise alone is the phase of a pure tone, a walk
-// that of a diffusing limit cycle; the errors of the slope differ by orders of magnitude.
+// with probability `kNoWalkPrior` for d = 0. The error is scaled by what the K slowest cosines of
+// the increments hold over what the fit expects of them, with K degrees of freedom: a frequency
+// that wanders slower than a walk's shows there. White noise alone is the phase of a pure tone, a
+// walk that of a diffusing limit cycle; the errors of the slope differ by orders of magnitude.
 inline constexpr double kNoWalkPrior = 0.8;
 struct TrendFit {
   Estimate slope;             // per step

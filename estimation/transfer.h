@@ -59,6 +59,11 @@ Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const Spectra
 struct TransferBand {
   double min_frequency_hz = 0.0;
   double max_frequency_hz = std::numeric_limits<double>::infinity();
+  // The cycle's: of two modes the first is then the nearer to it, omega within f / sqrt(ratio) ..
+  // f sqrt(ratio) (the paper's (5b): the second hardly matters there). Otherwise a first mode with
+  // a vanishing N, at a third of the frequency, fits as well, the modes' names exchanged. Zero:
+  // there is none.
+  double cycle_frequency_hz = 0.0;
 
   bool Contains(double frequency_hz) const {
     return min_frequency_hz <= frequency_hz && frequency_hz <= max_frequency_hz;

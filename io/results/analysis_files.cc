@@ -51,12 +51,26 @@ Json TransferFitJson(const TransferFit& fit) {
 }
 
 Json FlameJson(const FlameCurve& curve) {
+  Json mean_cycle = Json::array();  // [re, im] of q's harmonics relative to the first
+  for (const std::complex<double>& r : curve.mean_cycle) mean_cycle.push_back({r.real(), r.imag()});
   return {{"slope", EstimateJson(curve.slope, "q per p/s")},
           {"offset", EstimateJson(curve.offset, "q")},
           {"saturation_low", NumberOrNull(curve.saturation_low)},
           {"saturation_high", NumberOrNull(curve.saturation_high)},
           {"hysteresis", NumberOrNull(curve.hysteresis)},
-          {"regressor_noise", NumberOrNull(curve.regressor_noise)}};
+          {"harmonics_of_p", curve.harmonics},
+          {"degree", curve.degree},
+          {"mean_cycle", std::move(mean_cycle)},
+          {"regressor_noise", NumberOrNull(curve.regressor_noise)},
+          {"dither", NumberOrNull(curve.dither)}};
+}
+
+Json LowLoopGainJson(const LowLoopGain& low) {
+  return {{"reason", LoopGainReasonName(low.reason)},
+          {"third_harmonic", NumberOrNull(low.third_harmonic)},
+          {"turn_deg", NumberOrNull(low.turn_deg)},
+          {"shape_gain", NumberOrNull(low.shape_gain)},
+          {"stiffening", NumberOrNull(low.stiffening)}};
 }
 
 Json CycleJson(const Characteristics& cycle) {
@@ -87,6 +101,8 @@ Json OneJson(const Analysis& analysis) {
                {"lines", lines}};
   json["tau"] = analysis.tau_s ? EstimateJson(*analysis.tau_s, "s") : Json(nullptr);
   json["flame"] = analysis.flame_curve ? FlameJson(*analysis.flame_curve) : Json(nullptr);
+  json["low_loop_gain"] =
+      analysis.low_loop_gain ? LowLoopGainJson(*analysis.low_loop_gain) : Json(nullptr);
   json["loop_gain"] = analysis.loop_gain ? EstimateJson(*analysis.loop_gain, "1") : Json(nullptr);
   json["transfer"] =
       analysis.transfer_fit ? TransferFitJson(*analysis.transfer_fit) : Json(nullptr);

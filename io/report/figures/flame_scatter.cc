@@ -30,7 +30,8 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
     tau = DelayOnBranch({analysis.characteristics.frequency_hz, analysis.characteristics.phase_deg},
                         0);
   }
-  const FlameCurve curve = EstimateFlameCurve(record, analysis.characteristics, tau.value);
+  AddFlame(record, tau, {}, &analysis);
+  const FlameCurve& curve = *analysis.flame_curve;
   const FlameRegressor regressor(record, analysis.characteristics, tau.value, 1);
 
   CsvWriter csv("curve,delayed_derivative,q,q_std");

@@ -40,7 +40,8 @@ TEST(EstimateDelays, FindsALongDelaysBranch) {
   const DelayChoice choice = EstimateDelays(inputs);
   EXPECT_EQ(choice.branch, 2);
   for (const Estimate& tau : choice.tau_s) EXPECT_NEAR(tau.value, 0.0125, 1e-9);
-  EXPECT_NEAR(choice.tau_s[0].std, 0.1 / (360.0 * 180.0), 1e-12);
+  // By the phase, and by the frequency: d tau = d phase / (360 f) - tau d f / f.
+  EXPECT_NEAR(choice.tau_s[0].std, std::hypot(0.1 / 360.0, 0.0125 * 0.01) / 180.0, 1e-12);
   EXPECT_EQ(EstimateDelays(inputs, 1).branch, 1);
 }
 

@@ -1,0 +1,17 @@
+// What analyse says of loop gains below one where the loop stands in a limit cycle.
+#ifndef HOWL_APP_LOOP_GAIN_TEXT_H_
+#define HOWL_APP_LOOP_GAIN_TEXT_H_
+
+#include <string>
+
+#include "estimation/analyse.h"
+
+namespace howl {
+
+// One wrapped line for each reason (estimation/loop_gain_reason.h) with the experiments that it
+// holds for; empty where there is none.
+std::string LowLoopGainText(const AnalysisSet& set);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_LOOP_GAIN_TEXT_H_
