@@ -42,7 +42,11 @@ bool MeetsWidth(const BoundLimits& limits, const BoundSearch& search) {
 }  // namespace
 
 double EnclosedBound::Excess() const {
-  return ((inner.lo - outer.lo) + (outer.hi - inner.hi)) / (inner.hi - inner.lo);
+  const double excess = (inner.lo - outer.lo) + (outer.hi - inner.hi);
+  const double range = inner.hi - inner.lo;
+  // A parameter that is held at one value has no range: rounding is no share of it.
+  if (std::abs(excess) <= 1e-9 * std::abs(outer.hi)) return range > 0.0 ? excess / range : 0.0;
+  return excess / range;
 }
 
 struct Enclosure::Impl {

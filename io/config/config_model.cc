@@ -79,8 +79,8 @@ void ReadModel(const ConfigCursor& root, Config& config) {
         parameters->FailAt(key, "is shared by all experiments, expected " +
                                     std::string(ParameterName(kind)) + ": {scope: experiment}");
       }
-      OwnParameter& own = config.model.own.emplace_back(
-          OwnParameter{name, kind, config.model[kind]});
+      OwnParameter& own =
+          config.model.own.emplace_back(OwnParameter{name, kind, config.model[kind]});
       ReadParameter(*parameter, own.spec);
     }
   }

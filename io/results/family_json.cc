@@ -12,19 +12,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json TestJson(const MembershipTest& test) {
-  return {{"gain_tolerance", NumberOrNull(test.gain_tolerance)},
-          {"phase_tolerance_deg", NumberOrNull(test.phase_tolerance_deg)},
-          {"loop_phase_tolerance_deg", NumberOrNull(test.loop_phase_tolerance_deg)},
-          {"loop_gain_min", NumberOrNull(test.loop_gain_min)},
-          {"second_crossing_tolerance_deg", NumberOrNull(test.second_crossing_tolerance_deg)},
-          {"omega_spread_max", NumberOrNull(test.omega_spread_max)},
-          {"xi_max", NumberOrNull(test.xi_max)},
-          {"xi_increasing", test.xi_increasing},
-          {"transfer_distance_max", NumberOrNull(test.transfer_distance_max)},
-          {"second_mode_share_max", NumberOrNull(test.second_mode_share_max)},
-          {"second_crossing_gain_min",
-           test.second_crossing_gain_min > 0.0 ? Json(test.second_crossing_gain_min)
-                                               : Json(nullptr)}};
+  return {
+      {"gain_tolerance", NumberOrNull(test.gain_tolerance)},
+      {"phase_tolerance_deg", NumberOrNull(test.phase_tolerance_deg)},
+      {"loop_phase_tolerance_deg", NumberOrNull(test.loop_phase_tolerance_deg)},
+      {"loop_gain_min", NumberOrNull(test.loop_gain_min)},
+      {"second_crossing_tolerance_deg", NumberOrNull(test.second_crossing_tolerance_deg)},
+      {"omega_spread_max", NumberOrNull(test.omega_spread_max)},
+      {"xi_max", NumberOrNull(test.xi_max)},
+      {"xi_increasing", test.xi_increasing},
+      {"transfer_distance_max", NumberOrNull(test.transfer_distance_max)},
+      {"second_mode_share_max", NumberOrNull(test.second_mode_share_max)},
+      {"second_crossing_gain_min",
+       test.second_crossing_gain_min > 0.0 ? Json(test.second_crossing_gain_min) : Json(nullptr)}};
 }
 
 Json OptionalNumber(const std::optional<double>& value) {
