@@ -71,7 +71,7 @@ LogParameters GridStart(std::span<const TransferPoint> points, const ModelSpec& 
     }
   }
   if (!std::isfinite(best_cost) && first_mode) {
-    return GridStart(points, ratio, second_mode, std::nullopt);
+    return GridStart(points, model, band, std::nullopt);
   }
   return best;
 }
