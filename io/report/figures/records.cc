@@ -10,7 +10,7 @@ namespace howl {
 namespace {
 
 constexpr double kSeedWindow_s = 0.080;
-constexpr double kFewestPeriods = 8.0;
+constexpr double kShownPeriods = 8.0;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::optional<Figure> RecordsFigure(const ReportInput& input) {
   const MeasuredPoint* point = input.Measured(shown->record->name);
   double window_s = kSeedWindow_s;
   if (point != nullptr && point->has_cycle()) {
-    window_s = std::max(window_s, kFewestPeriods / point->frequency_hz.value);
+    window_s = std::max(window_s, kShownPeriods / point->frequency_hz.value);
   }
   const std::size_t count = std::min(
       record.pressure.size(), static_cast<std::size_t>(std::lround(window_s * record.sampling_hz)));
