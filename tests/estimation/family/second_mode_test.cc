@@ -209,17 +209,20 @@ TEST(SecondModeTest, ConflictNamesTheGainAtTheLineAndWhatWouldDo) {
   ASSERT_TRUE(conflict.is_empty);
   const auto names = ConflictNames(conflict);
   EXPECT_NE(std::ranges::find(names, "second_crossing_gain_min"), names.end());
-  for (const Relaxation& relaxation : conflict.relaxations) {
-    if (relaxation.condition != Condition::kSecondCrossingGain) continue;
-    ASSERT_TRUE(relaxation.suffices);
-    ASSERT_TRUE(relaxation.needed.has_value());
-    EXPECT_LT(*relaxation.needed, 100.0);
-    EXPECT_GT(*relaxation.needed, 0.9);
-    problem.test.second_crossing_gain_min = *relaxation.needed;
-    EXPECT_TRUE(FindMemberLocally(problem).has_value());
+  for (const SmallestChange& change : conflict.changes) {
+    if (change.target.kind != ChangeKind::kCondition ||
+        change.target.condition != Condition::kSecondCrossingGain) {
+      continue;
+    }
+    ASSERT_TRUE(change.helps);
+    ASSERT_TRUE(change.pasted.has_value());
+    EXPECT_LT(*change.pasted, 100.0);
+    EXPECT_GT(*change.pasted, 0.9);
+    problem.test.second_crossing_gain_min = *change.pasted;
+    EXPECT_TRUE(Holds(problem, change.member));
     return;
   }
-  ADD_FAILURE() << "no relaxation of second_crossing_gain_min";
+  ADD_FAILURE() << "no change of second_crossing_gain_min";
 }
 
 }  // namespace
