@@ -60,8 +60,8 @@ void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions
               Analysis* analysis) {
   const Characteristics& c = analysis->characteristics;
   analysis->tau_s = tau_s;
-  const CrossSpectrum spectrum = WelchSpectrum(
-      RemoveMean(record.pressure), RemoveMean(record.heat_release), record.sampling_hz);
+  const CrossSpectrum spectrum = WelchSpectrum(RemoveMean(record.pressure),
+                                               RemoveMean(record.heat_release), record.sampling_hz);
   FlameCurve curve = EstimateFlameCurve(record, spectrum, c, tau_s.value, options.flame_curve);
   if (std::isfinite(curve.slope.value)) {
     analysis->loop_gain = LoopGainFromSlope(c.gain, c.frequency_hz, curve.slope);

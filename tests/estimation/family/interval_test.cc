@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "estimation/family/contract.h"
@@ -102,6 +103,8 @@ TEST(ContractTest, NoModelIsLost) {
                               .gain = double(std::abs(z))}};
       problem.model.modes = modes;
       problem.test.xi_max = 1.0;
+      // Any second mode is drawn here; SecondModeTest has the share's own bound.
+      problem.test.second_mode_share_max = std::numeric_limits<double>::infinity();
       m.tau_s = (1.5 * M_PI + phase) / (2 * M_PI * f);
       const double values[] = {m.omega_hz, m.xi, m.N, m.tau_s};
       const CellVariable variables[] = {kCellOmega, kCellXi, kCellN, kCellTau};

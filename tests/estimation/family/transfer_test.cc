@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "estimation/family/conflict.h"
@@ -164,6 +165,7 @@ TEST(TransferEllipsoidTest, WhatIsNotDeterminedDoesNotCount) {
 
 TEST(TransferMembershipTest, IsAConditionThatCanBeSwitchedOff) {
   FamilyProblem problem = Problem(4, 2, 0.1);
+  problem.test.second_mode_share_max = std::numeric_limits<double>::infinity();
   Member member = Rig(problem.experiments, 2);
   EXPECT_TRUE(Holds(problem, member));
   // Another omega with the same response: only the transfer tells.

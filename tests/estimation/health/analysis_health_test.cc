@@ -15,6 +15,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::Each;
 using ::testing::Field;
 using ::testing::HasSubstr;
@@ -128,7 +129,7 @@ TEST(AnalysisHealth, ACycleBelowOneHertzIsSuspected) {
   const Health health = Check(records, options);
   EXPECT_EQ(std::ranges::count(health, FindingKind::kSampling, &Finding::kind), kRightPoints)
       << Texts(health);
-  EXPECT_THAT(Texts(health), HasSubstr("has a cycle at 216.3 Hz, not at 0.2163 Hz"));
+  EXPECT_THAT(Texts(health), ContainsRegex("has a cycle at 216.[0-9] Hz, not at 0.216[0-9] Hz"));
 }
 
 TEST(AnalysisHealth, NoLimitCycleSaysWhatFailed) {
