@@ -105,7 +105,9 @@ void Fitter::RefitNoise(EffectFit* fit) {
     fit->flame_cost += FlameCost(records_[e], at.flame_residual, at.flame_noise);
   }
   SetNoise(*fit);
-  if (flame_) fit->delay_cost = ScatterCost(OwnDelays(*fit), fit->delay_scatter);
+  // One delay for all costs nothing, and what the price is computed from need not be there yet.
+  const bool scatters = flame_ && fit->delay_scatter > 0.0;
+  fit->delay_cost = scatters ? ScatterCost(OwnDelays(*fit), fit->delay_scatter) : 0.0;
 }
 
 void Fitter::Finish(EffectFit* fit, const EffectFit* base) {
