@@ -48,8 +48,6 @@ StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver,
   result.iterations = static_cast<int>(summary.iterations.size());
   result.termination = std::string(ceres::TerminationTypeToString(summary.termination_type)) +
                        ": " + summary.message;
-  VLOG(2) << "a start: cost " << summary.initial_cost << " to " << result.cost << " in "
-          << result.iterations << " iterations; " << result.termination;
   return result;
 }
 
@@ -180,8 +178,11 @@ JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
                         const std::vector<std::vector<double>>& from, int threads) {
   CHECK(!from.empty());
   std::vector<StartResult> starts(from.size());
-  RunUnits(starts.size(), threads,
-           [&](std::size_t number) { starts[number] = SolveStart(problem, solver, from[number]); });
+  RunUnits(starts.size(), threads, [&](std::size_t number) {
+    starts[number] = SolveStart(problem, solver, from[number]);
+    VLOG(2) << "start " << number << ": cost " << starts[number].cost << " in "
+            << starts[number].iterations << " iterations; " << starts[number].termination;
+  });
   const auto best = BestStart(starts);
   JointFit fit;
   fit.converged = best->converged;
