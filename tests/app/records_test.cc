@@ -16,6 +16,9 @@
 namespace howl {
 namespace {
 
+using ::testing::HasSubstr;
+using ::testing::Not;
+
 // Rows of a CSV file by the header's names.
 std::vector<std::map<std::string, std::string>> ReadCsv(const std::filesystem::path& path) {
   std::stringstream lines(ReadFile(path));
@@ -89,6 +92,34 @@ TEST(RoundTrip, OneModeRecordsRunFitFamilyAndList) {
     const ProgramResult run = RunHowl(command + config + out);
     EXPECT_EQ(run.status, 0) << command << run.out << run.err;
   }
+}
+
+// What the records are asked is what the table was asked: the same model, scopes, test and residuals.
+TEST(RoundTrip, RecordsYamlAsksWhatTheConfigAsks) {
+  const TemporaryFolder folder;
+  const std::string out = " --out " + folder.path().string();
+  const std::string config =
+      folder
+          .Write("asked.yaml",
+                 "experiments:\n"
+                 "  - &first {name: exp1, phi: 0.56, frequency_hz: 219.9, phase_deg: -5.74,\n"
+                 "            gain: 12.14, flame_slope: -0.703e-4}\n"
+                 "  - {<<: *first, name: exp2, phi: 0.53, frequency_hz: 219.0}\n"
+                 "parameters: {tau_s: {scope: shared}}\n"
+                 "residuals: {tau_prior: off, damping_prior: {xi_typical: 0.15}}\n"
+                 "family: {members: 20, test: {xi_max: 0.21, xi_increasing: null}}\n"
+                 "simulate: {effects: [{effect: mains_hum, rel: 0.1, hz: 50}]}\n")
+          .string();
+  const ProgramResult simulate = RunHowl("simulate " + config + out);
+  ASSERT_EQ(simulate.status, 0) << simulate.err;
+  const std::string text = ReadFile(folder.path() / "records.yaml");
+  EXPECT_THAT(text, Not(HasSubstr("hum")));
+  const std::string records = (folder.path() / "records.yaml").string();
+  ASSERT_EQ(RunHowl("fit " + records + out).status, 0);
+  EXPECT_THAT(ReadFile(folder.path() / "solution.json"), HasSubstr("\"name\": \"tau_s\""));
+  const ProgramResult family = RunHowl("family " + records + out);
+  EXPECT_LE(family.status, 1) << family.err;
+  EXPECT_THAT(ReadFile(folder.path() / "family.json"), HasSubstr("\"xi_max\": 0.21"));
 }
 
 TEST(Simulate, SameSeedSameRecordsWithAnyNumberOfThreads) {
