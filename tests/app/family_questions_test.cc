@@ -105,11 +105,12 @@ TEST(Family, KilledAtRandomAndRunAgainGivesTheSameResult) {
   const auto config = whole.Write("short.yaml", TwoModesShort()).string();
   RunFamily(config, whole, "--quiet");
   std::mt19937 random(7);
-  std::uniform_int_distribution<int> milliseconds(100, 900);
+  // The first unit of the bounds is kept after a second or more.
+  std::uniform_real_distribution<double> seconds(0.2, 5.0);
   int killed_runs = 0;
   int with_state = 0;
-  for (int k = 0; k < 10; ++k) {
-    const std::string command = "timeout -s KILL 0." + std::to_string(milliseconds(random)) + " " +
+  for (int k = 0; k < 6; ++k) {
+    const std::string command = "timeout -s KILL " + std::to_string(seconds(random)) + " " +
                                 HOWL_PROGRAM + " family " + config + " --quiet --save-every 0.05" +
                                 " --out " + killed.path().string() + " >/dev/null 2>&1";
     const int raw = std::system(command.c_str());
