@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "app/simulate_start.h"
 #include "app/text_table.h"
@@ -74,10 +75,10 @@ void CheckSweep(const Config& config, const SimulationTimes& times) {
   constexpr double kLeastSamples = 256.0;
   const SweepSpec& sweep = *config.simulation.sweep;
   if (sweep.one_way_s * times.sampling_hz >= kLeastSamples * sweep.steps) return;
-  throw UserError(config.source.string(), sweep.line, "simulate.sweep.steps",
-                  std::to_string(sweep.steps) + " windows of " + Significant(sweep.one_way_s, 3) +
-                      " s at " + Significant(times.sampling_hz, 6) +
-                      " Hz have less than 256 samples each, expected fewer, or a longer one_way_s");
+  std::ostringstream what;
+  what << sweep.steps << " windows of " << sweep.one_way_s << " s at " << times.sampling_hz
+       << " Hz have less than 256 samples each, expected fewer, or a longer one_way_s";
+  throw UserError(config.source.string(), sweep.line, "simulate.sweep.steps", what.str());
 }
 
 std::vector<SweepResult> RunSweeps(const Config& config, const SimulationTimes& times,
