@@ -107,7 +107,7 @@ TEST(RoundTrip, RecordsYamlAsksWhatTheConfigAsks) {
                  "  - {<<: *first, name: exp2, phi: 0.53, frequency_hz: 219.0}\n"
                  "parameters: {tau_s: {scope: shared}}\n"
                  "residuals: {tau_prior: off, damping_prior: {xi_typical: 0.15}}\n"
-                 "family: {members: 20, test: {xi_max: 0.21, xi_increasing: null}}\n"
+                 "family: {members: 20, test: {xi_max: 0.21, xi_increasing: false}}\n"
                  "simulate: {effects: [{effect: mains_hum, rel: 0.1, hz: 50}]}\n")
           .string();
   const ProgramResult simulate = RunHowl("simulate " + config + out);
