@@ -94,7 +94,8 @@ TEST(RoundTrip, OneModeRecordsRunFitFamilyAndList) {
   }
 }
 
-// What the records are asked is what the table was asked: the same model, scopes, test and residuals.
+// What the records are asked is what the table was asked: the same model, scopes, test and
+// residuals.
 TEST(RoundTrip, RecordsYamlAsksWhatTheConfigAsks) {
   const TemporaryFolder folder;
   const std::string out = " --out " + folder.path().string();
