@@ -5,9 +5,7 @@
 
 namespace howl {
 
-namespace {
-
-double Value(const LoopModel& model, ParameterKind kind) {
+double ParameterOf(const LoopModel& model, ParameterKind kind) {
   switch (kind) {
     case ParameterKind::kOmega:
       return model.omega_hz;
@@ -24,8 +22,6 @@ double Value(const LoopModel& model, ParameterKind kind) {
   }
   return 0.0;
 }
-
-}  // namespace
 
 Range FamilyProblem::RangeOf(ParameterKind kind, std::size_t experiment) const {
   const ParameterSpec& spec = model.Of(kind, experiments[experiment].name);
@@ -52,10 +48,10 @@ bool Holds(const FamilyProblem& problem, std::span<const LoopModel> models) {
   constexpr double kSameShared = 1e-9;  // M / N is formed by a division
   for (const ParameterKind kind : kParameterKinds) {
     if (!problem.model.Uses(kind)) continue;
-    const double first = Value(models[0], kind);
+    const double first = ParameterOf(models[0], kind);
     for (std::size_t i = 0; i < models.size(); ++i) {
       const Range range = problem.RangeOf(kind, i);
-      const double value = Value(models[i], kind);
+      const double value = ParameterOf(models[i], kind);
       const double slack = kSameShared * std::abs(value);
       if (!(value > 0.0) || value < range.lo - slack || value > range.hi + slack) return false;
       if (problem.IsShared(kind) && std::abs(value - first) > slack) return false;

@@ -60,6 +60,9 @@ struct FamilyProblem {
   Range RangeOf(ParameterKind kind) const;
 };
 
+// A parameter of the model, in natural units.
+double ParameterOf(const LoopModel& model, ParameterKind kind);
+
 // One member: a model for each experiment.
 using Member = std::vector<LoopModel>;
 

@@ -50,24 +50,6 @@ double* DatumOf(FamilyProblem& problem, const ChangeTarget& target) {
   return nullptr;
 }
 
-double ParameterOf(const LoopModel& model, ParameterKind kind) {
-  switch (kind) {
-    case ParameterKind::kOmega:
-      return model.omega_hz;
-    case ParameterKind::kXi:
-      return model.xi;
-    case ParameterKind::kN:
-      return model.N;
-    case ParameterKind::kM:
-      return model.M;
-    case ParameterKind::kMOverN:
-      return model.M / model.N;
-    case ParameterKind::kTau:
-      return model.tau_s;
-  }
-  return 0.0;
-}
-
 // The value of a limit or a bound that the member would just pass.
 double ValuePassed(const FamilyProblem& problem, const ChangeTarget& target, const Member& member) {
   if (target.kind == ChangeKind::kCondition) return LimitPassed(problem, member, target.condition);
