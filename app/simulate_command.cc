@@ -1,13 +1,12 @@
-#include <glog/logging.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/command.h"
 #include "app/problem_input.h"
-#include "app/simulate_start.h"
+#include "app/simulate_rig.h"
 #include "app/simulate_sweep.h"
 #include "app/text_table.h"
 #include "estimation/family/membership.h"
@@ -19,25 +18,12 @@
 #include "io/results/simulation_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
-#include "model/harmonic_balance.h"
 #include "model/simulate.h"
 
 namespace howl {
 namespace {
 
 constexpr int kMostMembers = 100000000;
-
-// The loop of one experiment, ready to run, and what was decided about it.
-struct Rig {
-  RigParameters parameters;
-  double loop_gain = 0.0;        // at rest, as it runs
-  double model_loop_gain = 0.0;  // with the measured slope
-  double flame_slope = 0.0;      // as it runs, without effects
-  bool slope_raised = false;
-  std::string origin;               // "on the cycle at 219.9 Hz"
-  double pressure_amplitude = 0.0;  // of the observed cycle; saturation's where there is none
-  double heat_release_amplitude = 0.0;
-};
 
 // The stable solution's models, or one listed member's.
 std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& options,
@@ -68,105 +54,42 @@ std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& opt
   return models;
 }
 
-Rig MakeRig(const Config& config, const Experiment& experiment, const LoopModel& model,
-            const SimulationTimes& times) {
-  const SimulationSpec& spec = config.simulation;
-  Rig rig;
-  const LoopParameters<double> loop = model.Loop();
-  const double response = Magnitude(LoopResponse(loop, experiment.frequency_hz));
-  double slope = experiment.flame_slope.value_or(0.0);
-  rig.model_loop_gain = response * std::abs(slope);
-  rig.loop_gain = rig.model_loop_gain;
-  if (rig.loop_gain < spec.loop_gain_min) {
-    rig.loop_gain = spec.loop_gain_min;
-    slope = -rig.loop_gain / response;
-    rig.slope_raised = true;
+// Of an experiment that a record gave.
+std::optional<FlameShapeFit> MeasuredFlame(const ProblemInput& input,
+                                           const Experiment& experiment) {
+  if (!input.analysis || !experiment.flame_slope) return std::nullopt;
+  for (const Analysis& analysis : input.analysis->analyses) {
+    if (analysis.name != experiment.name || !analysis.flame_curve) continue;
+    return FitFlameShape(*analysis.flame_curve, *experiment.flame_slope);
   }
-  rig.flame_slope = slope;
-  rig.parameters.model = {loop, {spec.flame_shape, slope, spec.saturation, 0.0}};
-  Noise& noise = rig.parameters.noise;
-  const double combustion_std = spec.combustion_noise_relative * spec.saturation;
-  noise.combustion_corner_hz = times.combustion_noise_corner_hz;
-  noise.combustion_density =
-      2.0 * combustion_std * combustion_std / (std::numbers::pi * noise.combustion_corner_hz);
-  rig.heat_release_amplitude = spec.saturation;
-  rig.pressure_amplitude =
-      spec.saturation * response / (kRadPerSPerHz * experiment.frequency_hz);  // |G|
-  const auto cycle = ObservedCycle(rig.parameters.model, experiment.frequency_hz);
-  const SimulationOrigin origin = FindOrigin(config, experiment, rig.parameters.model, cycle);
-  rig.origin = origin.text;
-  if (origin.cycle) rig.parameters.past = PastOnCycle(*origin.cycle);
-  if (cycle) {
-    rig.pressure_amplitude = cycle->pressure_amplitude();
-    rig.heat_release_amplitude = cycle->heat_release_amplitude();
-    noise.pressure_sensor_std = spec.sensor_noise_relative * cycle->pressure_amplitude();
-    noise.heat_release_sensor_std = spec.sensor_noise_relative * cycle->heat_release_amplitude();
-  }
-  return rig;
-}
-
-// Amplitude of p' at the cycle.
-double Rate(const Rig& rig, const Experiment& experiment) {
-  return kRadPerSPerHz * experiment.frequency_hz * rig.pressure_amplitude;
-}
-
-// The config's effects, relative to the cycles that the rigs have without them.
-void AddEffects(const Config& config, const std::vector<Experiment>& experiments, double duration_s,
-                std::vector<Rig>* rigs) {
-  const auto count = static_cast<double>(rigs->size());
-  double pressure = 0.0;
-  double heat_release = 0.0;
-  double rate = 0.0;
-  double lowest = HUGE_VAL;
-  double highest = -HUGE_VAL;
-  for (std::size_t i = 0; i < rigs->size(); ++i) {
-    pressure += (*rigs)[i].pressure_amplitude / count;
-    heat_release += (*rigs)[i].heat_release_amplitude / count;
-    rate += Rate((*rigs)[i], experiments[i]) / count;
-    lowest = std::min(lowest, experiments[i].phi);
-    highest = std::max(highest, experiments[i].phi);
-  }
-  for (std::size_t i = 0; i < rigs->size(); ++i) {
-    Rig& rig = (*rigs)[i];
-    SimulationScale scale;
-    scale.at.phi_position =
-        highest > lowest ? (experiments[i].phi - lowest) / (highest - lowest) - 0.5 : 0.0;
-    scale.at.cycle_frequency_hz = experiments[i].frequency_hz;
-    scale.at.relative_amplitude = rig.pressure_amplitude / pressure;
-    scale.at.heat_release_over_pressure = heat_release / pressure;
-    scale.at.own_heat_release_over_pressure = rig.heat_release_amplitude / rig.pressure_amplitude;
-    scale.at.relative_rate_amplitude = Rate(rig, experiments[i]) / rate;
-    scale.pressure_amplitude = rig.pressure_amplitude;
-    scale.heat_release_amplitude = rig.heat_release_amplitude;
-    scale.mean_pressure_amplitude = pressure;
-    scale.mean_rate_amplitude = rate;
-    scale.duration_s = duration_s;
-    for (const SimulatedEffect& one : config.simulation.effects) {
-      const std::string fault = one.effect->SimulationFault(rig.parameters, one.values);
-      if (!fault.empty()) throw UserError(config.source.string(), one.line, one.key, fault);
-      CHECK(one.effect->AddTo(scale, one.values, &rig.parameters)) << one.effect->id();
-    }
-  }
+  return std::nullopt;
 }
 
 std::string LoopsText(const Options& options, const std::vector<Experiment>& experiments,
-                      const std::vector<Rig>& rigs) {
+                      const std::vector<SimulatedRig>& rigs) {
   std::vector<SimulatedLoop> loops;
   for (std::size_t i = 0; i < rigs.size(); ++i) {
-    const Rig& rig = rigs[i];
-    loops.push_back({experiments[i].name, rig.model_loop_gain, rig.loop_gain, rig.flame_slope,
-                     rig.slope_raised});
+    const SimulatedRig& rig = rigs[i];
+    loops.push_back(
+        {.name = experiments[i].name,
+         .loop_gain = rig.model_loop_gain,
+         .simulated_loop_gain = rig.loop_gain,
+         .flame_slope = rig.flame_slope,
+         .slope_raised = rig.slope_raised,
+         .flame = rig.flame,
+         .cycle_hz = rig.cycle ? std::optional(rig.cycle->frequency_hz) : std::nullopt});
   }
   return SimulationJson(options.Count("--member", 1, kMostMembers), loops).dump(2) + "\n";
 }
 
-void Print(const std::vector<Experiment>& experiments, const std::vector<Rig>& rigs) {
-  TextTable table({"experiment", "loop gain", "starts", "file"});
+void Print(const std::vector<Experiment>& experiments, const std::vector<SimulatedRig>& rigs) {
+  TextTable table({"experiment", "loop gain", "flame", "starts", "file"});
   bool any_raised = false;
   for (std::size_t i = 0; i < rigs.size(); ++i) {
     any_raised = any_raised || rigs[i].slope_raised;
     table.AddRow({experiments[i].name,
-                  Fixed(rigs[i].loop_gain, 3) + (rigs[i].slope_raised ? " *" : ""), rigs[i].origin,
+                  Fixed(rigs[i].loop_gain, 3) + (rigs[i].slope_raised ? " *" : ""),
+                  std::string(FlameShapeName(rigs[i].flame.shape)), rigs[i].origin,
                   experiments[i].name + ".csv"});
   }
   std::printf("%s", table.Text().c_str());
@@ -177,14 +100,17 @@ void Print(const std::vector<Experiment>& experiments, const std::vector<Rig>& r
 
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
-  const std::vector<Experiment> experiments = LoadExperiments(config, options);
+  const ProblemInput input = LoadInput(config, options);
+  RequireExperiments(config, options, input);
+  const std::vector<Experiment>& experiments = input.experiments;
   const std::vector<LoopModel> models = ModelsToSimulate(config, options, experiments);
   const SimulationTimes times = MakeSimulationTimes(config.simulation, experiments);
   if (config.simulation.sweep) CheckSweep(config, times);
-  std::vector<Rig> rigs;
+  std::vector<SimulatedRig> rigs;
   std::vector<SimulationCase> cases;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    rigs.push_back(MakeRig(config, experiments[i], models[i], times));
+    rigs.push_back(
+        MakeRig(config, experiments[i], models[i], MeasuredFlame(input, experiments[i]), times));
   }
   AddEffects(config, experiments, times.duration_s, &rigs);
   for (std::size_t i = 0; i < experiments.size(); ++i) {
@@ -212,6 +138,13 @@ int Run(const Options& options) {
   }
   if (!options.quiet) {
     Print(experiments, rigs);
+    // Effects may put a stronger line there on purpose: only the bare loop is spoken of.
+    for (std::size_t i = 0; i < records.size() && config.simulation.effects.empty(); ++i) {
+      const std::string left = LeftItsCycle(rigs[i], records[i]);
+      if (!left.empty()) {
+        std::printf("%s has left its cycle: %s\n", experiments[i].name.c_str(), left.c_str());
+      }
+    }
     if (config.simulation.sweep) {
       std::printf("%s", SweepText(*config.simulation.sweep, sweeps).c_str());
     }

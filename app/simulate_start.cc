@@ -29,6 +29,12 @@ const LimitCycle* Nearest(const std::vector<LimitCycle>& cycles, double frequenc
   return nearest == cycles.end() ? nullptr : &*nearest;
 }
 
+SimulationOrigin OnCycle(const ClosedLoop& model, const LimitCycle& cycle) {
+  const bool attracts = CycleStability(model, cycle).stable;
+  return {cycle, "on the cycle at " + Fixed(cycle.frequency_hz, 1) + " Hz" +
+                     (attracts ? "" : ", which does not attract")};
+}
+
 }  // namespace
 
 std::optional<LimitCycle> ObservedCycle(const ClosedLoop& model, double frequency_hz) {
@@ -52,7 +58,7 @@ SimulationOrigin FindOrigin(const Config& config, const Experiment& experiment,
   }
   if (!spec.start_frequency_hz && spec.start == SimulationStart::kObservedCycle) {
     if (!observed) return {std::nullopt, "at rest"};
-    return {observed, "on the cycle at " + Fixed(observed->frequency_hz, 1) + " Hz"};
+    return OnCycle(model, *observed);
   }
   const double wanted_hz = spec.start_frequency_hz.value_or(experiment.frequency_hz);
   const std::vector<LimitCycle> cycles = CyclesOfInterest(model, wanted_hz);
@@ -76,9 +82,7 @@ SimulationOrigin FindOrigin(const Config& config, const Experiment& experiment,
       fail("simulate.start", "no cycle above the observed one attracts, expected observed or rest");
     }
   }
-  const bool attracts = CycleStability(model, *chosen).stable;
-  return {*chosen, "on the cycle at " + Fixed(chosen->frequency_hz, 1) + " Hz" +
-                       (attracts ? "" : ", which does not attract")};
+  return OnCycle(model, *chosen);
 }
 
 }  // namespace howl

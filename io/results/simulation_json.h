@@ -2,7 +2,11 @@
 // the records can say so. What effects were put in it does not tell, like records.yaml.
 //
 //   {"schema": "howl.simulation/1", "member": null | K,
-//    "experiments": [{"name", "loop_gain", "loop_gain_simulated", "flame_slope", "slope_raised"}]}
+//    "experiments": [{"name", "loop_gain", "loop_gain_simulated", "flame_slope", "slope_raised",
+//                     "flame": {"shape", "saturation", "offset"}, "cycle_hz": number | null}]}
+//
+// flame_slope is Phi'(0); flame.offset in (units of p) / s (model/flame.h). cycle_hz: of the cycle
+// on which the record begins, by harmonic balance; null where it begins at rest.
 #ifndef HOWL_IO_RESULTS_SIMULATION_JSON_H_
 #define HOWL_IO_RESULTS_SIMULATION_JSON_H_
 
@@ -10,6 +14,8 @@
 #include <optional>
 #include <span>
 #include <string>
+
+#include "model/flame.h"
 
 namespace howl {
 
@@ -19,6 +25,8 @@ struct SimulatedLoop {
   double simulated_loop_gain = 0.0;  // at rest, as it ran
   double flame_slope = 0.0;          // as it ran, (units of q) / (units of p / s)
   bool slope_raised = false;         // to simulate.loop_gain_min: the model alone would not cycle
+  Flame<double> flame;
+  std::optional<double> cycle_hz;
 };
 
 // `member`: of family.csv; none for the joint fit.

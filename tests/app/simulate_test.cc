@@ -175,6 +175,58 @@ TEST(Section4, StartsWhereItIsAskedTo) {
   EXPECT_EQ(*std::ranges::max_element(p), 0.0);
 }
 
+// Records give their flame's shape and offset: what is simulated from them has both.
+TEST(MeasuredFlame, IsSimulatedWhereRecordsGaveOne) {
+  const TemporaryFolder folder;
+  const std::string one =
+      "experiments:\n"
+      "  - {name: exp1, phi: 0.56, frequency_hz: 219.9, phase_deg: -5.74, gain: 12.14,\n"
+      "     flame_slope: -0.703e-4}\n";
+  const std::string config =
+      folder.Write("cubic.yaml", one + "simulate: {flame_shape: cubic, saturation: 0.3}\n")
+          .string();
+  const std::string first = (folder.path() / "first").string();
+  ASSERT_EQ(RunHowl("simulate " + config + " --out " + first).status, 0);
+  const auto flame_of = [&](const std::string& out) {
+    return nlohmann::json::parse(ReadFile(out + "/simulation.json"))["experiments"][0]["flame"];
+  };
+  EXPECT_EQ(flame_of(first)["shape"], "cubic");
+  EXPECT_EQ(flame_of(first)["offset"], 0.0);
+  // records.yaml does not say which flame it was; the records do.
+  const std::string second = (folder.path() / "second").string();
+  const ProgramResult run = RunHowl("simulate " + first + "/records.yaml --out " + second);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const nlohmann::json measured = flame_of(second);
+  EXPECT_EQ(measured["shape"], "cubic");
+  EXPECT_NEAR(measured["saturation"].get<double>(), 0.3, 0.01);
+  EXPECT_THAT(run.out, HasSubstr("cubic"));
+  // Unless the config asks for another.
+  const std::string asked = folder
+                                .Write("first/asked.yaml", ReadFile(first + "/records.yaml") +
+                                                               "simulate: {flame_shape: arctan}\n")
+                                .string();
+  const std::string third = (folder.path() / "third").string();
+  ASSERT_EQ(RunHowl("simulate " + asked + " --out " + third).status, 0);
+  EXPECT_EQ(flame_of(third)["shape"], "arctan");
+}
+
+// The observed cycle does not attract when the other one's loop gain is far greater.
+TEST(Section4, SaysWhereARecordHasLeftItsCycle) {
+  const TemporaryFolder folder;
+  std::string text = Section4("  {duration_s: 2, settle_s: 1}\n");
+  text.replace(text.find("M_over_N: {initial: 0.7"), 23, "M_over_N: {initial: 1.3");
+  const ProgramResult run = RunHowl("simulate " + folder.Write("far.yaml", text).string() +
+                                    " --out " + folder.path().string());
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("which does not attract"));
+  EXPECT_THAT(run.out, HasSubstr("exp1 has left its cycle: its strongest line is at 7"));
+  const ProgramResult stays =
+      RunHowl("simulate " + folder.Write("stays.yaml", Section4("  {duration_s: 2}\n")).string() +
+              " --out " + folder.path().string());
+  ASSERT_EQ(stays.status, 0) << stays.err;
+  EXPECT_THAT(stays.out, testing::Not(HasSubstr("left its cycle")));
+}
+
 TEST(Section4, MistakesAreOneLine) {
   const TemporaryFolder folder;
   const std::string out = " --out " + (folder.path() / "out").string();

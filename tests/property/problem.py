@@ -4,8 +4,9 @@ With s = 2 pi i f the loop of one experiment is (the paper, (1a) and (5a))
 
     G(s) = N s / (s^2 + 2 w xi s + w^2) + M s / (s^2 + 2 r w xi s + (r w)^2),   L = s G e^(-tau s)
 
-The cycle's frequency is where arg L is 180 degrees, found here by bisection, so that nothing of the
-program under test is used to make its problem.
+The table's frequency is where arg L is 180 degrees, found here by bisection; the simulated cycle's,
+which the flame's harmonics shift, is found by harmonic balance. Nothing of the program under test
+is used to make its problem.
 """
 
 import cmath
@@ -83,6 +84,66 @@ def crossing(loop, low_hz, high_hz):
     return min(found, key=lambda f: abs(f - loop.omega_hz), default=None)
 
 
+HARMONICS = 15
+SAMPLES = 128  # of a period: what tanh gives beyond the 49th harmonic is below rounding here
+ANGLES = [TWO_PI * i / SAMPLES for i in range(SAMPLES)]
+
+
+def harmonics_of_flame(rate, slope):
+    """Q_k, k = 1 .. HARMONICS, of q = -tanh(slope v) for v = Re sum V_k e^(j k theta); saturation 1,
+    rate and q normed so that slope is of unit argument. Odd harmonics only: tanh is odd."""
+    odd = range(1, HARMONICS + 1, 2)
+    values = []
+    for angle in ANGLES:
+        v = sum((rate[k] * cmath.exp(1j * k * angle)).real for k in odd)
+        values.append(-math.tanh(slope * v))
+    return {k: 2.0 / SAMPLES * sum(q * cmath.exp(-1j * k * a) for q, a in zip(values, ANGLES))
+            for k in odd}
+
+
+def cycle_frequency_hz(loop):
+    """Frequency of the limit cycle with a tanh flame of this loop's slope (the paper, section 3.2):
+    V_k = L(j k w) Q_k for every harmonic. The fundamental's equation is solved for amplitude and
+    frequency by Newton with differences, the higher harmonics, small, by iteration."""
+    slope = abs(loop.flame_slope())
+
+    def response(frequency_hz):
+        s = 2j * math.pi * frequency_hz
+        return s * loop.acoustics(frequency_hz) * cmath.exp(-loop.tau_s * s)
+
+    def mismatch(amplitude, frequency_hz):
+        rate = {k: 0.0 for k in range(1, HARMONICS + 1, 2)}
+        rate[1] = amplitude
+        q = harmonics_of_flame(rate, slope)
+        for _ in range(30):
+            largest = 0.0
+            for k in range(3, HARMONICS + 1, 2):
+                value = response(k * frequency_hz) * q[k]
+                largest = max(largest, abs(value - rate[k]))
+                rate[k] = value
+            q = harmonics_of_flame(rate, slope)
+            if largest < 1e-12 * amplitude:
+                break
+        return response(frequency_hz) * q[1] / amplitude - 1.0
+
+    amplitude = 2.0 * math.sqrt(max(loop.loop_gain - 1.0, 0.01)) / slope
+    frequency = loop.frequency_hz
+    for _ in range(30):
+        here = mismatch(amplitude, frequency)
+        da, df = 1e-6 * amplitude, 1e-6 * frequency
+        by_a = (mismatch(amplitude + da, frequency) - here) / da
+        by_f = (mismatch(amplitude, frequency + df) - here) / df
+        determinant = by_a.real * by_f.imag - by_a.imag * by_f.real
+        step_a = (here.real * by_f.imag - here.imag * by_f.real) / determinant
+        step_f = (by_a.real * here.imag - by_a.imag * here.real) / determinant
+        limit = min(1.0, 0.3 * amplitude / max(abs(step_a), 1e-300))
+        amplitude -= limit * step_a
+        frequency -= limit * step_f
+        if abs(step_f) < 1e-10 * frequency and abs(step_a) < 1e-8 * amplitude:
+            return frequency
+    return None
+
+
 def draw_loops(rng, modes, shared_delay):
     """Loops as the paper describes its rig: the cycle near the first mode, which carries it; xi
     grows with phi; omega nearly the same; the delay near three quarters of a period (3). None where
@@ -109,7 +170,7 @@ def draw_loops(rng, modes, shared_delay):
             ratio=3.0,
             loop_gain=rng.uniform(1.15, 1.6),
         )
-        loop.M = ratio_of_coefficients * loop.N
+        loop.M = ratio_of_coefficients * N  # one for all experiments, as the model has it
         xi *= rng.uniform(1.0, 1.3)
         frequency = crossing(loop, 0.8 * loop.omega_hz, 1.25 * loop.omega_hz)
         if frequency is None or abs(loop.loop_phase_error(frequency)) > 1e-6:
@@ -139,7 +200,24 @@ def draw(seed):
             return Problem(seed, modes, shared_delay, loops)
 
 
-def config_text(problem):
+def held_parameters(problem):
+    """`parameters` that hold every loop at its drawn values: what is simulated is the drawn loop."""
+    lines = ["parameters:", "  tau_s: {scope: experiment}", "  M: {scope: experiment}"]
+    for loop in problem.loops:
+        values = {"omega_hz": loop.omega_hz, "xi": loop.xi, "N": loop.N, "tau_s": loop.tau_s}
+        if problem.modes == 2:
+            values["M"] = loop.M
+        lines += [f"  {loop.name}.{key}: {{initial: {value!r}, fixed: true}}"
+                  for key, value in values.items()]
+    return "\n".join(lines) + "\n"
+
+
+def free_parameters(problem):
+    scope = "shared" if problem.shared_delay else "experiment"
+    return f"parameters:\n  tau_s: {{scope: {scope}}}\n"
+
+
+def config_text(problem, parameters):
     """The config of the problem's table: exact characteristics, no records."""
     lines = [f"title: property problem {problem.seed}", "experiments:"]
     for loop in problem.loops:
@@ -149,6 +227,4 @@ def config_text(problem):
             f" flame_slope: {loop.flame_slope()!r}}}"
         )
     lines.append(f"model: {{modes: {problem.modes}, harmonic_ratio: 3}}")
-    scope = "shared" if problem.shared_delay else "experiment"
-    lines.append(f"parameters:\n  tau_s: {{scope: {scope}}}")
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n" + parameters

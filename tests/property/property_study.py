@@ -4,13 +4,14 @@
     property_study.py HOWL [--problems 200] [--first 0] [--jobs 2] [--without-diagnosis]
 
 For each drawn problem (one or two modes, a shared delay or one for each experiment): fit and family on
-the exact table; simulate; analyse, fit, family and diagnose on the simulated records, with the config
-that simulate wrote. Counted are: empty families, guaranteed bounds that the truth leaves, 95 %
+the exact table; simulate the drawn loop, its parameters held; analyse, fit, family and diagnose on the
+simulated records, with the config that simulate wrote, its parameters free again. Counted are: empty families, guaranteed bounds that the truth leaves, 95 %
 intervals that hold it, and diagnoses that accuse. Exit status 1 where a guarantee fails or a share is
 less than its binomial scatter allows.
 """
 
 import argparse
+import copy
 import csv
 import json
 import math
@@ -109,22 +110,25 @@ def check_characteristics(tally, folder, truths, note):
                       f" {error / std if std else math.inf:.1f} std")
 
 
-def simulated_truth(folder, drawn):
-    """What simulate simulates: the fit of the exact table. Its loops, with the measured slopes."""
-    with open(folder / "solution.json", encoding="utf-8") as file:
-        solution = json.load(file)
+def at_the_cycle(drawn):
+    """The drawn loops as records show them: at the cycle's frequency, which harmonics shift."""
     truths = []
-    for loop, fitted in zip(drawn.loops, solution["experiments"]):
-        true = problems.Loop(name=loop.name, phi=loop.phi, omega_hz=fitted["omega_hz"],
-                             xi=fitted["xi"], N=fitted["N"], M=fitted["M"],
-                             tau_s=fitted["tau_s"], ratio=fitted["harmonic_ratio"])
-        true.frequency_hz = problems.crossing(true, 0.9 * loop.frequency_hz,
-                                              1.1 * loop.frequency_hz) or loop.frequency_hz
-        slope = abs(loop.flame_slope())
-        true.loop_gain = problems.TWO_PI * loop.frequency_hz * abs(
-            true.acoustics(loop.frequency_hz)) * slope
+    for loop in drawn.loops:
+        frequency = problems.cycle_frequency_hz(loop)
+        true = copy.copy(loop)
+        true.loop_gain *= (frequency * abs(loop.acoustics(frequency))
+                           / (loop.frequency_hz * loop.gain()))
+        true.frequency_hz = frequency
         truths.append(true)
     return truths
+
+
+def with_free_parameters(records, drawn):
+    """simulate's own config holds what was drawn; what is asked of its records does not."""
+    lines = records.read_text(encoding="utf-8").split("\n")
+    kept = [line for line in lines if line and not line.startswith("parameters:")]
+    assert len(kept) < len(lines) - 1, "simulate's records.yaml has no line of parameters"
+    records.write_text("\n".join(kept) + "\n" + problems.free_parameters(drawn), encoding="utf-8")
 
 
 def study(howl, seed, with_diagnosis):
@@ -134,7 +138,11 @@ def study(howl, seed, with_diagnosis):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         config = folder / "problem.yaml"
-        config.write_text(problems.config_text(drawn), encoding="utf-8")
+        config.write_text(problems.config_text(drawn, problems.free_parameters(drawn)),
+                          encoding="utf-8")
+        held = folder / "held.yaml"
+        held.write_text(problems.config_text(drawn, problems.held_parameters(drawn)),
+                        encoding="utf-8")
         table, rig = folder / "table", folder / "rig"
         fit = run(howl, "fit", config, "--out", table)
         tally.add("table: fit converges", fit.returncode == 0, f"{note} {fit.stderr.strip()}")
@@ -143,12 +151,15 @@ def study(howl, seed, with_diagnosis):
                   f"{note} {family.stderr.strip()} {family.stdout[:200]}")
         if family.returncode in (0, 1):
             check_bounds(tally, "table:", table, drawn.loops, note)
-        simulate = run(howl, "simulate", config, "--out", rig, "--seed", seed + 1)
+        simulate = run(howl, "simulate", held, "--out", rig, "--seed", seed + 1)
         if simulate.returncode != 0:
             tally.add("simulate", False, f"{note} {simulate.stderr.strip()}")
             return tally
-        truths = simulated_truth(table, drawn)
+        tally.add("records: stay on the drawn cycle", "has left its cycle" not in simulate.stdout,
+                  f"{note} {simulate.stdout[-200:]}")
+        truths = at_the_cycle(drawn)
         records = rig / "records.yaml"
+        with_free_parameters(records, drawn)
         analyse = run(howl, "analyse", records, "--out", rig)
         tally.add("records: analyse", analyse.returncode == 0, f"{note} {analyse.stderr.strip()}")
         check_characteristics(tally, rig, truths, note)

@@ -1,0 +1,47 @@
+// The loop of one experiment as `howl simulate` runs it: the model's acoustics and delay, closed by
+// a flame that saturates, with noise and the config's effects.
+#ifndef HOWL_APP_SIMULATE_RIG_H_
+#define HOWL_APP_SIMULATE_RIG_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimation/experiment.h"
+#include "estimation/flame_shape.h"
+#include "estimation/parameters.h"
+#include "io/config/config.h"
+#include "model/harmonic_balance.h"
+#include "model/simulate.h"
+
+namespace howl {
+
+struct SimulatedRig {
+  RigParameters parameters;
+  Flame<double> flame;           // as it runs, without effects
+  double flame_slope = 0.0;      // at rest
+  double loop_gain = 0.0;        // at rest, as it runs
+  double model_loop_gain = 0.0;  // with the measured slope
+  bool slope_raised = false;
+  std::optional<LimitCycle> cycle;  // on which it starts; none: at rest
+  std::string origin;               // "on the cycle at 219.9 Hz"
+  double pressure_amplitude = 0.0;  // of the observed cycle; saturation's where there is none
+  double heat_release_amplitude = 0.0;
+};
+
+// measured: the shape of the experiment's own flame; where there is none, or the config's
+// `simulate` names one, the config's.
+SimulatedRig MakeRig(const Config& config, const Experiment& experiment, const LoopModel& model,
+                     const std::optional<FlameShapeFit>& measured, const SimulationTimes& times);
+
+// The config's effects, relative to the cycles that the rigs have without them.
+void AddEffects(const Config& config, const std::vector<Experiment>& experiments, double duration_s,
+                std::vector<SimulatedRig>* rigs);
+
+// "; its strongest line is at 776.0 Hz: it has left that cycle" where a rig without effects that
+// began on a cycle is seen at another frequency at the end; else empty.
+std::string LeftItsCycle(const SimulatedRig& rig, const SimulatedRecord& record);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_SIMULATE_RIG_H_
