@@ -32,6 +32,18 @@ TEST(Starts, AWeakNarrowModeIsFoundWhereverItLies) {
   }
 }
 
+// A mode so strong that the fit without it moves far away: its search begins from there.
+TEST(Starts, AStrongModeIsFoundWhateverTheNoise) {
+  for (const std::uint64_t seed : {31, 32, 33}) {
+    const std::vector<CutRecord> records = MakeCutRecords(SimulatePoints(
+        3, [](RigParameters* rig) { AddMode(2.2, 0.05, 0.3, rig); }, seed));
+    const EffectFit fit = FitEffect(records, ExtraAcousticMode()[0], FitBase(records));
+    EXPECT_NEAR(fit.values[0], 2.2, 0.02) << seed;
+    EXPECT_NEAR(fit.values[1], 0.3, 0.03) << seed;
+    EXPECT_NEAR(fit.values[2], 0.05, 0.005) << seed;
+  }
+}
+
 // One point's cycle is the extra mode's own: its omega lies far below the cycle, at the ratio.
 TEST(Starts, OmegaIsFoundWhereAnotherModeCarriesTheCycle) {
   const double ratio = 1.6;
