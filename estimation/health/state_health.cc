@@ -9,7 +9,7 @@ namespace {
 
 std::string PlusMinus(const Estimate& estimate) {
   std::string text = NumberWord(estimate.value);
-  if (std::isfinite(estimate.std)) text += " +- " + NumberWord(kNormal95 * estimate.std, 2);
+  if (std::isfinite(estimate.std)) text += " ± " + NumberWord(kNormal95 * estimate.std, 2);
   return text;
 }
 
