@@ -202,7 +202,9 @@ def draw(seed):
 
 def held_parameters(problem):
     """`parameters` that hold every loop at its drawn values: what is simulated is the drawn loop."""
-    lines = ["parameters:", "  tau_s: {scope: experiment}", "  M: {scope: experiment}"]
+    lines = ["parameters:", "  tau_s: {scope: experiment}"]
+    if problem.modes == 2:
+        lines.append("  M: {scope: experiment}")
     for loop in problem.loops:
         values = {"omega_hz": loop.omega_hz, "xi": loop.xi, "N": loop.N, "tau_s": loop.tau_s}
         if problem.modes == 2:
