@@ -11,8 +11,20 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   target_compile_options(howl_warnings INTERFACE -Wno-restrict)
 endif()
 
+# The headers that most files of a target include, parsed once for the target; every file still
+# names what it uses. Off for tools that read the compile commands, such as clang-tidy, and where a
+# file's options differ from its target's (SKIP_PRECOMPILE_HEADERS).
+option(HOWL_PRECOMPILE "Precompile the headers that most files include" ON)
+function(howl_precompile target)
+  if(HOWL_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <complex> <cstdio>
+                              <filesystem> <functional> <memory> <optional> <span> <sstream>
+                              <string> <vector> ${ARGN})
+  endif()
+endfunction()
+
 function(howl_library name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   add_library(howl_${name} STATIC ${sources} ${headers})
@@ -24,6 +36,7 @@ function(howl_library name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/howl>)
   target_link_libraries(howl_${name} PUBLIC ${ARG_PUBLIC}
                         PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:howl_warnings>)
+  howl_precompile(howl_${name} ${ARG_PRECOMPILE})
   install(TARGETS howl_${name} EXPORT howl_targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
