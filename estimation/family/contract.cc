@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "estimation/family/carrying_mode_bound.h"
 #include "estimation/family/second_mode_bound.h"
 #include "estimation/family/targets.h"
 #include "model/complex.h"
@@ -324,9 +325,9 @@ bool CellContractor::ContractExperiment(std::size_t i, ExperimentBox& box) const
   const ContractTarget& target = targets_[i];
   if (!ContractTransfer(target, box)) return false;
   if (two_modes_) {
-    return ContractTwoModes(target, box) && ContractSecondModeShare(target, box) &&
-           ContractDelay(target, box) && ContractLines(target, box) &&
-           ContractLineGain(target, box);
+    return ContractCarryingMode(target, box) && ContractTwoModes(target, box) &&
+           ContractSecondModeShare(target, box) && ContractDelay(target, box) &&
+           ContractLines(target, box) && ContractLineGain(target, box);
   }
   return ContractPhase(target, box) && ContractGain(target, box) && ContractDelay(target, box);
 }
