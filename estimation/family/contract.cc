@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "estimation/family/centred_bound.h"
 #include "estimation/family/second_mode_bound.h"
 #include "estimation/family/targets.h"
 #include "model/complex.h"
@@ -326,7 +327,7 @@ bool CellContractor::ContractExperiment(std::size_t i, ExperimentBox& box) const
   if (two_modes_) {
     return ContractTwoModes(target, box) && ContractSecondModeShare(target, box) &&
            ContractDelay(target, box) && ContractLines(target, box) &&
-           ContractLineGain(target, box);
+           ContractLineGain(target, box) && ContractCentred(target, box);
   }
   return ContractPhase(target, box) && ContractGain(target, box) && ContractDelay(target, box);
 }
