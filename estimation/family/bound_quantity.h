@@ -23,9 +23,10 @@ struct BoundQuantity {
   FamilyParameter parameter = FamilyParameter::kOmega;
   double sign = 1.0;                       // +1: upper end
   const Expression* expression = nullptr;  // in the parameter's place
+  bool shared = false;                     // a parameter that all experiments have the same of
 
   bool DependsOn(std::size_t other) const {
-    return expression ? expression->DependsOn(other, experiment) : other == experiment;
+    return expression ? expression->DependsOn(other, experiment) : shared || other == experiment;
   }
 };
 

@@ -22,7 +22,9 @@ BoundSetting::BoundSetting(const FamilyProblem& family, std::uint64_t seed_of_dr
       root(contractor.Root()),
       root_empty(!contractor.Contract(root)) {
   if (!NeedsTransferStarts(problem)) drawer = std::make_unique<MemberDrawer>(problem);
-  base = EnumerateMembers(problem, kBaseMembers, seed, 1).members;
+  base = (drawer ? EnumerateMembers(problem, *drawer, kBaseMembers, seed)
+                 : EnumerateMembers(problem, kBaseMembers, seed))
+             .members;
   // A family too thin for draws at random to meet.
   if (base.empty() && !root_empty) {
     if (std::optional<Member> member = FindMemberLocally(problem)) base.push_back(*member);

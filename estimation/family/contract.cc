@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "estimation/family/carrying_mode_bound.h"
+#include "estimation/family/centred_bound.h"
 #include "estimation/family/second_mode_bound.h"
 #include "estimation/family/targets.h"
 #include "model/complex.h"
@@ -327,7 +328,8 @@ bool CellContractor::ContractExperiment(std::size_t i, ExperimentBox& box) const
   if (two_modes_) {
     return ContractCarryingMode(target, box) && ContractTwoModes(target, box) &&
            ContractSecondModeShare(target, box) && ContractDelay(target, box) &&
-           ContractLines(target, box) && ContractLineGain(target, box);
+           ContractLines(target, box) && ContractLineGain(target, box) &&
+           ContractCentred(target, box);
   }
   return ContractPhase(target, box) && ContractGain(target, box) && ContractDelay(target, box);
 }

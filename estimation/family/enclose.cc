@@ -64,7 +64,10 @@ struct Enclosure::Impl {
     for (std::size_t i = 0; options.parameters && i < problem.experiments.size(); ++i) {
       for (const FamilyParameter parameter : kFamilyParameters) {
         if (!HasParameter(problem, i, parameter)) continue;
-        AddBothEnds(setting, {.experiment = i, .parameter = parameter}, searches);
+        // One search serves all experiments that share a parameter.
+        const bool shared = IsSharedParameter(problem, parameter);
+        if (shared && i > 0) continue;
+        AddBothEnds(setting, {.experiment = i, .parameter = parameter, .shared = shared}, searches);
       }
     }
     first_expression = searches.size();
@@ -117,7 +120,8 @@ bool Enclosure::IsBounded(std::size_t experiment, FamilyParameter parameter) con
 EnclosedBound Enclosure::Bound(std::size_t experiment, FamilyParameter parameter) const {
   for (std::size_t k = 0; k < impl_->first_expression; k += 2) {
     const BoundQuantity& quantity = impl_->searches[k].quantity;
-    if (quantity.experiment == experiment && quantity.parameter == parameter) {
+    if (quantity.parameter != parameter) continue;
+    if (quantity.experiment == experiment || quantity.shared) {
       return impl_->BoundAt(k);
     }
   }

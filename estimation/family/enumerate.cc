@@ -530,17 +530,35 @@ bool MemberDrawer::DrawFocused(UnitRandom& random, const DrawFocus& focus, Membe
   return impl_->Attempt(random, &focus, models, globals, complete);
 }
 
-Enumeration EnumerateMembers(const FamilyProblem& problem, std::size_t count, std::uint64_t seed,
-                             int threads) {
+namespace {
+
+Enumeration EnumerateByChains(const FamilyProblem& problem, std::size_t count, std::uint64_t seed,
+                              int threads) {
   Enumeration result;
   result.counts.requested = count;
+  SampleOptions sampling{.count = count, .burn_in = 50, .seed = seed, .threads = threads};
+  result.members = SampleMembers(problem, sampling).members;
+  result.counts.drawn = result.counts.complete = result.counts.members = result.members.size();
+  return result;
+}
+
+}  // namespace
+
+Enumeration EnumerateMembers(const FamilyProblem& problem, std::size_t count, std::uint64_t seed,
+                             int threads) {
   if (count > 0 && NeedsTransferStarts(problem)) {
-    SampleOptions sampling{.count = count, .burn_in = 50, .seed = seed, .threads = threads};
-    result.members = SampleMembers(problem, sampling).members;
-    result.counts.drawn = result.counts.complete = result.counts.members = result.members.size();
-    return result;
+    return EnumerateByChains(problem, count, seed, threads);
   }
-  const MemberDrawer drawer(problem);
+  return EnumerateMembers(problem, MemberDrawer(problem), count, seed, threads);
+}
+
+Enumeration EnumerateMembers(const FamilyProblem& problem, const MemberDrawer& drawer,
+                             std::size_t count, std::uint64_t seed, int threads) {
+  if (count > 0 && NeedsTransferStarts(problem)) {
+    return EnumerateByChains(problem, count, seed, threads);
+  }
+  Enumeration result;
+  result.counts.requested = count;
   if (!drawer.HasSupport() || count == 0) return result;
   const std::size_t units = (count + kChunk - 1) / kChunk;
   std::vector<Enumeration> parts(units);

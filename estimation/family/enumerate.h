@@ -95,6 +95,10 @@ class MemberDrawer {
 Enumeration EnumerateMembers(const FamilyProblem& problem, std::size_t count, std::uint64_t seed,
                              int threads = 1);
 
+// The same, with a drawer of the problem's that is at hand: its pilot search is dear.
+Enumeration EnumerateMembers(const FamilyProblem& problem, const MemberDrawer& drawer,
+                             std::size_t count, std::uint64_t seed, int threads = 1);
+
 Enumeration EnumerateMembers(const std::vector<Experiment>& experiments, const ModelSpec& model,
                              const MembershipTest& test, std::size_t count, std::uint64_t seed,
                              int threads = 1);

@@ -14,6 +14,24 @@ bool HasParameter(const FamilyProblem& problem, std::size_t experiment, FamilyPa
   return true;
 }
 
+bool IsSharedParameter(const FamilyProblem& problem, FamilyParameter parameter) {
+  switch (parameter) {
+    case FamilyParameter::kOmega:
+      return problem.IsShared(ParameterKind::kOmega);
+    case FamilyParameter::kXi:
+      return problem.IsShared(ParameterKind::kXi);
+    case FamilyParameter::kN:
+      return problem.IsShared(ParameterKind::kN);
+    case FamilyParameter::kM:
+      return problem.IsShared(ParameterKind::kM);
+    case FamilyParameter::kTau:
+      return problem.IsShared(ParameterKind::kTau);
+    case FamilyParameter::kLoopGain:
+      break;
+  }
+  return false;
+}
+
 double ParameterValue(const Experiment& experiment, const LoopModel& model,
                       FamilyParameter parameter) {
   switch (parameter) {

@@ -26,6 +26,9 @@ constexpr std::string_view FamilyParameterName(FamilyParameter parameter) {
 // False for M with one mode, and for loop_gain without a flame slope.
 bool HasParameter(const FamilyProblem& problem, std::size_t experiment, FamilyParameter parameter);
 
+// The experiments' models share its value.
+bool IsSharedParameter(const FamilyProblem& problem, FamilyParameter parameter);
+
 // Natural units; loop_gain is NaN where the experiment has no flame slope.
 double ParameterValue(const Experiment& experiment, const LoopModel& model,
                       FamilyParameter parameter);

@@ -106,7 +106,7 @@ class RowMaker {
   bool IsSoft(Condition condition) const { return soft_.conditions.Contains(condition); }
 
   void Add(const LocalJet& violation, std::size_t i, bool is_soft) {
-    ConditionRow row;
+    ConditionRow& row = rows_->emplace_back();
     row.weight = is_soft ? 1.0 : 0.0;
     row.value = (is_soft ? 0.0 : 1.0) - violation.a;
     for (int k = 0; k < kLocals; ++k) {
@@ -115,7 +115,6 @@ class RowMaker {
       row.index[static_cast<std::size_t>(row.count)] = at;
       row.slope[static_cast<std::size_t>(row.count++)] = -violation.v[k];
     }
-    rows_->push_back(row);
   }
 
   // The violation offset + (a - b) / scale, of two experiments.

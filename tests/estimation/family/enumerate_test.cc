@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "estimation/closed_form.h"
 #include "estimation/family/two_mode_solve.h"
@@ -110,8 +111,34 @@ TEST(EnumerateTest, NonHarmonicLineNarrowsMOverN) {
   FamilyProblem problem = Problem(R228Reliable(), 2);
   problem.model.second_mode_relative = true;
   problem.test.second_crossing_tolerance_deg = 30.0;
+  const std::vector<Member> without = EnumerateMembers(problem, 500, 7, 2).members;
   for (Experiment& experiment : problem.experiments) experiment.lines = {{750.0, 2.0}};
   ExpectMembers(problem, 200, "lines");
+  const std::vector<Member> with = EnumerateMembers(problem, 500, 7, 2).members;
+  const auto range = [](const std::vector<Member>& members) {
+    Range relative{1e300, 0.0};
+    for (const Member& member : members) {
+      const double value = member[0].M / member[0].N;
+      relative = {std::min(relative.lo, value), std::max(relative.hi, value)};
+    }
+    return relative;
+  };
+  const Range wide = range(without);
+  const Range narrow = range(with);
+  // Without the line M may vanish; with it M / N of about 0.43 to 5.2 was found in 2000 members.
+  EXPECT_LT(wide.lo, 0.01);
+  EXPECT_GT(narrow.lo, 0.3);
+  EXPECT_LT(narrow.hi, wide.hi);
+  EXPECT_LT(std::log(narrow.hi / narrow.lo), 0.5 * std::log(wide.hi / wide.lo));
+  // It is the line that narrows, not the draws: no member without it passes beyond the range.
+  std::size_t beyond = 0;
+  for (const Member& member : without) {
+    const double value = member[0].M / member[0].N;
+    if (value > 0.9 * narrow.lo && value < 1.1 * narrow.hi) continue;
+    ++beyond;
+    EXPECT_FALSE(reference::Passes(problem.experiments, member, problem.test)) << value;
+  }
+  EXPECT_GT(beyond, 100u);
 }
 
 TEST(EnumerateTest, EveryParameterMayBeShared) {

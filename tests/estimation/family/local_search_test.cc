@@ -97,7 +97,6 @@ TEST(LocalSearchTest, TwoModeBoundsOfSixExperimentsMeet) {
   problem.domain[ParameterKind::kXi].lo = 0.02;
   problem.domain[ParameterKind::kM].hi = 5000.0;
   problem.test.second_crossing_tolerance_deg = 30.0;
-  problem.test.second_crossing_gain_min = 0.0;  // with it, bounds stay some per cent apart
   problem.test.xi_max = 0.4;
   Enclosure enclosure(problem, {.seed = 1, .threads = 2});
   ASSERT_TRUE(enclosure.Run());
