@@ -84,16 +84,22 @@ struct MemberDrawer::Impl {
       double highest = 0.0;
       double scale_lo = lowest, scale_hi = 0.0;
       for (const ExperimentTarget& target : targets) {
-        const double y = xi.hi * std::tan(-target.phase_rad.lo);
-        lowest = std::min(lowest, OmegaFromDetuning(target.frequency_hz, std::max(y, 0.0)) / ratio);
-        const double y_lo = xi.hi * std::tan(-target.phase_rad.hi);
+        const std::optional<Range> first = FirstModePhase(target.phase_rad);
+        const Range phase = first.value_or(target.phase_rad);
+        const double y = xi.hi * std::tan(-phase.lo);
+        lowest = std::min(lowest, OmegaFromDetuning(target.frequency_hz, std::max(y, 0.0)) /
+                                      (first ? 1.0 : ratio));
+        const double y_lo = xi.hi * std::tan(-phase.hi);
         highest = std::max(highest, OmegaFromDetuning(target.frequency_hz, std::min(y_lo, 0.0)));
         scale_lo = std::min(scale_lo, target.w_rad_s * target.gain.lo);
         scale_hi = std::max(scale_hi, target.w_rad_s * target.gain.hi);
       }
       window_support = Intersection({lowest, highest}, {omega.lo / window.factor, omega.hi});
+      // With (5b) M is at most s / (1 - s) |G| / |U_r|, and |1 / U_r| at most some r^2 w.
+      const double share = problem.test.second_mode_share_max;
+      const double most = share < 0.5 ? share / (1.0 - share) * ratio * ratio : 10.0;
       second_support = second_kind == ParameterKind::kM
-                           ? Intersection({1e-3 * scale_lo, 10.0 * scale_hi}, second)
+                           ? Intersection({1e-3 * scale_lo, most * scale_hi}, second)
                            : Intersection({1e-3, 1e3}, second);
       N_support = Intersection({1e-3 * scale_lo, 10.0 * scale_hi}, N);
     } else {
@@ -135,6 +141,18 @@ struct MemberDrawer::Impl {
       if (shared_second) narrow(second_support, seconds);
       if (shared_N && two_modes) narrow(N_support, Ns);
     }
+  }
+
+  // arg(N U_1), where the second mode adds at most its share s to it, (5b): arg G to within asin s.
+  // Nothing where the share says nothing.
+  std::optional<Range> FirstModePhase(const Range& phase_rad) const {
+    const double share = problem.test.second_mode_share_max;
+    if (!(share < 1.0)) return std::nullopt;
+    const double turn = std::asin(share);
+    const Range phase = {phase_rad.lo - turn, phase_rad.hi + turn};
+    const double right_angle = 0.5 * std::numbers::pi;
+    if (phase.lo <= -right_angle || phase.hi >= right_angle) return std::nullopt;
+    return phase;
   }
 
   bool DrawTau(UnitRandom& random, const Range& within, DrawGlobals& globals,
@@ -200,7 +218,14 @@ struct MemberDrawer::Impl {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       ExperimentTarget target = targets[i];
       target.phase_rad = phases[i];
+      const std::optional<Range> first =
+          two_modes ? FirstModePhase(target.phase_rad) : std::nullopt;
       if (!two_modes) {
+        xis[i] = XiInWindow(target, window_hz, own_xi[i]);
+      } else if (first) {
+        // The first mode is all but alone: the condition of one mode, its tolerance wider by the
+        // other's share.
+        target.phase_rad = *first;
         xis[i] = XiInWindow(target, window_hz, own_xi[i]);
       } else {
         // y_r <= xi t <= y somewhere in the window: two one-mode conditions.
@@ -320,7 +345,8 @@ struct MemberDrawer::Impl {
       if (IsEmpty(wedge)) return false;
       if (shared_second) {
         std::array<double, kMaxRoots> roots{};
-        const int count = FindRoots<kMaxRoots>(Equation(i, xi_i, theta, gain, globals), wedge.lo,
+        const double least = LeastOmega(f, xi_i, std::tan(-theta), wedge);
+        const int count = FindRoots<kMaxRoots>(Equation(i, xi_i, theta, gain, globals), least,
                                                wedge.hi, kRootCells, roots);
         if (count == 0) return false;
         model.omega_hz = roots[random.Index(static_cast<std::size_t>(count))];
