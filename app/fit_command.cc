@@ -54,12 +54,12 @@ void PrintModels(const JointProblem& problem, const JointFit& fit) {
 
 void PrintShared(const JointProblem& problem, const JointFit& fit) {
   bool any_free = false;
-  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     any_free =
         any_free || (problem.parameters()[i].experiment == kShared && !fit.parameters[i].fixed);
   }
   if (any_free) std::printf("shared parameters (%s):\n", kPlusMinusLegend);
-  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     if (problem.parameters()[i].experiment != kShared) continue;
     const FitParameter& parameter = fit.parameters[i];
     std::printf("%s = %s", parameter.name.c_str(), Significant(parameter.value).c_str());

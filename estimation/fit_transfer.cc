@@ -39,7 +39,7 @@ LogParameters GridStart(std::span<const TransferPoint> points, const ModelSpec& 
       Eigen::Vector2d rhs = Eigen::Vector2d::Zero();
       double total = 0;
       for (const TransferPoint& point : points) {
-        const double w = 2.0 / (point.variance_re + point.variance_im);
+        const double w = 2.0 / point.TotalCovariance().trace();
         const double f = kRadPerSPerHz * point.frequency_hz;
         const Complex<double> a = UnitModeResponse(kRadPerSPerHz * omega_hz, xi, f);
         const Complex<double> b = UnitModeResponse(ratio * kRadPerSPerHz * omega_hz, xi, f);
@@ -78,9 +78,9 @@ LogParameters GridStart(std::span<const TransferPoint> points, const ModelSpec& 
 
 struct Solution {
   LogParameters x;
-  Eigen::MatrixXd jacobian;  // of the whitened residuals over the free parameters
-  Eigen::VectorXd doubt;     // what a standard deviation of q's noise floor adds to the residuals
-  double cost = 0.0;
+  double q_noise = 0.0;      // u (estimation/residuals/transfer_point.h)
+  Eigen::MatrixXd jacobian;  // of the points' whitened residuals over the free parameters, u last
+  double cost = 0.0;         // of the points alone
   bool usable = false;
 };
 
@@ -88,17 +88,19 @@ Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
                const TransferBand& band, const LogParameters& start) {
   Solution solution{.x = start};
   LogParameters& x = solution.x;
+  double* const u = &solution.q_noise;
   ceres::Problem problem;
   for (const TransferPoint& point : points) {
     if (model.modes == 2) {
       problem.AddResidualBlock(
-          TransferPointResidual::CreateFull(point, {model.harmonic_ratio, false}), nullptr, &x[0],
-          &x[1], &x[2], &x[3]);
+          TransferPointResidual::CreateFull(point, {model.harmonic_ratio, false}), nullptr, u,
+          &x[0], &x[1], &x[2], &x[3]);
     } else {
-      problem.AddResidualBlock(TransferPointResidual::CreateReduced(point), nullptr, &x[0], &x[1],
-                               &x[2]);
+      problem.AddResidualBlock(TransferPointResidual::CreateReduced(point), nullptr, u, &x[0],
+                               &x[1], &x[2]);
     }
   }
+  problem.AddResidualBlock(QNoiseLevelPrior::Create(), nullptr, u);
   // Guard rails: a mode outside the points' band or without its N is another model.
   problem.SetParameterLowerBound(&x[1], 0, std::log(kTransferXiMin));
   problem.SetParameterUpperBound(&x[1], 0, std::log(kTransferXiMax));
@@ -121,8 +123,14 @@ Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
   solution.usable = summary.IsSolutionUsable();
 
   ceres::CRSMatrix jacobian;
-  std::vector<double> residuals;
-  problem.Evaluate({}, &solution.cost, &residuals, nullptr, &jacobian);
+  ceres::Problem::EvaluateOptions evaluate;
+  for (int k = 0; k < (model.modes == 2 ? 4 : 3); ++k) {
+    evaluate.parameter_blocks.push_back(&x[static_cast<std::size_t>(k)]);
+  }
+  evaluate.parameter_blocks.push_back(u);
+  problem.GetResidualBlocks(&evaluate.residual_blocks);
+  evaluate.residual_blocks.pop_back();  // the prior of u
+  problem.Evaluate(evaluate, &solution.cost, nullptr, nullptr, &jacobian);
   solution.jacobian = Eigen::MatrixXd::Zero(jacobian.num_rows, jacobian.num_cols);
   for (int row = 0; row < jacobian.num_rows; ++row) {
     const auto r = static_cast<std::size_t>(row);
@@ -131,16 +139,16 @@ Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
       solution.jacobian(row, jacobian.cols[k]) = jacobian.values[k];
     }
   }
-  // The residuals are L^-1 (G - H) with L L^T the point's covariance.
-  solution.doubt = Eigen::VectorXd::Zero(jacobian.num_rows);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const TransferPoint& point = points[k];
-    const Eigen::Vector2d h(point.re, point.im);
-    const Eigen::LLT<Eigen::Matrix2d> factor(point.Covariance());
-    solution.doubt.segment<2>(static_cast<Eigen::Index>(2 * k)) =
-        -factor.matrixL().solve(point.q_noise_bias / std::sqrt(3.0) * h);
-  }
   return solution;
+}
+
+// With the scatter `factor` times as large, as neighbours that overlap count for.
+void Widen(double factor, std::vector<TransferPoint>* points) {
+  for (TransferPoint& point : *points) {
+    point.variance_re *= factor;
+    point.variance_im *= factor;
+    point.covariance *= factor;
+  }
 }
 
 // The model's own error, relative to the size of G about the point: to |H| itself it would be
@@ -160,6 +168,19 @@ std::vector<TransferPoint> WithModelError(std::span<const TransferPoint> points,
     result[k].variance_im += 0.5 * error * error * size;
   }
   return result;
+}
+
+// What the points say nothing of has a variance without end, and not, as in a pseudo-inverse, none:
+// a second mode of vanishing size has no logarithm to speak of.
+Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information) {
+  constexpr double kLeast = 1e-300;
+  constexpr double kSingular = 1e-12;  // of a correlation matrix
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * information *
+                                                              scale.asDiagonal());
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * solver.eigenvectors();
+  return scaled * solver.eigenvalues().cwiseMax(kSingular).cwiseInverse().asDiagonal() *
+         scaled.transpose();
 }
 
 }  // namespace
@@ -184,18 +205,21 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const 
   if (points.size() < 4) return fit;
   const int free = second_mode ? 4 : 3;
   const double dof = 2.0 * static_cast<double>(points.size()) - free;
+  const double inflation = transfer.neighbour_inflation;
   const auto solve = [&](double error) {
-    const std::vector<TransferPoint> softened = WithModelError(points, error);
+    std::vector<TransferPoint> softened = WithModelError(points, error);
+    Widen(inflation, &softened);
     return Solve(softened, model, band, GridStart(softened, model, band, first));
   };
+  const auto per_dof = [&](const Solution& at) { return 2.0 * inflation * at.cost / dof; };
   Solution solution = solve(0.0);
-  fit.chi_square_per_dof = 2.0 * solution.cost / dof;
+  fit.chi_square_per_dof = per_dof(solution);
   if (fit.chi_square_per_dof > 1.5) {
     double low = 1e-3, high = 10.0;
     for (int i = 0; i < 12; ++i) {
       fit.model_error = std::sqrt(low * high);
       solution = solve(fit.model_error);
-      (2.0 * solution.cost / dof > 1.0 ? low : high) = fit.model_error;
+      (per_dof(solution) > 1.0 ? low : high) = fit.model_error;
     }
   }
   const LogParameters& x = solution.x;
@@ -203,14 +227,12 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const 
   fit.acoustics = {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]),
                    second_mode ? std::exp(x[3]) : 0.0, model.harmonic_ratio};
   // The points' own scatter averages out over them. The level of q's noise does not: it is one for
-  // all of them, and moves the parameters by what it adds to all residuals together.
-  const Eigen::MatrixXd inverse = (solution.jacobian.transpose() * solution.jacobian)
-                                      .completeOrthogonalDecomposition()
-                                      .pseudoInverse();
-  const Eigen::VectorXd moved = inverse * (solution.jacobian.transpose() * solution.doubt);
-  fit.log_covariance.topLeftCorner(free, free) =
-      transfer.neighbour_inflation * std::max(2.0 * solution.cost / dof, 1.0) * inverse +
-      moved * moved.transpose();
+  // all of them, known by its prior and by what the points say of it.
+  Eigen::MatrixXd information =
+      solution.jacobian.transpose() * solution.jacobian / std::max(per_dof(solution), 1.0);
+  information(free, free) += 1.0;
+  const Eigen::MatrixXd inverse = CovarianceOf(information);
+  fit.log_covariance.topLeftCorner(free, free) = inverse.topLeftCorner(free, free);
   const auto estimate = [&](int i) {
     const double value = std::exp(x[static_cast<std::size_t>(i)]);
     return Estimate{value, value * std::sqrt(fit.log_covariance(i, i))};
@@ -226,14 +248,14 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const 
         0.5 * (AcousticResponse(fit.acoustics, point.frequency_hz - point.spread_hz) +
                AcousticResponse(fit.acoustics, point.frequency_hz + point.spread_hz));
     const Eigen::Vector2d error(g.re - point.re, g.im - point.im);
-    const double misfit = std::sqrt(error.dot(point.Covariance().ldlt().solve(error)));
+    const double misfit = std::sqrt(error.dot(point.TotalCovariance().ldlt().solve(error)));
     const double size = point.re * point.re + point.im * point.im;
     fit.points.push_back({point.frequency_hz, g.re, g.im, misfit,
                           std::sqrt(error.squaredNorm() / size),
                           band.Contains(point.frequency_hz)});
     power += point.weight;
     missed += point.weight * error.squaredNorm() / size;
-    noise += point.weight * (point.variance_re + point.variance_im) / size;
+    noise += point.weight * point.TotalCovariance().trace() / size;
     explained += misfit * misfit < 5.991 ? 1.0 : 0.0;  // chi-square, two degrees, 95 %
   }
   fit.explained_power = 1.0 - missed / power;

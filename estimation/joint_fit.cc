@@ -51,19 +51,39 @@ StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver,
   return result;
 }
 
-std::vector<int> FreeParameters(const JointProblem& problem) {
-  std::vector<int> free;
-  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
-    if (!problem.parameters()[i].fixed) free.push_back(static_cast<int>(i));
+// The last `nuisances` of them are no parameters of a model.
+struct FreeParameters {
+  explicit FreeParameters(const JointProblem& problem) {
+    for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+      if (problem.parameters()[i].fixed) continue;
+      indices.push_back(static_cast<int>(i));
+      nuisances += problem.parameters()[i].is_q_noise ? 1 : 0;
+    }
   }
-  return free;
+  std::vector<int> indices;
+  int nuisances = 0;
+};
+
+// The Jacobian over the other columns when the last ones are free: what a nuisance can explain is
+// taken out of each, so that J^T J becomes its Schur complement.
+Eigen::MatrixXd WithoutNuisances(Eigen::MatrixXd jacobian, int nuisances) {
+  for (; nuisances > 0; --nuisances) {
+    const Eigen::Index last = jacobian.cols() - 1;
+    const Eigen::VectorXd column = jacobian.col(last);
+    jacobian.conservativeResize(Eigen::NoChange, last);
+    const double size = column.squaredNorm();
+    if (size > 0.0) jacobian -= column * (column.transpose() * jacobian) / size;
+  }
+  return jacobian;
 }
 
 Eigen::MatrixXd Jacobian(const JointProblem& problem, std::vector<double> logs) {
   const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(logs.data());
   ceres::Problem::EvaluateOptions options;
-  for (const int i : FreeParameters(problem))
+  const FreeParameters free(problem);
+  for (const int i : free.indices) {
     options.parameter_blocks.push_back(&logs[static_cast<std::size_t>(i)]);
+  }
   ceres::CRSMatrix sparse;
   CHECK(ceres_problem->Evaluate(options, nullptr, nullptr, nullptr, &sparse));
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
@@ -74,7 +94,7 @@ Eigen::MatrixXd Jacobian(const JointProblem& problem, std::vector<double> logs) 
           sparse.values[static_cast<std::size_t>(k)];
     }
   }
-  return dense;
+  return WithoutNuisances(std::move(dense), free.nuisances);
 }
 
 // A bound that no one set (FitParameter).
@@ -90,6 +110,7 @@ void DescribeParameters(const JointProblem& problem, JointFit& fit) {
   std::size_t column = 0;
   for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
     const ParameterBlock& block = problem.parameters()[i];
+    if (block.is_q_noise) continue;
     FitParameter parameter;
     parameter.name = block.name;
     parameter.value = std::exp(fit.logs[i]);
@@ -152,8 +173,9 @@ std::vector<StartResult>::const_iterator BestStart(const std::vector<StartResult
 
 Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector<double>& logs) {
   std::vector<std::string> names;
-  for (const int i : FreeParameters(problem))
-    names.push_back(problem.parameters()[static_cast<std::size_t>(i)].name);
+  for (const ParameterBlock& block : problem.parameters()) {
+    if (!block.fixed && !block.is_q_noise) names.push_back(block.name);
+  }
   return ComputeIdentifiability(Jacobian(problem, logs), names);
 }
 

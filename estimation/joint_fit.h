@@ -41,8 +41,8 @@ struct JointFit {
   int starts_converged = 0;
   int starts_at_best = 0;  // that reached the best cost to 1e-6
   std::vector<double> logs;
-  std::vector<LoopModel> models;  // one an experiment
-  std::vector<FitParameter> parameters;
+  std::vector<LoopModel> models;         // one an experiment
+  std::vector<FitParameter> parameters;  // of the models: without the unknowns of the transfers
   std::vector<FitResidual> residuals;
   // Over the parameters that are not fixed, in their order.
   std::vector<std::string> free_names;

@@ -30,6 +30,7 @@ namespace {
 
 constexpr double kStartXi = 0.1;            // a lightly damped mode
 constexpr double kStartMOverN = 0.4;        // the seed's figures 11 and 12 imply about this
+constexpr double kMostQNoise = 100.0;       // standard deviations: a guard rail
 constexpr double kMaxStartPhaseDeg = 85.0;  // the closed form needs less than 90
 
 ceres::LossFunction* CreateLoss(const ResidualBlock& block) {
@@ -125,6 +126,7 @@ JointProblem::JointProblem(std::vector<Experiment> experiments, const ModelSpec&
   AddMean(ResidualKind::kOmegaPrior, ParameterKind::kOmega, residuals);
   AddMean(ResidualKind::kTauPrior, ParameterKind::kTau, residuals);
   AddXiOrder(residuals);
+  AddQNoise(residuals);
 }
 
 void JointProblem::AddParameters() {
@@ -168,7 +170,7 @@ void JointProblem::AddParameters() {
 int JointProblem::ParameterIndex(ParameterKind kind, int experiment) const {
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const ParameterBlock& block = parameters_[i];
-    if (block.kind == kind && !block.is_mean &&
+    if (block.kind == kind && !block.is_mean && !block.is_q_noise &&
         (block.experiment == kShared || block.experiment == experiment)) {
       return static_cast<int>(i);
     }
@@ -270,7 +272,6 @@ void JointProblem::AddEqualities(int i, const ResidualSet& residuals) {
     }
   }
   if (two_modes) AddSecondMode(i, residuals);
-  if (ActsOn(residuals, ResidualKind::kTransfer, experiment)) AddTransfer(i, residuals);
   if (ActsOn(residuals, ResidualKind::kDampingPrior, experiment)) {
     Add(residuals, ResidualKind::kDampingPrior, i,
         DampingPrior::Create(residuals[ResidualKind::kDampingPrior].center,
@@ -301,7 +302,29 @@ void JointProblem::AddSecondMode(int i, const ResidualSet& residuals) {
   }
 }
 
-void JointProblem::AddTransfer(int i, const ResidualSet& residuals) {
+// Points by themselves would each be free to be wrong by it, and fifty of them would leave a
+// seventh of a doubt that does not average out.
+void JointProblem::AddQNoise(const ResidualSet& residuals) {
+  for (int i = 0; i < static_cast<int>(experiments_.size()); ++i) {
+    const Experiment& experiment = experiments_[static_cast<std::size_t>(i)];
+    if (experiment.transfer.empty() || !ActsOn(residuals, ResidualKind::kTransfer, experiment)) {
+      continue;
+    }
+    ParameterBlock block;
+    block.name = experiment.name + ".q_noise";
+    block.experiment = i;
+    block.is_q_noise = true;
+    block.min_log = -kMostQNoise;
+    block.max_log = kMostQNoise;
+    parameters_.push_back(std::move(block));
+    const int index = static_cast<int>(parameters_.size()) - 1;
+    AddTransfer(i, index, residuals);
+    Add(residuals, ResidualKind::kTransfer, i, QNoiseLevelPrior::Create(), {index}, " q noise");
+    residuals_.back().loss = LossKind::kNone;
+  }
+}
+
+void JointProblem::AddTransfer(int i, int q_noise, const ResidualSet& residuals) {
   const Experiment& experiment = experiments_[static_cast<std::size_t>(i)];
   const bool two_modes = model_.modes == 2;
   const TransferBand band = TransferBandOf(model_, experiment.frequency_hz);
@@ -316,7 +339,9 @@ void JointProblem::AddTransfer(int i, const ResidualSet& residuals) {
         two_modes ? TransferPointResidual::CreateFull(
                         point, {model_.harmonic_ratio, model_.second_mode_relative})
                   : TransferPointResidual::CreateReduced(point);
-    Add(residuals, ResidualKind::kTransfer, i, cost, AcousticBlocks(i, two_modes),
+    std::vector<int> blocks = AcousticBlocks(i, two_modes);
+    blocks.insert(blocks.begin(), q_noise);
+    Add(residuals, ResidualKind::kTransfer, i, cost, std::move(blocks),
         " " + std::to_string(std::lround(point.frequency_hz)) + " Hz");
   }
 }
@@ -374,7 +399,7 @@ std::vector<double> JointProblem::Start(int number, std::uint64_t seed) const {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (const ParameterBlock& block : parameters_) {
     const double scatter = uniform(generator) * std::log(StartScatter(block.kind));
-    const bool stay = number == 0 || block.fixed;
+    const bool stay = number == 0 || block.fixed || block.is_q_noise;
     logs.push_back(stay ? block.initial_log : Clamp(block.initial_log + scatter, block));
   }
   return logs;

@@ -6,7 +6,8 @@
 // qualitative conditions of section 3.3). Each parameter is a block of size one holding the natural
 // logarithm of a positive quantity in its natural unit (omega_hz, xi, N, M or M / N, tau_s), shared
 // by all experiments or private to one. omega_prior and tau_prior add the common value that
-// experiments scatter about as a parameter of its own.
+// experiments scatter about as a parameter of its own; a transfer adds one unknown of its record,
+// which no report names: intervals are what is left when it is free.
 #ifndef HOWL_ESTIMATION_JOINT_PROBLEM_H_
 #define HOWL_ESTIMATION_JOINT_PROBLEM_H_
 
@@ -31,6 +32,10 @@ struct ParameterBlock {
   int experiment = kShared;
   ParameterKind kind = ParameterKind::kOmega;
   bool is_mean = false;  // the common value of a prior
+  // No parameter of a model: what the level of q's own noise moves the experiment's transfer by, in
+  // standard deviations (estimation/residuals/transfer_point.h). It is itself where the others are
+  // logarithms. These blocks come last.
+  bool is_q_noise = false;
   double min_log = 0.0;
   double max_log = 0.0;
   double initial_log = 0.0;  // start number 0
@@ -82,7 +87,8 @@ class JointProblem {
   void AddMean(ResidualKind prior, ParameterKind kind, const ResidualSet& residuals);
   void AddEqualities(int experiment, const ResidualSet& residuals);
   void AddSecondMode(int experiment, const ResidualSet& residuals);
-  void AddTransfer(int experiment, const ResidualSet& residuals);
+  void AddQNoise(const ResidualSet& residuals);
+  void AddTransfer(int experiment, int q_noise, const ResidualSet& residuals);
   void AddXiOrder(const ResidualSet& residuals);
   void Add(const ResidualSet& residuals, ResidualKind kind, int experiment,
            ceres::CostFunction* cost, std::vector<int> parameters,

@@ -72,7 +72,7 @@ std::vector<double> OtherBranchStart(const JointProblem& problem, std::vector<do
   for (std::size_t k = 0; k < start.size(); ++k) {
     const ParameterBlock& block = problem.parameters()[k];
     const bool moves = block.kind != ParameterKind::kXi && block.kind != ParameterKind::kTau;
-    if (block.fixed || !moves) continue;
+    if (block.fixed || block.is_q_noise || !moves) continue;
     // What experiments share, or scatter about, starts at their mean.
     double log = 0.0;
     if (block.experiment == kShared) {

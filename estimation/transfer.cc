@@ -94,6 +94,22 @@ bool IsCoherentAbout(const std::vector<Group>& groups, std::size_t at, int count
   return mean > by_chance && (nu * mean - 1.0) / (nu - 1.0) >= options.min_coherence;
 }
 
+// What of p is not coherent with q about a group. One group's own estimate has the few degrees of
+// freedom of a point, and weights that scatter as much would make what is fitted to the points
+// scatter more than their variance says.
+double IncoherentPower(const std::vector<Group>& groups, std::size_t at, int count) {
+  constexpr int kReach = 2;  // groups on either side
+  double sum = 0.0;
+  int taken = 0;
+  const std::size_t first = at < kReach ? 0 : at - kReach;
+  for (std::size_t k = first; k < std::min(at + kReach + 1, groups.size()); ++k) {
+    if (std::abs(groups[k].start - groups[at].start) > (kReach + 1) * count) continue;
+    sum += groups[k].pp * std::max(1.0 - groups[k].Raw(), 1e-9);
+    ++taken;
+  }
+  return sum / taken;
+}
+
 }  // namespace
 
 Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const SpectralLine> lines,
@@ -147,13 +163,10 @@ Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const Spectra
     point.weight = std::norm(h) * power;
     // By what of p is not coherent with q: independent of H, where |H|^2 (1 - c) / c is small where
     // chance made H large, and weighs such points more.
-    const double left = group.pp * std::max(1.0 - raw, 1e-9);
+    const double left = IncoherentPower(groups, g, count);
     const double scatter = left * group.qq / (2.0 * (nu - 1.0) * power * power);
-    // The noise is anything from none to S_n, and what it changes lies along H.
-    const std::complex<double> doubt = point.q_noise_bias / std::sqrt(3.0) * h;
-    point.variance_re = scatter + doubt.real() * doubt.real();
-    point.variance_im = scatter + doubt.imag() * doubt.imag();
-    point.covariance = doubt.real() * doubt.imag();
+    point.variance_re = scatter;
+    point.variance_im = scatter;
     transfer.points.push_back(point);
   }
   return transfer;

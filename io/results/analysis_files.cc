@@ -174,8 +174,9 @@ std::string TransferCsv(const AnalysisSet& set, std::string_view operating_param
     for (std::size_t k = 0; k < analysis.transfer->points.size(); ++k) {
       const TransferPoint& point = analysis.transfer->points[k];
       csv.Cell(analysis.name).Cell(analysis.phi);
-      for (const double value : {point.frequency_hz, point.re, point.im, point.variance_re,
-                                 point.variance_im, point.covariance, point.coherence}) {
+      const Eigen::Matrix2d covariance = point.TotalCovariance();
+      for (const double value : {point.frequency_hz, point.re, point.im, covariance(0, 0),
+                                 covariance(1, 1), covariance(0, 1), point.coherence}) {
         csv.Cell(value);
       }
       const TransferFitPoint model =

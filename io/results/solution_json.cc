@@ -138,7 +138,7 @@ Json SolutionJson(const JointProblem& problem, const JointFit& fit,
     experiments.push_back(ExperimentJson(problem.experiments()[i], fit.models[i], problem.model()));
   }
   Json shared = Json::object();
-  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const ParameterBlock& block = problem.parameters()[i];
     if (block.experiment == kShared) shared[block.name] = fit.parameters[i].value;
   }
