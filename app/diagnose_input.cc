@@ -41,11 +41,14 @@ std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) 
 }
 
 BaseModel BaseOf(const Config& config) {
-  BaseModel base;
+  return {.modes = config.model.modes,
+          .harmonic_ratio = config.model.harmonic_ratio,
+          .own_delays = config.model[ParameterKind::kTau].scope == ParameterScope::kExperiment};
+}
+
+bool StatesModes(const Config& config) {
   const LocatedMember* const model = config.tree.Find("model");
-  if (model != nullptr && model->value.Find("modes") != nullptr) base.modes = config.model.modes;
-  base.harmonic_ratio = config.model.harmonic_ratio;
-  return base;
+  return model != nullptr && model->value.Find("modes") != nullptr;
 }
 
 void CheckReference(const Config& config, const Config& reference,

@@ -8,6 +8,7 @@
 
 #include "diagnosis/advice.h"
 #include "diagnosis/calibration.h"
+#include "diagnosis/choose_modes.h"
 #include "diagnosis/gap_map.h"
 #include "diagnosis/localise/localise.h"
 #include "diagnosis/pair.h"
@@ -198,7 +199,13 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
 
 Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
                    const DiagnosisOptions& options) {
-  return Search(experiments, options).Run();
+  if (!options.choose_modes) return Search(experiments, options).Run();
+  const ModesChoice choice = ChooseModes(experiments, options.model);
+  DiagnosisOptions chosen = options;
+  chosen.model.modes = choice.modes;
+  Diagnosis out = Search(experiments, chosen).Run();
+  out.second_mode_gain = choice.second_mode_gain;
+  return out;
 }
 
 }  // namespace howl

@@ -161,7 +161,7 @@ TEST(Diagnose, AStateOfAnotherBuildOrWithAKeyTwiceIsNotBelieved) {
   EXPECT_THAT(RunHowl(command).err, testing::HasSubstr("going on from"));
 }
 
-// records.yaml as it is, and with its model changed.
+// records.yaml as it is, and with its model or its delays changed.
 TEST(Diagnose, TheBaseIsTheConfigsModel) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");
@@ -182,13 +182,39 @@ TEST(Diagnose, TheBaseIsTheConfigsModel) {
   };
   const auto one = base(stated);
   EXPECT_EQ(one["base"]["modes"], 1);
+  EXPECT_TRUE(one["base"]["second_mode_gain"].is_null());
+  EXPECT_EQ(one["base"]["tau_scope"], "experiment");
   EXPECT_EQ(one["candidates"].size(), 1u);
   const auto two = base("model: {modes: 2, harmonic_ratio: 2.8}");
   EXPECT_EQ(two["base"]["modes"], 2);
   EXPECT_EQ(two["base"]["harmonic_ratio"], 2.8);
   EXPECT_EQ(two["candidates"].size(), 2u);
-  // Where nothing is stated: two, of which one is a special case.
-  EXPECT_EQ(base("")["base"]["modes"], 2);
+  // Where nothing is stated the records choose, and it is said.
+  const auto chosen = base("");
+  EXPECT_EQ(chosen["base"]["modes"], 1);
+  EXPECT_TRUE(chosen["base"]["second_mode_gain"].is_number());
+  const auto shared = base(stated + "\nparameters: {tau_s: {scope: shared}}");
+  EXPECT_EQ(shared["base"]["tau_scope"], "shared");
+  EXPECT_EQ(shared["base"]["tau_scatter"], 0.0);
+}
+
+// What a user tries first, with a few of the candidates.
+TEST(Diagnose, TheShippedConfigIsNotAccusedAndAnEffectAddedToItIsNamed) {
+  const TemporaryFolder folder;
+  const auto verdict = [&](const std::string& name, const std::string& added) {
+    const std::string config =
+        folder.Write(name + ".yaml", ReadFile(Config("r228")) + added).string();
+    const std::string out = (folder.path() / name).string();
+    EXPECT_EQ(RunHowl("simulate " + config + " --quiet --out " + out).status, 0);
+    const ProgramResult run = RunHowl(
+        "diagnose " + out + "/records.yaml --without " +
+        AllBut({"q_sensor_lowpass", "channel_skew", "delay_varies_with_phi"}) + " --out " + out);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  };
+  EXPECT_THAT(verdict("null", ""), testing::StartsWith("verdict: none"));
+  EXPECT_THAT(verdict("lag", "simulate: {effects: [{effect: q_sensor_lowpass, cutoff_hz: 245}]}\n"),
+              testing::StartsWith("verdict: q_sensor_lowpass"));
 }
 
 TEST(Diagnose, AgainstAReferenceOfTheSameLoopThereIsNothingToName) {
