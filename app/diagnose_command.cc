@@ -61,6 +61,7 @@ int Run(const Options& options) {
   DiagnosisOptions how;
   how.model = BaseOf(config);
   how.choose_modes = !StatesModes(config);
+  how.choose_delays = !StatesDelays(config);
   how.threads = options.threads;
   how.withheld = Withheld(options);
   how.seed = options.seed;

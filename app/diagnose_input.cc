@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <initializer_list>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -46,10 +47,23 @@ BaseModel BaseOf(const Config& config) {
           .own_delays = config.model[ParameterKind::kTau].scope == ParameterScope::kExperiment};
 }
 
-bool StatesModes(const Config& config) {
-  const LocatedMember* const model = config.tree.Find("model");
-  return model != nullptr && model->value.Find("modes") != nullptr;
+namespace {
+
+bool States(const Config& config, std::initializer_list<const char*> path) {
+  const LocatedNode* at = &config.tree;
+  for (const char* const key : path) {
+    const LocatedMember* const member = at->Find(key);
+    if (member == nullptr) return false;
+    at = &member->value;
+  }
+  return true;
 }
+
+}  // namespace
+
+bool StatesModes(const Config& config) { return States(config, {"model", "modes"}); }
+
+bool StatesDelays(const Config& config) { return States(config, {"parameters", "tau_s", "scope"}); }
 
 void CheckReference(const Config& config, const Config& reference,
                     const std::vector<DiagnosisExperiment>& rig,

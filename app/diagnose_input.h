@@ -17,8 +17,9 @@ std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
 // is shared.
 BaseModel BaseOf(const Config& config);
 
-// Whether `modes` stands in it; if not, the records choose (choose_modes.h).
+// Whether `modes`, and the scope of tau_s, stand in it; if not, the records choose.
 bool StatesModes(const Config& config);
+bool StatesDelays(const Config& config);
 
 // Operating points are found by name or parameter, and interpolated in between.
 void CheckReference(const Config& config, const Config& reference,

@@ -76,6 +76,10 @@ std::string BaseText(const Diagnosis& diagnosis) {
   text += diagnosis.model.own_delays
               ? "; the delays scatter by " + Fixed(kPerCent * diagnosis.delay_scatter, 2) + " %"
               : "; one delay for all";
+  if (std::isfinite(diagnosis.own_delays_gain)) {
+    text += " (the config states no scope of tau_s: own delays gain " +
+            Fixed(diagnosis.own_delays_gain, 1) + " nats)";
+  }
   return text + "\n";
 }
 

@@ -83,6 +83,9 @@ struct Diagnosis {
   // What a second mode takes off the likelihood, its coefficients paid for, where it was asked by
   // that (choose_modes.h); NaN where the model states its modes.
   double second_mode_gain = std::numeric_limits<double>::quiet_NaN();
+  // What own delays take off the likelihood beside the best effect, or none, where that was asked;
+  // NaN where the model states it.
+  double own_delays_gain = std::numeric_limits<double>::quiet_NaN();
   double delay_scatter = 0.0;  // of log tau over the experiments, in the best fit
   // Of the loop, where the verdict is an effect whose fit has them.
   std::vector<MovedParameter> base_parameters;
@@ -100,6 +103,7 @@ struct Diagnosis {
 struct DiagnosisOptions {
   BaseModel model;
   bool choose_modes = false;           // by the records, whatever the model says
+  bool choose_delays = false;          // the same: one for all, or each experiment's own
   int threads = 0;                     // 0: as many as the machine has
   std::uint64_t seed = 1;              // of the bootstrap's replicates
   std::size_t bootstrap = 0;           // replicates (bootstrap/bootstrap.h)

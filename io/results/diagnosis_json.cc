@@ -113,6 +113,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
         {"second_mode_gain", NumberOrNull(diagnosis.second_mode_gain)},
         {"harmonic_ratio", diagnosis.model.harmonic_ratio},
         {"tau_scope", diagnosis.model.own_delays ? "experiment" : "shared"},
+        {"own_delays_gain", NumberOrNull(diagnosis.own_delays_gain)},
         {"tau_scatter", diagnosis.delay_scatter}}},
       {"base_parameters", base_parameters},
       {"free_slack",

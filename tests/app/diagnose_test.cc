@@ -165,7 +165,7 @@ TEST(Diagnose, AStateOfAnotherBuildOrWithAKeyTwiceIsNotBelieved) {
 TEST(Diagnose, TheBaseIsTheConfigsModel) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");
-  const std::string whole = ReadFile(rig);
+  std::string whole = ReadFile(rig);
   const std::string stated = "model: {modes: 1, harmonic_ratio: 3}";
   const std::size_t at = whole.find(stated);
   ASSERT_NE(at, std::string::npos) << whole;
@@ -193,9 +193,18 @@ TEST(Diagnose, TheBaseIsTheConfigsModel) {
   const auto chosen = base("");
   EXPECT_EQ(chosen["base"]["modes"], 1);
   EXPECT_TRUE(chosen["base"]["second_mode_gain"].is_number());
-  const auto shared = base(stated + "\nparameters: {tau_s: {scope: shared}}");
+  EXPECT_TRUE(chosen["base"]["own_delays_gain"].is_null());
+  const std::string scope = "parameters: {tau_s: {scope: experiment}}";
+  const std::size_t scope_at = whole.find(scope);
+  ASSERT_NE(scope_at, std::string::npos) << whole;
+  whole.replace(scope_at, scope.size(), "parameters: {tau_s: {scope: shared}}");
+  const auto shared = base(stated);
   EXPECT_EQ(shared["base"]["tau_scope"], "shared");
   EXPECT_EQ(shared["base"]["tau_scatter"], 0.0);
+  whole.replace(scope_at, std::string("parameters: {tau_s: {scope: shared}}").size(), "");
+  const auto own = base(stated);
+  EXPECT_EQ(own["base"]["tau_scope"], "experiment");
+  EXPECT_GT(own["base"]["own_delays_gain"], 16.0);
 }
 
 // What a user tries first, with a few of the candidates.
