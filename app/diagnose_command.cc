@@ -60,6 +60,8 @@ int Run(const Options& options) {
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
   DiagnosisOptions how;
   how.model = BaseOf(config);
+  how.choose_modes = !StatesModes(config);
+  how.choose_delays = !StatesDelays(config);
   how.threads = options.threads;
   how.withheld = Withheld(options);
   how.seed = options.seed;

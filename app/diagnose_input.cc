@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
+#include <initializer_list>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -41,12 +42,28 @@ std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) 
 }
 
 BaseModel BaseOf(const Config& config) {
-  BaseModel base;
-  const LocatedMember* const model = config.tree.Find("model");
-  if (model != nullptr && model->value.Find("modes") != nullptr) base.modes = config.model.modes;
-  base.harmonic_ratio = config.model.harmonic_ratio;
-  return base;
+  return {.modes = config.model.modes,
+          .harmonic_ratio = config.model.harmonic_ratio,
+          .own_delays = config.model[ParameterKind::kTau].scope == ParameterScope::kExperiment};
 }
+
+namespace {
+
+bool States(const Config& config, std::initializer_list<const char*> path) {
+  const LocatedNode* at = &config.tree;
+  for (const char* const key : path) {
+    const LocatedMember* const member = at->Find(key);
+    if (member == nullptr) return false;
+    at = &member->value;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool StatesModes(const Config& config) { return States(config, {"model", "modes"}); }
+
+bool StatesDelays(const Config& config) { return States(config, {"parameters", "tau_s", "scope"}); }
 
 void CheckReference(const Config& config, const Config& reference,
                     const std::vector<DiagnosisExperiment>& rig,

@@ -13,9 +13,13 @@ namespace howl {
 // Both signals of every experiment, long enough to be cut.
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
 
-// The loop that the config states. Where it does not state `modes`, two: with M zero they are one.
-// One delay serves all experiments.
+// The loop that the config states: every command's. Delays are each experiment's own unless tau_s
+// is shared.
 BaseModel BaseOf(const Config& config);
+
+// Whether `modes`, and the scope of tau_s, stand in it; if not, the records choose.
+bool StatesModes(const Config& config);
+bool StatesDelays(const Config& config);
 
 // Operating points are found by name or parameter, and interpolated in between.
 void CheckReference(const Config& config, const Config& reference,

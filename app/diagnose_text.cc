@@ -69,6 +69,17 @@ std::string BaseText(const Diagnosis& diagnosis) {
   text += diagnosis.model.modes == 1
               ? "one mode"
               : "two modes, ratio " + Significant(diagnosis.model.harmonic_ratio, 4);
+  if (std::isfinite(diagnosis.second_mode_gain)) {
+    text += " (the config states no modes: a second gains " + Fixed(diagnosis.second_mode_gain, 1) +
+            " nats)";
+  }
+  text += diagnosis.model.own_delays
+              ? "; the delays scatter by " + Fixed(kPerCent * diagnosis.delay_scatter, 2) + " %"
+              : "; one delay for all";
+  if (std::isfinite(diagnosis.own_delays_gain)) {
+    text += " (the config states no scope of tau_s: own delays gain " +
+            Fixed(diagnosis.own_delays_gain, 1) + " nats)";
+  }
   return text + "\n";
 }
 

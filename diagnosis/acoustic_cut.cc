@@ -133,34 +133,21 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
   return jacobian;
 }
 
-std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect& effect,
-                                           EffectValues x, std::size_t count) {
+namespace {
+
+using Places = std::vector<Eigen::Vector2d>;  // log omega, log xi
+
+void AddPlaces(double cycle_hz, Places* places) {
   constexpr std::array kOmega = {0.78, 0.85, 0.92, 0.96, 1.0, 1.05};
   constexpr std::array kXi = {0.05, 0.1, 0.17, 0.28};
-  // Where another mode carries the cycle, omega is known by their ratio.
-  constexpr std::array kOmegaIfCarried = {0.98, 1.0, 1.02};
-  constexpr std::array kXiIfCarried = {0.1, 0.17};
+  for (const double omega : kOmega) {
+    for (const double xi : kXi) places->emplace_back(std::log(omega * cycle_hz), std::log(xi));
+  }
+}
+
+std::vector<AcousticLocals> BestStarts(const CutRecord& record, const Effect& effect,
+                                       EffectValues x, const Places& places, std::size_t count) {
   const CutReference& reference = record.reference;
-  std::vector<double> cycles_hz = {record.at.cycle_frequency_hz};
-  // The cycle of another experiment may be another mode's.
-  if (record.lowest_cycle_hz < kSameMode * cycles_hz[0]) {
-    cycles_hz.push_back(record.lowest_cycle_hz);
-  }
-  std::vector<Eigen::Vector2d> places;  // log omega, log xi
-  for (const double cycle_hz : cycles_hz) {
-    for (const double omega : kOmega) {
-      for (const double xi : kXi) places.emplace_back(std::log(omega * cycle_hz), std::log(xi));
-    }
-  }
-  for (const double ratio : effect.ModeRatios(x)) {
-    for (const double omega : kOmegaIfCarried) {
-      for (const double xi : kXiIfCarried) {
-        places.emplace_back(std::log(omega * record.at.cycle_frequency_hz / ratio), std::log(xi));
-      }
-    }
-  }
-  // A reference's factors stand beside its own base: far from there they mislead.
-  if (reference.acoustic.size() > 0) places = {reference.acoustics.head<2>()};
   const Eigen::Index n = record.acoustic_count;
   const auto whitened = [&](const Eigen::VectorXcd& residual) {
     if (reference.acoustic_shape.size() == 0) return residual;
@@ -202,6 +189,41 @@ std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect
     if (apart) out.push_back(start.locals);
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<AcousticLocals> SecondModeStarts(const CutRecord& record, const Effect& effect,
+                                             EffectValues x, std::size_t count) {
+  if (!IsFree(record.model, 3) || record.reference.acoustic.size() > 0) return {};
+  Places places;
+  AddPlaces(record.at.cycle_frequency_hz / record.model.harmonic_ratio, &places);
+  return BestStarts(record, effect, x, places, count);
+}
+
+std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect& effect,
+                                           EffectValues x, std::size_t count) {
+  // Where another mode carries the cycle, omega is known by their ratio.
+  constexpr std::array kOmegaIfCarried = {0.98, 1.0, 1.02};
+  constexpr std::array kXiIfCarried = {0.1, 0.17};
+  const CutReference& reference = record.reference;
+  std::vector<double> cycles_hz = {record.at.cycle_frequency_hz};
+  // The cycle of another experiment may be another mode's.
+  if (record.lowest_cycle_hz < kSameMode * cycles_hz[0]) {
+    cycles_hz.push_back(record.lowest_cycle_hz);
+  }
+  Places places;
+  for (const double cycle_hz : cycles_hz) AddPlaces(cycle_hz, &places);
+  for (const double ratio : effect.ModeRatios(x)) {
+    for (const double omega : kOmegaIfCarried) {
+      for (const double xi : kXiIfCarried) {
+        places.emplace_back(std::log(omega * record.at.cycle_frequency_hz / ratio), std::log(xi));
+      }
+    }
+  }
+  // A reference's factors stand beside its own base: far from there they mislead.
+  if (reference.acoustic.size() > 0) places = {reference.acoustics.head<2>()};
+  return BestStarts(record, effect, x, places, count);
 }
 
 }  // namespace howl

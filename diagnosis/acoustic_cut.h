@@ -45,6 +45,11 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
 std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect& effect,
                                            EffectValues x, std::size_t count);
 
+// The same on the grid where the base's second mode carries the cycle; none beside one mode or a
+// reference. Where the first carries it they are no better: a mode of no weight below the cycle.
+std::vector<AcousticLocals> SecondModeStarts(const CutRecord& record, const Effect& effect,
+                                             EffectValues x, std::size_t count);
+
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_

@@ -141,13 +141,15 @@ Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
   return out;
 }
 
-Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& sense) {
+Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& sense,
+                                double delay_s) {
   Eigen::VectorXcd spectrum = sense.of_rate ? record.rate_square_spectrum : record.square_spectrum;
   const double lag_s = sense.memory_s / sense.lags;
   for (Eigen::Index k = 1; k < spectrum.size(); ++k) {
-    const Response lag =
-        1.0 / (1.0 + lag_s * LaplaceVariable(static_cast<double>(k) * record.bin_hz));
+    const Response s = LaplaceVariable(static_cast<double>(k) * record.bin_hz);
+    const Response lag = 1.0 / (1.0 + lag_s * s);
     for (int i = 0; i < sense.lags; ++i) spectrum[k] *= lag;
+    if (delay_s != 0.0) spectrum[k] *= std::exp(-delay_s * s);
   }
   if (sense.over_own) {
     const double own =

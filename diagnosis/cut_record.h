@@ -93,8 +93,9 @@ Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
                              Eigen::Index count);
 
 // The slow amplitude that an effect feels, squared, relative to the mean of all records
-// or to its own.
-Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& sense);
+// or to its own; delay_s: as it was that long before.
+Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& sense,
+                                double delay_s = 0.0);
 
 // Why a record of a rig cannot be cut, for the user to read.
 struct CutObstacle {

@@ -1,5 +1,6 @@
 #include "diagnosis/delay_scatter.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace howl {
@@ -7,6 +8,7 @@ namespace {
 
 // Of the widths that are tried: from where records seldom tell one delay from another.
 constexpr double kLeast = 1e-5;
+constexpr double kMost = 1.0;  // some delays are thrice as long as others
 constexpr double kStep = 1.02;
 
 // By the likelihood of the optima alone, which are normal about the mean with s^2 + 1 / I_e.
@@ -39,16 +41,28 @@ double DelayPrice(double log_delay, double standard_deviation) {
   return 0.5 * off * off;
 }
 
-double ScatterCost(const std::vector<OwnDelay>& delays, double standard_deviation) {
+double FreedomCost(const std::vector<OwnDelay>& delays, double standard_deviation) {
   double cost = 0.0;
   for (const OwnDelay& delay : delays) {
     cost += 0.5 * std::log1p(standard_deviation * standard_deviation * delay.information);
-    cost += DelayPrice(delay.log_delay, standard_deviation);
   }
   return cost;
 }
 
-DelayScatter FitScatter(const std::vector<OwnDelay>& delays, double most) {
+double UnearnedFreedom(double cost_without, double cost_with, std::size_t experiments,
+                       std::size_t parameters) {
+  const double share = static_cast<double>(1 + parameters) /
+                       static_cast<double>(std::max<std::size_t>(experiments, 1));
+  return std::min(share, 1.0) * std::max(cost_without - cost_with, 0.0);
+}
+
+double ScatterCost(const std::vector<OwnDelay>& delays, double standard_deviation) {
+  double cost = FreedomCost(delays, standard_deviation);
+  for (const OwnDelay& delay : delays) cost += DelayPrice(delay.log_delay, standard_deviation);
+  return cost;
+}
+
+DelayScatter FitScatter(const std::vector<OwnDelay>& delays) {
   DelayScatter best{MeanAt(delays, 0.0), 0.0};
   if (delays.size() < 2) return best;
   double least = CostAt(delays, best.mean, 0.0);
@@ -60,8 +74,7 @@ DelayScatter FitScatter(const std::vector<OwnDelay>& delays, double most) {
       best = {mean, s};
     }
   };
-  for (double s = kLeast; s < most; s *= kStep) look(s);
-  if (most > 0.0) look(most);
+  for (double s = kLeast; s < kMost; s *= kStep) look(s);
   return best;
 }
 

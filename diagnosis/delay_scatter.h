@@ -6,10 +6,14 @@
 //   sum over experiments of  d_e^2 / (2 s^2) + ln(1 + s^2 I_e) / 2
 //
 // s is the one of least cost. So delays cost next to nothing where one serves all, and an effect
-// that explains why they differ saves what their scatter costs. log_delay: d_e.
+// that explains why they differ saves what their scatter costs: the logarithms of all, less one for
+// tau, which one of n delays only replaces, and one for each parameter of the effect, which takes
+// the place of another. With two experiments any law of the delays is as good as none. log_delay:
+// d_e.
 #ifndef HOWL_DIAGNOSIS_DELAY_SCATTER_H_
 #define HOWL_DIAGNOSIS_DELAY_SCATTER_H_
 
+#include <cstddef>
 #include <vector>
 
 namespace howl {
@@ -22,17 +26,24 @@ struct OwnDelay {
 
 struct DelayScatter {
   double mean = 0.0;                // of log_delay: what the shared delay should move by
-  double standard_deviation = 0.0;  // at most what was allowed; 0: one delay serves all
+  double standard_deviation = 0.0;  // 0: one delay serves all
 };
 
 // d^2 / (2 s^2); 0 where s is 0 (then d is 0 too).
 double DelayPrice(double log_delay, double standard_deviation);
 
+// The logarithms of the sum above: what the delays' freedom costs.
+double FreedomCost(const std::vector<OwnDelay>& delays, double standard_deviation);
+
+// Of what freedom costs less beside an effect, the part that is not the effect's merit.
+double UnearnedFreedom(double cost_without, double cost_with, std::size_t experiments,
+                       std::size_t parameters);
+
 // The sum above, at the fit's own delays.
 double ScatterCost(const std::vector<OwnDelay>& delays, double standard_deviation);
 
 // Of least cost, with every d_e at its own best.
-DelayScatter FitScatter(const std::vector<OwnDelay>& delays, double most);
+DelayScatter FitScatter(const std::vector<OwnDelay>& delays);
 
 // d_e of least cost: the optimum, drawn towards the mean.
 double ShrunkenDelay(const OwnDelay& delay, const DelayScatter& scatter);

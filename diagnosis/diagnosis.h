@@ -80,7 +80,13 @@ struct Diagnosis {
   std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first
   BaseModel model;                    // what the effects stand beside
-  double delay_scatter = 0.0;         // of log tau over the experiments, in the best fit
+  // What a second mode takes off the likelihood, its coefficients paid for, where it was asked by
+  // that (choose_modes.h); NaN where the model states its modes.
+  double second_mode_gain = std::numeric_limits<double>::quiet_NaN();
+  // What own delays take off the likelihood beside the best effect, or none, where that was asked;
+  // NaN where the model states it.
+  double own_delays_gain = std::numeric_limits<double>::quiet_NaN();
+  double delay_scatter = 0.0;  // of log tau over the experiments, in the best fit
   // Of the loop, where the verdict is an effect whose fit has them.
   std::vector<MovedParameter> base_parameters;
   // What free slack takes off the likelihood, before and after the best effect, in cuts A and B.
@@ -96,6 +102,8 @@ struct Diagnosis {
 
 struct DiagnosisOptions {
   BaseModel model;
+  bool choose_modes = false;           // by the records, whatever the model says
+  bool choose_delays = false;          // the same: one for all, or each experiment's own
   int threads = 0;                     // 0: as many as the machine has
   std::uint64_t seed = 1;              // of the bootstrap's replicates
   std::size_t bootstrap = 0;           // replicates (bootstrap/bootstrap.h)

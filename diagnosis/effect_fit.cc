@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "diagnosis/delay_scatter.h"
 #include "diagnosis/fit_starts.h"
 #include "diagnosis/fitter.h"
 #include "diagnosis/scaled_solve.h"
@@ -52,7 +53,8 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
     fitter.Descend(&fit, kLaterRoundIterations);
     if (round > 0) fitter.RefitScatter(&fit);
     fitter.RefitNoise(&fit);
-    if (round == 1) fitter.RestartLocals(&fit);
+    // Again where one found a better place: it may be the others' too.
+    if (round == 1 && fitter.RestartLocals(&fit)) fitter.RestartLocals(&fit);
   }
   fitter.Finish(&fit, nullptr);
   return fit;
@@ -130,6 +132,12 @@ EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& 
   // Found beside the base: nothing else needs to move first.
   follow(ScannedStarts(effect, base, &fitter), false);
   return SettleBest(std::move(kept), base, &fitter);
+}
+
+double GainOver(const EffectFit& base, const EffectFit& fit) {
+  return base.cost() - fit.cost() -
+         UnearnedFreedom(base.freedom_cost, fit.freedom_cost, fit.experiments.size(),
+                         fit.values.size());
 }
 
 EffectFit Approach(const std::vector<CutRecord>& records, const EffectPointer& combined,

@@ -43,6 +43,7 @@ struct EffectFit {
   double acoustic_cost = 0.0;  // Whittle, per independent bin
   double flame_cost = 0.0;
   double delay_cost = 0.0;              // of the delays beside tau: ScatterCost
+  double freedom_cost = 0.0;            // the part of it that is FreedomCost
   std::vector<double> standard_errors;  // tau, then the parameters
   double cost() const { return acoustic_cost + flame_cost + delay_cost; }
   double DelayOf(std::size_t experiment) const {
@@ -58,6 +59,10 @@ EffectFit FitBase(const std::vector<CutRecord>& records);
 // From several starts, beginning at the base's fit.
 EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& effect,
                     const EffectFit& base);
+
+// What the effect takes off the cost; freedom of the delays that it costs itself is not its merit
+// (delay_scatter.h).
+double GainOver(const EffectFit& base, const EffectFit& fit);
 
 // A combination whose first part was fitted already, in two parts, so that many combinations can be
 // compared before the best are followed to the end.

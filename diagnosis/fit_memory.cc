@@ -83,7 +83,7 @@ template <typename Fit, typename Visit>
 bool VisitNumbers(Fit& fit, const Visit& visit) {
   bool good = visit(fit.values) && visit(fit.tau_s) && visit(fit.delay_scatter) &&
               visit(fit.acoustic_cost) && visit(fit.flame_cost) && visit(fit.delay_cost) &&
-              visit(fit.standard_errors);
+              visit(fit.freedom_cost) && visit(fit.standard_errors);
   for (auto& at : fit.experiments) {
     good = good && visit(at.acoustics) && visit(at.flame) && visit(at.flame_range) &&
            visit(at.log_delay) && visit(at.acoustic_residual) && visit(at.flame_residual) &&

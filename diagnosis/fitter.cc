@@ -106,8 +106,13 @@ void Fitter::RefitNoise(EffectFit* fit) {
   }
   SetNoise(*fit);
   // One delay for all costs nothing, and what the price is computed from need not be there yet.
-  const bool scatters = flame_ && fit->delay_scatter > 0.0;
-  fit->delay_cost = scatters ? ScatterCost(OwnDelays(*fit), fit->delay_scatter) : 0.0;
+  // Without cut B it stays as it was, with the delays.
+  if (flame_) {
+    const bool scatters = fit->delay_scatter > 0.0;
+    const std::vector<OwnDelay> delays = scatters ? OwnDelays(*fit) : std::vector<OwnDelay>();
+    fit->delay_cost = ScatterCost(delays, fit->delay_scatter);
+    fit->freedom_cost = FreedomCost(delays, fit->delay_scatter);
+  }
 }
 
 void Fitter::Finish(EffectFit* fit, const EffectFit* base) {

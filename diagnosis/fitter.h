@@ -98,8 +98,7 @@ class Fitter {
   void EliminateDelay(const EffectFit& fit, std::size_t e, Eigen::MatrixXd* curvature,
                       Eigen::VectorXd* gradient, Reduced* out) const;
   // shared: the step of tau and the effect's parameters.
-  void StepDelay(const Reduced& part, const Eigen::VectorXd& shared, double damping,
-                 ExperimentFit* at) const;
+  void StepDelay(const Reduced& part, const Eigen::VectorXd& shared, ExperimentFit* at) const;
   void DescendDelay(EffectFit* fit, std::size_t e);
   double DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) const;
   System Linearise(const EffectFit& fit) const;

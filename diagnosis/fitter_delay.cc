@@ -45,24 +45,18 @@ std::vector<OwnDelay> Fitter::OwnDelays(const EffectFit& fit) const {
 }
 
 void Fitter::RefitScatter(EffectFit* fit) {
-  const double most = records_[0].model.delay_scatter_max;
-  if (!flame_ || records_.size() < 2 || (most == 0.0 && fit->delay_scatter == 0.0)) return;
+  if (!flame_ || records_.size() < 2 || !records_[0].model.own_delays) return;
   EffectFit next = *fit;
   double before = Evaluate(&next);
   const std::vector<OwnDelay> delays = OwnDelays(next);
-  const DelayScatter scatter = FitScatter(delays, most);
-  const auto spread = [&](double s) {
-    double sum = 0.0;
-    for (const OwnDelay& delay : delays) sum += 0.5 * std::log1p(s * s * delay.information);
-    return sum;
-  };
-  before += spread(next.delay_scatter);
+  const DelayScatter scatter = FitScatter(delays);
+  before += FreedomCost(delays, next.delay_scatter);
   next.delay_scatter = scatter.standard_deviation;
   next.tau_s *= std::exp(scatter.mean);
   for (std::size_t e = 0; e < records_.size(); ++e) {
     next.experiments[e].log_delay = ShrunkenDelay(delays[e], scatter);
   }
-  const double after = Evaluate(&next) + spread(next.delay_scatter);
+  const double after = Evaluate(&next) + FreedomCost(delays, next.delay_scatter);
   if (after < before) {
     *fit = std::move(next);
   } else {
@@ -82,11 +76,12 @@ void Fitter::EliminateDelay(const EffectFit& fit, std::size_t e, Eigen::MatrixXd
   *gradient -= out->delay_mixed * (out->delay_gradient / out->delay_curvature);
 }
 
-void Fitter::StepDelay(const Reduced& part, const Eigen::VectorXd& shared, double damping,
+// Not damped: where a law of the delays takes the place of their scatter, each has to follow it to
+// within its record's error, many times less than the step.
+void Fitter::StepDelay(const Reduced& part, const Eigen::VectorXd& shared,
                        ExperimentFit* at) const {
   if (part.delay_curvature == 0.0) return;
-  const double move = -(part.delay_gradient + part.delay_mixed.dot(shared)) /
-                      (part.delay_curvature * (1.0 + damping));
+  const double move = -(part.delay_gradient + part.delay_mixed.dot(shared)) / part.delay_curvature;
   at->log_delay += std::clamp(move, -kLargestMove, kLargestMove);
 }
 

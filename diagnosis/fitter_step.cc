@@ -18,6 +18,10 @@ constexpr std::size_t kFurtherStarts = 3;
 constexpr double kSameModeLogRatio = 0.3;
 constexpr int kRestartIterations = 4;
 constexpr double kRestartGain = 2.0;
+// Two modes the lower of which has no weight are one with a parameter more: that gains a nat or
+// two.
+constexpr double kSecondModeGain = 20.0;
+constexpr int kSecondModeIterations = 8;  // the grid is farther from there
 
 double Span(const EffectParameter& p) { return p.high - p.low; }
 
@@ -163,7 +167,7 @@ void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
   Eigen::VectorXd shared(1 + d);
   shared << fit->tau_s - tau_was_s, taken;
   for (std::size_t e = 0; e < records_.size(); ++e) {
-    StepDelay(system.experiments[e], shared, damping, &fit->experiments[e]);
+    StepDelay(system.experiments[e], shared, &fit->experiments[e]);
   }
   if (!acoustic_) return;
   for (std::size_t e = 0; e < records_.size(); ++e) {
@@ -222,16 +226,21 @@ bool Fitter::RestartLocals(EffectFit* fit) {
     }
     double best = AcousticSquares(fit, e);
     const double was = best;
-    for (const AcousticLocals& start : starts) {
-      EffectFit& moved = *fit;
-      const ExperimentFit kept = moved.experiments[e];
-      moved.experiments[e].acoustics = start;
-      const double cost = DescendAcoustics(&moved, e, kRestartIterations);
-      if (cost < best) {
+    const auto follow = [&](const AcousticLocals& start, int iterations, double least) {
+      ExperimentFit& at = fit->experiments[e];
+      const ExperimentFit kept = at;
+      at.acoustics = start;
+      const double cost = DescendAcoustics(fit, e, iterations);
+      if (cost < best - least) {
         best = cost;
       } else {
-        moved.experiments[e] = kept;
+        at = kept;
       }
+    };
+    for (const AcousticLocals& start : starts) follow(start, kRestartIterations, 0.0);
+    for (const AcousticLocals& start :
+         SecondModeStarts(records_[e], effect_, fit->values, kFurtherStarts)) {
+      follow(start, kSecondModeIterations, kSecondModeGain);
     }
     better = better || best < was - kRestartGain;
   }

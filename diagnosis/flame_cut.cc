@@ -67,7 +67,9 @@ Eigen::VectorXd FlameInput(const CutRecord& record, const Effect& effect, Effect
     second[k] = s * first[k];
   }
   const AmplitudeSense sense = effect.DelaySense(x).value_or(AmplitudeSense{});
-  const Eigen::ArrayXd amplitude = SquaredAmplitude(record, sense).sqrt();
+  // The amplitude when the flame's feed set out: that of the time of burning knows the combustion
+  // noise of that time, which p answers at once, and would explain some of it.
+  const Eigen::ArrayXd amplitude = SquaredAmplitude(record, sense, tau).sqrt();
   const double mean =
       sense.of_rate ? record.at.relative_rate_amplitude : record.at.relative_amplitude;
   const Eigen::ArrayXd slow = tau_s * effect.DelayPerAmplitude(x) * (amplitude - mean);

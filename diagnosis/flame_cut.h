@@ -6,7 +6,8 @@
 //
 // Phi without memory commutes with the delay, so its columns are computed once and the delay is a
 // phase; an effect that bends the wave form before the flame computes them again. A delay that
-// moves with the amplitude enters by v(t - tau - d) to second order in the slow part d(t).
+// moves with the amplitude enters by v(t - tau - d) to second order in the slow part d(t - tau), by
+// the amplitude when the feed set out.
 #ifndef HOWL_DIAGNOSIS_FLAME_CUT_H_
 #define HOWL_DIAGNOSIS_FLAME_CUT_H_
 

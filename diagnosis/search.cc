@@ -40,7 +40,7 @@ std::vector<EffectForms> Units(const DiagnosisOptions& options) {
 // rig's.
 BaseModel ModelOf(const DiagnosisOptions& options) {
   BaseModel model = options.model;
-  if (!options.reference.empty()) model.delay_scatter_max = 0.0;
+  if (!options.reference.empty()) model.own_delays = false;
   return model;
 }
 

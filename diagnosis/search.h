@@ -74,6 +74,8 @@ class Search {
   };
   Judgement Judge();
   bool Detected() const;
+  // What delays of the experiments' own take off beside the best attempt.
+  double OwnDelaysGain() const;
   Diagnosis Conclude(const Evidence& evidence, const Belief& belief);
   // Where, how much, and what the base had absorbed.
   void Describe(const Judgement& at, Diagnosis* out);

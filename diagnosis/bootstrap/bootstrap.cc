@@ -95,8 +95,7 @@ double GainOfNoise(const std::vector<CutRecord>& records, const EffectFit& base,
         records[0].model);
     const EffectFit without = FitBase(replicate);
     const EffectFit with = FitBestForm(nullptr, "", replicate, forms, without);
-    gains[i] =
-        without.cost() - with.cost() - PriceOfParameters(static_cast<double>(with.values.size()));
+    gains[i] = GainOver(without, with) - PriceOfParameters(static_cast<double>(with.values.size()));
   });
   const double count = static_cast<double>(gains.size());
   const double mean = std::accumulate(gains.begin(), gains.end(), 0.0) / count;

@@ -42,7 +42,7 @@ Attempt FromFit(const Setting& at, EffectFit fit) {
   out.candidate.effect = fit.effect->id();
   out.candidate.block = fit.effect->block();
   out.parameters = static_cast<double>(fit.values.size());
-  out.candidate.gain = at.base->cost() - fit.cost();
+  out.candidate.gain = GainOver(*at.base, fit);
   for (std::size_t j = 0; j < fit.values.size(); ++j) {
     out.candidate.parameters.push_back(
         WithError(fit.effect->parameters()[j], fit.values[j], fit.standard_errors[j + 1]));

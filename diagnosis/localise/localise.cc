@@ -52,7 +52,7 @@ void FindBand(const Setting& at, const EffectFit& fit, BlockSlack* out) {
 
 BlockSlack Paid(const Setting& at, const EffectFit& fit, LoopBlock block, std::string form,
                 double parameters) {
-  const double gain = at.base->cost() - fit.cost() - PriceOfParameters(parameters);
+  const double gain = GainOver(*at.base, fit) - PriceOfParameters(parameters);
   BlockSlack out{block, std::move(form), gain, false, 0.0, 0.0};
   FindBand(at, fit, &out);
   return out;

@@ -8,7 +8,7 @@ namespace howl {
 namespace {
 
 // What states the problem, beside its experiments: the records are of the same one.
-constexpr const char* kSections[] = {"parameters", "residuals", "solver", "family", "analysis"};
+constexpr const char* kSections[] = {"residuals", "solver", "family", "analysis"};
 
 // As written, but for names of experiments that are not among the records.
 void Emit(const LocatedNode& node, const std::set<std::string>& left_out, YAML::Emitter& out) {
@@ -35,6 +35,27 @@ void Emit(const LocatedNode& node, const std::set<std::string>& left_out, YAML::
       if (node.quoted) out << YAML::DoubleQuoted;
       out << node.text;
   }
+}
+
+LocatedNode& Value(const std::string& key, LocatedNode* mapping) {
+  for (LocatedMember& member : mapping->members) {
+    if (member.key == key) return member.value;
+  }
+  mapping->kind = LocatedNode::Kind::kMapping;
+  mapping->members.push_back({.key = key, .key_line = 1, .value = {}});
+  return mapping->members.back().value;
+}
+
+// The config's, with the scope of the delays, which is a fact of what was simulated, stated.
+LocatedNode Parameters(const Config& config) {
+  const LocatedMember* const stated = config.tree.Find("parameters");
+  LocatedNode out = stated == nullptr ? LocatedNode() : stated->value;
+  LocatedNode& scope = Value("scope", &Value("tau_s", &out));
+  if (scope.kind == LocatedNode::Kind::kNull) {
+    const bool shared = config.model[ParameterKind::kTau].scope == ParameterScope::kShared;
+    scope = MakeScalar(shared ? "shared" : "experiment", false, 1);
+  }
+  return out;
 }
 
 }  // namespace
@@ -68,6 +89,8 @@ std::string RecordsYaml(const Config& config, const std::vector<Experiment>& exp
   std::set<std::string> left_out;
   for (const ExperimentConfig& each : config.experiments) left_out.insert(each.experiment.name);
   for (const Experiment& experiment : experiments) left_out.erase(experiment.name);
+  out << YAML::Key << "parameters" << YAML::Value;
+  Emit(Parameters(config), left_out, out);
   for (const char* const section : kSections) {
     const LocatedMember* const member = config.tree.Find(section);
     if (member == nullptr) continue;

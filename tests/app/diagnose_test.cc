@@ -161,11 +161,11 @@ TEST(Diagnose, AStateOfAnotherBuildOrWithAKeyTwiceIsNotBelieved) {
   EXPECT_THAT(RunHowl(command).err, testing::HasSubstr("going on from"));
 }
 
-// records.yaml as it is, and with its model changed.
+// records.yaml as it is, and with its model or its delays changed.
 TEST(Diagnose, TheBaseIsTheConfigsModel) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");
-  const std::string whole = ReadFile(rig);
+  std::string whole = ReadFile(rig);
   const std::string stated = "model: {modes: 1, harmonic_ratio: 3}";
   const std::size_t at = whole.find(stated);
   ASSERT_NE(at, std::string::npos) << whole;
@@ -182,13 +182,48 @@ TEST(Diagnose, TheBaseIsTheConfigsModel) {
   };
   const auto one = base(stated);
   EXPECT_EQ(one["base"]["modes"], 1);
+  EXPECT_TRUE(one["base"]["second_mode_gain"].is_null());
+  EXPECT_EQ(one["base"]["tau_scope"], "experiment");
   EXPECT_EQ(one["candidates"].size(), 1u);
   const auto two = base("model: {modes: 2, harmonic_ratio: 2.8}");
   EXPECT_EQ(two["base"]["modes"], 2);
   EXPECT_EQ(two["base"]["harmonic_ratio"], 2.8);
   EXPECT_EQ(two["candidates"].size(), 2u);
-  // Where nothing is stated: two, of which one is a special case.
-  EXPECT_EQ(base("")["base"]["modes"], 2);
+  // Where nothing is stated the records choose, and it is said.
+  const auto chosen = base("");
+  EXPECT_EQ(chosen["base"]["modes"], 1);
+  EXPECT_TRUE(chosen["base"]["second_mode_gain"].is_number());
+  EXPECT_TRUE(chosen["base"]["own_delays_gain"].is_null());
+  const std::string scope = "parameters: {tau_s: {scope: experiment}}";
+  const std::size_t scope_at = whole.find(scope);
+  ASSERT_NE(scope_at, std::string::npos) << whole;
+  whole.replace(scope_at, scope.size(), "parameters: {tau_s: {scope: shared}}");
+  const auto shared = base(stated);
+  EXPECT_EQ(shared["base"]["tau_scope"], "shared");
+  EXPECT_EQ(shared["base"]["tau_scatter"], 0.0);
+  whole.replace(scope_at, std::string("parameters: {tau_s: {scope: shared}}").size(), "");
+  const auto own = base(stated);
+  EXPECT_EQ(own["base"]["tau_scope"], "experiment");
+  EXPECT_GT(own["base"]["own_delays_gain"], 16.0);
+}
+
+// What a user tries first, with a few of the candidates.
+TEST(Diagnose, TheShippedConfigIsNotAccusedAndAnEffectAddedToItIsNamed) {
+  const TemporaryFolder folder;
+  const auto verdict = [&](const std::string& name, const std::string& added) {
+    const std::string config =
+        folder.Write(name + ".yaml", ReadFile(Config("r228")) + added).string();
+    const std::string out = (folder.path() / name).string();
+    EXPECT_EQ(RunHowl("simulate " + config + " --quiet --out " + out).status, 0);
+    const ProgramResult run = RunHowl(
+        "diagnose " + out + "/records.yaml --without " +
+        AllBut({"q_sensor_lowpass", "channel_skew", "delay_varies_with_phi"}) + " --out " + out);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  };
+  EXPECT_THAT(verdict("null", ""), testing::StartsWith("verdict: none"));
+  EXPECT_THAT(verdict("lag", "simulate: {effects: [{effect: q_sensor_lowpass, cutoff_hz: 245}]}\n"),
+              testing::StartsWith("verdict: q_sensor_lowpass"));
 }
 
 TEST(Diagnose, AgainstAReferenceOfTheSameLoopThereIsNothingToName) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "diagnosis/acoustic_cut.h"
+#include "diagnosis/choose_modes.h"
 #include "diagnosis/effect_fit.h"
 #include "tests/diagnosis/simulated_rig.h"
 
@@ -76,6 +77,34 @@ TEST(BaseModel, ATwoModeRigBesideOneModeHasAModeTooMany) {
   EXPECT_EQ(diagnosis.effect, "extra_acoustic_mode");
   ASSERT_FALSE(diagnosis.candidates.empty());
   EXPECT_NEAR(diagnosis.candidates[0].parameters[0].value, 3.0, 0.1);
+}
+
+TEST(BaseModel, RecordsTellOneModeFromTwo) {
+  const ModesChoice one = ChooseModes(OneModeRig(), {});
+  EXPECT_EQ(one.modes, 1);
+  EXPECT_LT(one.second_mode_gain, 5.0);
+  const ModesChoice two = ChooseModes(SimulateRig(), {.modes = 1});
+  EXPECT_EQ(two.modes, 2);
+  EXPECT_GT(two.second_mode_gain, 100.0);
+}
+
+// A second mode that is stronger than the first has the cycle; the first is far below it then.
+TEST(BaseModel, TheFirstModeIsFoundBelowACycleOfTheSecond) {
+  const double omega_hz = 288.0;
+  const std::vector<DiagnosisExperiment> rig = SimulatePoints(
+      2,
+      [&](RigParameters* point) {
+        point->model.loop = {{omega_hz, 0.1, 500.0, 1700.0, 3.0}, 0.00243};
+        point->model.flame.slope = -5e-4;
+      },
+      23);
+  const std::vector<CutRecord> records = MakeCutRecords(rig);
+  ASSERT_GT(records[0].at.cycle_frequency_hz, 700.0);
+  for (const ExperimentFit& at : FitBase(records).experiments) {
+    const Acoustics<double> found = ToAcoustics({}, at.acoustics);
+    EXPECT_NEAR(found.omega_hz / omega_hz, 1.0, 0.02);
+    EXPECT_NEAR(found.N / 500.0, 1.0, 0.1);
+  }
 }
 
 TEST(BaseModel, TheConfigsRatioIsTheBases) {
