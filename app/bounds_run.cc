@@ -6,9 +6,11 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "app/interruption.h"
+#include "estimation/family/bound_text.h"
 #include "estimation/unit_seed.h"
 #include "io/whole_file.h"
 #include "model/version.h"
@@ -31,10 +33,18 @@ std::string Key(const Config& config, const Options& options) {
   return "howl.bounds " + std::string(Version()) + " " + std::to_string(hash);
 }
 
-bool LoadState(const std::filesystem::path& path, const std::string& key, Enclosure& enclosure) {
+// How many of the state's searches are damaged, which begin anew; nothing where there is no state
+// of this problem.
+std::optional<std::size_t> LoadState(const std::filesystem::path& path, const std::string& key,
+                                     Enclosure& enclosure) {
   std::ifstream file(path, std::ios::binary);
   std::string line;
-  return std::getline(file, line) && line == key && enclosure.Load(file);
+  if (!std::getline(file, line) || line != key) return std::nullopt;
+  const std::istream::pos_type start = file.tellg();
+  if (!enclosure.Load(file)) return std::nullopt;
+  file.clear();
+  file.seekg(start);
+  return CountDamagedSearches(file);
 }
 
 void SaveState(const std::filesystem::path& path, const std::string& key,
@@ -60,8 +70,12 @@ void RunBounds(const Config& config, const Options& options, Enclosure& enclosur
   const std::filesystem::path path = StatePath(options);
   const std::string key = Key(config, options);
   const bool shown = !options.quiet && isatty(STDERR_FILENO) != 0;
-  if (LoadState(path, key, enclosure) && !options.quiet) {
-    std::fprintf(stderr, "bounds: going on from %s\n", path.c_str());
+  const std::optional<std::size_t> damaged = LoadState(path, key, enclosure);
+  if (damaged && !options.quiet) {
+    const std::string anew =
+        *damaged == 0 ? ""
+                      : " (" + std::to_string(*damaged) + " of its searches damaged, done anew)";
+    std::fprintf(stderr, "bounds: going on from %s%s\n", path.c_str(), anew.c_str());
   }
   const Clock::time_point start = Clock::now();
   const double seconds = options.Number("--save-every").value_or(kSecondsBetweenSaves);

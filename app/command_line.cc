@@ -279,8 +279,15 @@ bool CommandLine::WantsVersion() const { return FLAGS_version; }
 Options CommandLine::Finish(const std::filesystem::path& config) const {
   Options options;
   options.config = config;
-  options.out = FLAGS_out.empty() ? std::filesystem::path("out") / config.stem()
-                                  : std::filesystem::path(FLAGS_out);
+  options.out = FLAGS_out;
+  if (FLAGS_out.empty()) {
+    const std::filesystem::path name = config.stem();
+    if (command_ != nullptr && command_->writes_results && (name == ".." || name == ".")) {
+      throw UsageError("--out: " + config.string() +
+                       " gives no name for a folder of results, expected --out DIR");
+    }
+    options.out = std::filesystem::path("out") / name;
+  }
   options.threads = FLAGS_threads > 0
                         ? FLAGS_threads
                         : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

@@ -88,8 +88,9 @@ int Run(const Options& options) {
   const std::filesystem::path state_path = options.out / "diagnosis.state";
   DiagnoseState state(state_path, InputBytes(config, how.withheld, experiments, how.reference));
   if (state.recalled() > 0 && !options.quiet) {
-    std::fprintf(stderr, "going on from %s: %zu fits are done\n", state_path.c_str(),
-                 state.recalled());
+    const std::string anew = state.damaged() == 0 ? "" : ", what was damaged there is done anew";
+    std::fprintf(stderr, "going on from %s: %zu fits are done%s\n", state_path.c_str(),
+                 state.recalled(), anew.c_str());
   } else if (state.refused() && !options.quiet) {
     std::fprintf(stderr, "%s is of another build or of other inputs: begun anew\n",
                  state_path.c_str());

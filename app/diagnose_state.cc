@@ -11,8 +11,12 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kLongestEntry = 1'000'000'000;
-// 2: every unit of work has a key of its own.
-constexpr int kFormat = 2;
+// 2: every unit of work has a key of its own. 3: the hash is of the key as well.
+constexpr int kFormat = 3;
+
+std::uint64_t Hash(const std::string& key, const std::string& bytes) {
+  return UnitSeed(0, key + " " + bytes);
+}
 
 // The version's number does not move with every change of a fit.
 std::string Build() {
@@ -49,11 +53,20 @@ std::uintmax_t DiagnoseState::Load(const std::string& header) {
     std::string key;
     std::size_t size = 0;
     std::uint64_t hash = 0;
-    if (!(words >> key >> size >> hash) || size > kLongestEntry) break;
+    if (!(words >> key >> size >> hash) || size > kLongestEntry) {
+      ++damaged_;
+      break;
+    }
     std::string bytes(size, '\0');
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)) || file.get() != '\n') break;
-    if (UnitSeed(0, bytes) != hash) break;
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(size)) || file.get() != '\n') {
+      ++damaged_;
+      break;
+    }
     end += line.size() + 1 + size + 1;
+    if (Hash(key, bytes) != hash) {
+      ++damaged_;
+      continue;
+    }
     if (!found_.emplace(key, std::move(bytes)).second) {
       found_.clear();
       return 0;
@@ -76,7 +89,7 @@ void DiagnoseState::Keep(const std::string& key, const std::string& bytes) {
   const std::lock_guard<std::mutex> hold(lock_);
   kept_.Take(key);
   // A full disk costs the resuming, not the diagnosis.
-  log_ << key << " " << bytes.size() << " " << UnitSeed(0, bytes) << "\n"
+  log_ << key << " " << bytes.size() << " " << Hash(key, bytes) << "\n"
        << bytes << "\n"
        << std::flush;
 }

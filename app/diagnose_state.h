@@ -3,9 +3,10 @@
 // build of the program (another may fit otherwise), and the inputs; a file of another build, or of
 // other inputs, or with one key twice, is not believed: it is begun anew. An entry is
 //
-//   key, bytes, hash of them, in one line; the bytes; a line's end
+//   key, number of bytes, hash of key and bytes, in one line; the bytes; a line's end
 //
-// and what follows the last whole entry is cut off.
+// One whose hash is another is passed over, and fitted anew; what follows the last whole entry is
+// cut off.
 #ifndef HOWL_APP_DIAGNOSE_STATE_H_
 #define HOWL_APP_DIAGNOSE_STATE_H_
 
@@ -28,6 +29,7 @@ class DiagnoseState final : public FitMemory {
   void Keep(const std::string& key, const std::string& bytes) override;
 
   std::size_t recalled() const { return found_.size(); }  // entries at the start
+  std::size_t damaged() const { return damaged_; }        // entries that were not believed
   bool refused() const { return refused_; }               // a file was there and was not believed
   // When the results are written.
   void Forget();
@@ -38,6 +40,7 @@ class DiagnoseState final : public FitMemory {
 
   std::filesystem::path path_;
   std::map<std::string, std::string> found_;
+  std::size_t damaged_ = 0;
   bool refused_ = false;
   std::mutex lock_;
   UniqueKeys asked_{"asked for"};

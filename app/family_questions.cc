@@ -15,7 +15,8 @@ constexpr std::size_t kAdvisedMembers = 200;
 
 MemberPredictor GrowthRate(std::size_t i, double slope) {
   return [i, slope](std::span<const LoopModel> models) -> std::optional<double> {
-    return RightmostPole(models[i].Loop(), slope).growth_rate;
+    const std::optional<Pole> pole = RightmostPole(models[i].Loop(), slope);
+    return pole ? std::optional(pole->growth_rate) : std::nullopt;
   };
 }
 

@@ -141,9 +141,14 @@ void MeasureTransfer(const Options& options, FamilyRun& run) {
   run.transfer = std::move(report);
 }
 
-void AskFurther(const Options& options, FamilyRun& run) {
+// Of --falsify; empty without it.
+std::vector<Experiment> LoadFurther(const Options& options) {
+  const std::optional<std::string> other = options.Text("--falsify");
+  return other ? LoadExperiments(LoadConfig(*other), options) : std::vector<Experiment>();
+}
+
+void AskFurther(const Options& options, const std::vector<Experiment>& further, FamilyRun& run) {
   if (const std::optional<std::string> other = options.Text("--falsify")) {
-    const std::vector<Experiment> further = LoadExperiments(LoadConfig(*other), options);
     FurtherTest test;
     test.config = *other;
     for (const Experiment& experiment : further) test.experiments.push_back(experiment.name);
@@ -176,6 +181,8 @@ FamilyRun RunQuestions(const Config& config, const Options& options,
   }
   const std::vector<BoundedExpression> bounded = ParsePredictions(config, run.problem);
   if (const auto text = options.Text("--profile")) AskedQuantity(config, *text, run.problem);
+  // What is wrong with it is said before the search, which may take long.
+  const std::vector<Experiment> further = LoadFurther(options);
   run.enclosure =
       std::make_unique<Enclosure>(run.problem, EncloseOptions{.width = config.family.width,
                                                               .seed = options.seed,
@@ -191,7 +198,7 @@ FamilyRun RunQuestions(const Config& config, const Options& options,
     std::ranges::copy(PredictLoops(run.problem, config.simulation,
                                    Thinned(run.sample, kPredictedMembers), options.threads),
                       std::back_inserter(run.predictions));
-    AskFurther(options, run);
+    AskFurther(options, further, run);
     AskProfile(config, options, run);
   }
   StopIfInterrupted(options);

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "app/command.h"
+#include "app/config_fit.h"
 #include "app/health_text.h"
 #include "app/problem_input.h"
 #include "app/record_input.h"
@@ -117,8 +118,8 @@ int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
   const ProblemInput input = LoadInput(config, options);
   RequireExperiments(config, options, input);
-  const JointProblem problem(input.experiments, config.model, config.residuals);
-  const JointFit fit = SolveJoint(problem, config.solver, options.seed, options.threads);
+  const JointProblem problem = MakeJointProblem(config, input.experiments);
+  const JointFit fit = SolveConfig(config, options, problem);
   const VanishingPhi vanishing_phi = EstimateVanishingPhi(problem.experiments());
   std::optional<BranchComparison> branches;
   if (config.model.modes == 2) {

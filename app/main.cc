@@ -1,14 +1,19 @@
 #include <glog/logging.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
 #include "app/command_line.h"
 #include "app/interruption.h"
+#include "app/negative_answer.h"
 #include "app/progress_line.h"
 #include "estimation/parallel.h"
 #include "io/report/run_file.h"
@@ -62,6 +67,21 @@ void LogAsAsked() {
   FLAGS_minloglevel = asked ? google::GLOG_INFO : google::GLOG_ERROR;
 }
 
+// What runs, for messages of what is nobody's mistake: "howl: ", or the config and the command.
+std::string running = "howl: ";
+
+std::string NoMemory() {
+  return running + "there is not enough memory, expected fewer or shorter records";
+}
+
+// A full disk behind standard output must not pass for an answer that was given.
+void FlushOutput() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  const std::string why = errno != 0 ? std::strerror(errno) : "a part of it is lost";
+  throw UserError("standard output", 0, "", "cannot be written: " + why);
+}
+
 int Run(const std::vector<std::string>& words) {
   CommandLine line(words);
   std::optional<std::string> word = line.NextWord();
@@ -87,6 +107,7 @@ int Run(const std::vector<std::string>& words) {
     throw UsageError(command.name + ": no config given, expected howl " + command.name + " CONFIG");
   }
   const Options options = line.Finish(*config);
+  running = options.config.string() + ": " + command.name + ": ";
   LogAsAsked();
   ProgressLine progress(command.name, options.quiet);
   ObserveUnits([&](std::size_t done, std::size_t total) { progress.Show(done, total); });
@@ -102,16 +123,25 @@ int main(int argc, char** argv) {
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
   try {
-    return howl::Run({argv + 1, argv + argc});
+    const int status = howl::Run({argv + 1, argv + argc});
+    howl::FlushOutput();
+    return status;
   } catch (const howl::Interrupted& stop) {
     std::fprintf(stderr, "howl: %s\n", stop.what());
     return howl::kInterrupted;
+  } catch (const howl::NegativeAnswer& answer) {
+    std::fprintf(stderr, "%s\n", answer.what());
+    return howl::kNegativeAnswer;
   } catch (const howl::UserError& error) {
     std::fprintf(stderr, "%s\n", error.what());
   } catch (const howl::UsageError& error) {
     std::fprintf(stderr, "howl: %s\n", error.what());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s\n", howl::NoMemory().c_str());
+  } catch (const std::length_error&) {
+    std::fprintf(stderr, "%s\n", howl::NoMemory().c_str());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "howl: %s\n", error.what());
+    std::fprintf(stderr, "%sfails: %s\n", howl::running.c_str(), error.what());
   }
   return howl::kBadInput;
 }

@@ -52,9 +52,7 @@ ProblemInput LoadInput(const Config& config, const Options& options) {
     const Analysis& analysis = input.analysis->analyses[next++];
     std::optional<Experiment> experiment = ToExperiment(analysis);
     if (!experiment) {
-      if (!options.quiet) {
-        std::fprintf(stderr, "%s\n", Shortcoming(analysis, analysis_options).c_str());
-      }
+      input.left_out.push_back(Shortcoming(analysis, analysis_options));
       continue;
     }
     experiment->delay_periods = input.analysis->delay.branch;
@@ -64,8 +62,13 @@ ProblemInput LoadInput(const Config& config, const Options& options) {
   return input;
 }
 
+void PrintLeftOut(const Options& options, const ProblemInput& input) {
+  if (options.quiet) return;
+  for (const std::string& line : input.left_out) std::fprintf(stderr, "%s\n", line.c_str());
+}
+
 void RequireExperiments(const Config& config, const Options& options, const ProblemInput& input) {
-  if (!input.experiments.empty()) return;
+  if (!input.experiments.empty()) return PrintLeftOut(options, input);
   std::string why;
   for (std::size_t i = 0; i < input.records.size() && why.empty(); ++i) {
     for (const Finding& finding :

@@ -3,6 +3,7 @@
 #define HOWL_APP_PROBLEM_INPUT_H_
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/options.h"
@@ -17,13 +18,18 @@ struct ProblemInput {
   std::vector<Experiment> experiments;  // that fit and family can take; may be empty
   std::optional<AnalysisSet> analysis;  // when the config has records
   std::vector<NamedRecord> records;     // that were analysed
+  std::vector<std::string> left_out;    // a line for each record that gives no experiment
 };
 
 // Published numbers as they are; records analysed first. An experiment whose record shows no limit
-// cycle or has no heat release is left out, and a line on standard error says so.
+// cycle or has no heat release is left out.
 ProblemInput LoadInput(const Config& config, const Options& options);
 
-// Throws UserError when no experiment is left, with what the analysis says of the first.
+// On standard error, unless the user wants it quiet.
+void PrintLeftOut(const Options& options, const ProblemInput& input);
+
+// Throws UserError when no experiment is left, with what the analysis says of the first; else
+// prints which are left out.
 void RequireExperiments(const Config& config, const Options& options, const ProblemInput& input);
 
 // The experiments alone. Throws UserError when none is left.

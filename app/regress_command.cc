@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/config_fit.h"
 #include "app/family_run.h"
 #include "app/problem_input.h"
 #include "app/text_table.h"
@@ -28,8 +29,8 @@ constexpr double kDefaultTolerance = 1e-6;
 
 Json FreshSolution(const Config& config, const Options& options,
                    const std::vector<Experiment>& experiments) {
-  const JointProblem problem(experiments, config.model, config.residuals);
-  const JointFit fit = SolveJoint(problem, config.solver, options.seed, options.threads);
+  const JointProblem problem = MakeJointProblem(config, experiments);
+  const JointFit fit = SolveConfig(config, options, problem);
   Json solution = SolutionJson(problem, fit, EstimateVanishingPhi(experiments));
   // What depends on the linear algebra underneath moves with every library; what is listed for each
   // point of a transfer is too long to keep.
@@ -63,6 +64,7 @@ Json FreshFamily(const Config& config, const Options& options,
 // solution and family where p and q have a cycle, the trade-off for published tables.
 Json FreshResults(const Config& config, const Options& options, bool with_family) {
   const ProblemInput input = LoadInput(config, options);
+  PrintLeftOut(options, input);
   Json results = {{"schema", kReferenceSchema}};
   if (input.analysis) results["analysis"] = AnalysisJson(*input.analysis);
   if (!input.experiments.empty()) {

@@ -1,7 +1,9 @@
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 
 #include "app/command.h"
+#include "app/interruption.h"
 #include "app/text_table.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/page.h"
@@ -14,14 +16,27 @@ namespace {
 
 // The argument is an output folder, or a config whose output folder is meant.
 std::filesystem::path Folder(const Options& options) {
-  return std::filesystem::is_regular_file(options.config) ? options.out : options.config;
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(options.config, ignored) ? options.out : options.config;
+}
+
+void StopIfAsked() {
+  if (IsInterrupted()) throw Interrupted("interrupted: no report written");
 }
 
 int Run(const Options& options) {
   const std::filesystem::path folder = Folder(options);
+  RenderOptions render{.threads = options.threads, .stopped = IsInterrupted};
+  render.longest_s = options.Number("--figure-seconds").value_or(render.longest_s);
+  if (!(render.longest_s > 0.0)) {
+    throw UsageError("--figure-seconds: expected a positive number of seconds");
+  }
+  WatchForInterruption();
   ReportInput input = ReadReportInput(folder, options.threads);
   const std::vector<Figure> figures = AllFigures(input, options.threads, input.missing);
-  const auto svgs = RenderFigures(figures, folder / "figures", options.threads, input.missing);
+  StopIfAsked();
+  const auto svgs = RenderFigures(figures, folder / "figures", render, input.missing);
+  StopIfAsked();
   WriteWholeFile(folder / "report.html", ReportPage(input, figures, svgs));
   if (!options.quiet) {
     for (const std::string& each : input.missing)
@@ -41,7 +56,8 @@ Command ReportCommand() {
           "needs no network: tables, figures, and a browser of the family. DIR/figures/ has each\n"
           "figure as SVG and PDF, its data as CSV and its gnuplot script, to restyle. What is\n"
           "missing is named on the page, and the rest shown.",
-          {},
+          {{"--figure-seconds", "SECONDS",
+            "how long gnuplot may take for a figure before it is ended (default: 60)"}},
           Run,
           false};
 }

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/config_fit.h"
 #include "app/problem_input.h"
 #include "app/simulate_rig.h"
 #include "app/simulate_sweep.h"
+#include "app/simulate_times.h"
 #include "app/text_table.h"
 #include "estimation/family/membership.h"
 #include "estimation/joint_fit.h"
@@ -30,8 +32,8 @@ std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& opt
                                         const std::vector<Experiment>& experiments) {
   const auto number = options.Count("--member", 1, kMostMembers);
   if (!number) {
-    const JointProblem problem(experiments, config.model, config.residuals);
-    return SolveJoint(problem, config.solver, options.seed, options.threads).models;
+    const JointProblem problem = MakeJointProblem(config, experiments);
+    return SolveConfig(config, options, problem).models;
   }
   const FamilyTable table = ReadFamilyCsv(options.out / "family.csv");
   if (*number > static_cast<int>(table.rows.size())) {
@@ -103,8 +105,9 @@ int Run(const Options& options) {
   const ProblemInput input = LoadInput(config, options);
   RequireExperiments(config, options, input);
   const std::vector<Experiment>& experiments = input.experiments;
-  const std::vector<LoopModel> models = ModelsToSimulate(config, options, experiments);
   const SimulationTimes times = MakeSimulationTimes(config.simulation, experiments);
+  CheckSimulationTimes(config, times, experiments);
+  const std::vector<LoopModel> models = ModelsToSimulate(config, options, experiments);
   if (config.simulation.sweep) CheckSweep(config, times);
   std::vector<SimulatedRig> rigs;
   std::vector<SimulationCase> cases;
@@ -114,6 +117,7 @@ int Run(const Options& options) {
   }
   AddEffects(config, experiments, times.duration_s, &rigs);
   for (std::size_t i = 0; i < experiments.size(); ++i) {
+    CheckInternalRate(config, times, experiments[i], rigs[i].parameters);
     cases.push_back({rigs[i].parameters, UnitSeed(options.seed, experiments[i].name)});
   }
   const std::vector<SimulatedRecord> records =

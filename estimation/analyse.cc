@@ -13,7 +13,9 @@ bool HasCycle(const Analysis& analysis) {
 }
 
 bool HasPhase(const Analysis& analysis) {
-  return HasCycle(analysis) && std::isfinite(analysis.characteristics.phase_deg.value);
+  const Characteristics& c = analysis.characteristics;
+  return HasCycle(analysis) && std::isfinite(c.phase_deg.value) && c.p_amplitude > 0.0 &&
+         c.frequency_hz.value > 0.0;
 }
 
 }  // namespace

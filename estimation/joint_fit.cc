@@ -14,6 +14,7 @@
 namespace howl {
 namespace {
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSameCost = 1e-6;
 constexpr double kZeroCost = 1e-12;
 constexpr double kAtBound = 1e-6;
@@ -155,11 +156,14 @@ void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
   }
 }
 
-// The first start that reaches the lowest cost; one that converged beats one that did not.
+// The first start that reaches the lowest cost; one that converged beats one that did not. None
+// where no cost is finite: Ceres gives -1 where it could not evaluate its problem at all.
 std::vector<StartResult>::const_iterator BestStart(const std::vector<StartResult>& starts) {
   const bool any_converged =
       std::ranges::any_of(starts, [](const StartResult& start) { return start.converged; });
-  const auto counts = [&](const StartResult& start) { return start.converged || !any_converged; };
+  const auto counts = [&](const StartResult& start) {
+    return std::isfinite(start.cost) && start.cost >= 0.0 && (start.converged || !any_converged);
+  };
   double lowest = std::numeric_limits<double>::infinity();
   for (const StartResult& start : starts) {
     if (counts(start)) lowest = std::min(lowest, start.cost);
@@ -167,6 +171,33 @@ std::vector<StartResult>::const_iterator BestStart(const std::vector<StartResult
   return std::ranges::find_if(starts, [&](const StartResult& start) {
     return counts(start) && start.cost <= lowest * (1.0 + kSameCost) + kZeroCost;
   });
+}
+
+// Every number of it that is fitted is NaN; the models are those of the first start.
+JointFit FailedFit(const JointProblem& problem, const std::vector<StartResult>& starts) {
+  JointFit fit;
+  fit.termination = problem.residuals().empty()
+                        ? "FAILURE: no residual acts on these experiments"
+                        : "FAILURE: the residuals are not finite at any start";
+  fit.cost = kNan;
+  fit.starts = static_cast<int>(starts.size());
+  fit.logs = starts.front().logs;
+  fit.models = problem.Models(fit.logs);
+  for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
+    const ParameterBlock& block = problem.parameters()[i];
+    FitParameter parameter;
+    parameter.name = block.name;
+    parameter.value = std::exp(fit.logs[i]);
+    parameter.std_relative = kNan;
+    parameter.fixed = block.fixed;
+    if (!block.fixed) fit.free_names.push_back(block.name);
+    fit.parameters.push_back(std::move(parameter));
+  }
+  for (const ResidualBlock& block : problem.residuals()) {
+    const auto size = static_cast<std::size_t>(block.cost->num_residuals());
+    fit.residuals.push_back({block.label, std::vector<double>(size, kNan), block.weight});
+  }
+  return fit;
 }
 
 }  // namespace
@@ -182,7 +213,7 @@ Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector
 double JointCost(const JointProblem& problem, std::vector<double> logs) {
   const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(logs.data());
   double cost = 0.0;
-  CHECK(ceres_problem->Evaluate({}, &cost, nullptr, nullptr, nullptr));
+  if (!ceres_problem->Evaluate({}, &cost, nullptr, nullptr, nullptr)) return kNan;
   return cost;
 }
 
@@ -206,6 +237,7 @@ JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
             << starts[number].iterations << " iterations; " << starts[number].termination;
   });
   const auto best = BestStart(starts);
+  if (problem.residuals().empty() || best == starts.end()) return FailedFit(problem, starts);
   JointFit fit;
   fit.converged = best->converged;
   fit.termination = best->termination;

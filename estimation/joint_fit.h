@@ -35,7 +35,7 @@ struct FitResidual {
 struct JointFit {
   bool converged = false;   // the solver did, and no parameter stands on a guard rail
   std::string termination;  // Ceres' word, then its message; or GUARD_RAIL and who stands there
-  double cost = 0.0;
+  double cost = 0.0;        // NaN where it failed: no residual, or none finite at any start
   int iterations = 0;
   int starts = 0;
   int starts_converged = 0;
@@ -58,7 +58,7 @@ JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::
 JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
                         const std::vector<std::vector<double>>& starts, int threads);
 
-// Cost at `logs`, weights and losses applied.
+// Cost at `logs`, weights and losses applied; NaN where a residual is not finite.
 double JointCost(const JointProblem& problem, std::vector<double> logs);
 
 // J and identifiability at `logs` (weights and losses applied).

@@ -38,11 +38,11 @@ std::vector<int> PeakBins(std::span<const double> s, std::span<const double> flo
         separate = false;
         break;
       }
+      if (distance >= 40) continue;  // far apart, the floor has already judged
       const auto [low, high] = std::minmax(k, stronger);
       double valley = at(k);
       for (int j = low; j <= high; ++j) valley = std::min(valley, at(j));
-      // Far apart, the floor has already judged.
-      if (distance < 40 && at(k) < prominence * valley) separate = false;
+      if (at(k) < prominence * valley) separate = false;
     }
     if (separate) peaks.push_back(k);
   }

@@ -45,12 +45,21 @@ void NewFile::Write(const char* data, std::size_t size) {
   }
 }
 
+// A file system may put the new name on the disk before the bytes: a loss of power between the two
+// would leave an empty file in the old one's place.
 void NewFile::Publish() {
+  // Some file systems, and all pipes, know nothing of it.
+  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) Fail("cannot be written");
   const int status = close(descriptor_);
   descriptor_ = -1;
   if (status != 0) Fail("cannot be written");
   if (rename(temporary_.c_str(), path_.c_str()) != 0) Fail("cannot be put in its place");
   published_ = true;
+  const std::string folder = path_.has_parent_path() ? path_.parent_path().string() : ".";
+  const int directory = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory < 0) return;
+  fsync(directory);  // the file is whole either way
+  close(directory);
 }
 
 void NewFile::Fail(const char* what) const {

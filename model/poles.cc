@@ -18,7 +18,9 @@ namespace {
 
 using Complex64 = std::complex<double>;
 
-// D1 D2 (1 - k L): entire, with the poles sought as its only zeros. Scaled by omega^4.
+// D1 D2 (1 - k L): entire, with the poles sought as its only zeros. Scaled by omega^4, and left of
+// the imaginary axis by |e^(tau s)| as well, which grows without end there: what is asked of it is
+// its argument.
 Complex64 Characteristic(const LoopParameters<double>& loop, double slope, Complex64 s) {
   const Acoustics<double>& a = loop.acoustics;
   const double w1 = kRadPerSPerHz * a.omega_hz;
@@ -26,11 +28,18 @@ Complex64 Characteristic(const LoopParameters<double>& loop, double slope, Compl
   const Complex64 d1 = (s * s + 2.0 * w1 * a.xi * s + w1 * w1) / (w1 * w1);
   const Complex64 d2 = (s * s + 2.0 * w2 * a.xi * s + w2 * w2) / (w1 * w1);
   const Complex64 z = s * s / (w1 * w1);
-  return d1 * d2 - slope * z * (a.N * d2 + a.M * d1) * std::exp(-loop.tau_s * s);
+  const Complex64 flame = slope * z * (a.N * d2 + a.M * d1);
+  if (s.real() >= 0.0) return d1 * d2 - flame * std::exp(-loop.tau_s * s);
+  return d1 * d2 * std::exp(loop.tau_s * s.real()) -
+         flame * std::polar(1.0, -loop.tau_s * s.imag());
 }
 
 // Beyond a bound, so that no zero lies on the contour.
 constexpr double kBeyond = 1e-3;  // of w
+
+// |k| (N + M) of a loop that no data suggest: the poles are near to their limits.
+constexpr double kFeeble = 1e-6;
+constexpr double kOverwhelming = 1e6;
 
 // The loop with time in units of 1 / w: all that follows is free of the frequency.
 LoopParameters<double> InUnitsOfW(LoopParameters<double> loop, double w) {
@@ -93,6 +102,55 @@ std::optional<Complex64> Newton(const LoopParameters<double>& loop, double slope
   return std::nullopt;
 }
 
+// Newton on the characteristic itself, for where the loop hardly feels its flame, or feels it so
+// much that the eigenvalues are no starts. Without a second mode, whose factor D2 is none of the
+// loop's.
+std::optional<Complex64> NewtonOnCharacteristic(const LoopParameters<double>& loop, double slope,
+                                                Complex64 s) {
+  const Acoustics<double>& a = loop.acoustics;
+  const double r = a.M == 0.0 ? 1.0 : a.harmonic_ratio;
+  for (int i = 0; i < 100; ++i) {
+    const Complex64 d1 = s * s + 2.0 * a.xi * s + 1.0;
+    const Complex64 d1_rate = 2.0 * (s + a.xi);
+    const Complex64 d2 = a.M == 0.0 ? 1.0 : s * s + 2.0 * r * a.xi * s + r * r;
+    const Complex64 d2_rate = a.M == 0.0 ? 0.0 : 2.0 * (s + r * a.xi);
+    const Complex64 modes = a.N * d2 + (a.M == 0.0 ? 0.0 : a.M * d1);
+    const Complex64 modes_rate = a.N * d2_rate + (a.M == 0.0 ? 0.0 : a.M * d1_rate);
+    const Complex64 flame = slope * std::exp(-loop.tau_s * s);
+    const Complex64 value = d1 * d2 - flame * s * s * modes;
+    const Complex64 rate =
+        d1_rate * d2 + d1 * d2_rate -
+        flame * (2.0 * s * modes + s * s * modes_rate - loop.tau_s * s * s * modes);
+    Complex64 step = value / rate;
+    if (!std::isfinite(step.real()) || !std::isfinite(step.imag())) return std::nullopt;
+    const double size = 1.0 + std::abs(s);
+    if (std::abs(step) > 0.2 * size) step *= 0.2 * size / std::abs(step);
+    s -= step;
+    if (std::abs(step) < 1e-13 * size) return s;
+  }
+  return std::nullopt;
+}
+
+// Where the poles tend to as the flame's slope vanishes (the modes') and as it grows without end
+// (the delay's: k (N + M) e^(-tau s) = 1).
+std::vector<Complex64> LimitingPoles(const LoopParameters<double>& loop, double slope,
+                                     double w_max) {
+  const Acoustics<double>& a = loop.acoustics;
+  std::vector<Complex64> poles;
+  for (const double r : {1.0, a.harmonic_ratio}) {
+    if (r != 1.0 && a.M == 0.0) continue;
+    const Complex64 root = r * std::sqrt(Complex64(a.xi * a.xi - 1.0));
+    poles.push_back(-a.xi * r + root);
+    if (a.xi >= 1.0) poles.push_back(-a.xi * r - root);
+  }
+  const double growth = std::log(std::abs(slope) * (a.N + a.M)) / loop.tau_s;
+  const double first = slope < 0.0 ? std::numbers::pi : 0.0;
+  for (double angle = first; angle <= w_max * loop.tau_s; angle += 2.0 * std::numbers::pi) {
+    poles.emplace_back(growth, angle / loop.tau_s);
+  }
+  return poles;
+}
+
 // Change of the characteristic's argument from a to b along a straight line.
 double ArgumentChange(const LoopParameters<double>& loop, double slope, Complex64 a, Complex64 fa,
                       Complex64 b, Complex64 fb, int depth) {
@@ -101,6 +159,7 @@ double ArgumentChange(const LoopParameters<double>& loop, double slope, Complex6
   const double whole = std::arg(fb / fa);
   const double left = std::arg(fm / fa);
   const double right = std::arg(fb / fm);
+  if (!std::isfinite(whole)) return 0.0;  // no halving mends what overflows
   const bool smooth = std::abs(left) < 0.3 && std::abs(right) < 0.3 &&
                       std::abs(left + right - whole) < 1e-9 && std::abs(left - right) < 0.1;
   if (smooth || depth == 0) return left + right;
@@ -133,6 +192,14 @@ int CountZeros(const LoopParameters<double>& loop, double slope, double growth_m
   return static_cast<int>(std::lround(change / std::numbers::pi));
 }
 
+// Without a flame the loop is open, and its poles are its modes': of these the first decays
+// slowest.
+Pole OpenPole(const Acoustics<double>& a) {
+  const double w = kRadPerSPerHz * a.omega_hz;
+  if (a.xi < 1.0) return {-a.xi * w, a.omega_hz * std::sqrt(1.0 - a.xi * a.xi)};
+  return {-w / (a.xi + std::sqrt(a.xi * a.xi - 1.0)), 0.0};
+}
+
 }  // namespace
 
 PoleSet ClosedLoopPoles(const LoopParameters<double>& loop_in_s, double slope_in_s,
@@ -147,25 +214,16 @@ PoleSet ClosedLoopPoles(const LoopParameters<double>& loop_in_s, double slope_in
   const double bound = std::max(GrowthBound(loop, flame_slope), growth_min + kBeyond);
   const int zeros = CountZeros(loop, flame_slope, growth_min, bound, w_max);
 
+  std::vector<Complex64> found;
+  const auto take = [&](const std::optional<Complex64>& s) {
+    if (!s || s->real() < growth_min || s->imag() > w_max || s->imag() < -1e-9) return;
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Complex64& other) {
+      return std::abs(other - *s) < 1e-9;
+    });
+    if (!known) found.push_back(*s);
+  };
   PoleSet set;
-  // A polynomial resolves e^(j w theta) over tau once it has pi points a wave or so.
-  int n = 24 + static_cast<int>(w_max * loop.tau_s);
-  for (int attempt = 0; attempt < 3; ++attempt, n += n / 2) {
-    const Eigen::VectorXcd eigenvalues = Generator(loop, flame_slope, n).eigenvalues();
-    std::vector<Complex64> found;
-    for (const Complex64& start : eigenvalues) {
-      if (start.imag() < -1e-6 || start.imag() > 1.1 * w_max || start.real() < growth_min - 1.0) {
-        continue;
-      }
-      const std::optional<Complex64> s = Newton(loop, flame_slope, start);
-      if (!s || s->real() < growth_min || s->imag() > w_max || s->imag() < -1e-9) {
-        continue;
-      }
-      const bool known = std::any_of(found.begin(), found.end(), [&](const Complex64& other) {
-        return std::abs(other - *s) < 1e-9;
-      });
-      if (!known) found.push_back(*s);
-    }
+  const auto list = [&] {
     std::sort(found.begin(), found.end(),
               [](const Complex64& l, const Complex64& r) { return l.real() > r.real(); });
     set.poles.clear();
@@ -179,18 +237,42 @@ PoleSet ClosedLoopPoles(const LoopParameters<double>& loop_in_s, double slope_in
     }
     set.counted = (zeros - real) / 2 + real;
     set.complete = listed == zeros;
-    if (set.complete) break;
+  };
+  const auto take_limiting = [&] {
+    for (const Complex64& start : LimitingPoles(loop, flame_slope, w_max)) {
+      take(NewtonOnCharacteristic(loop, flame_slope, start));
+    }
+    list();
+  };
+  const double strength = std::abs(flame_slope) * (loop.acoustics.N + loop.acoustics.M);
+  const bool is_at_limit = strength < kFeeble || strength > kOverwhelming;
+  if (is_at_limit) take_limiting();
+  // A polynomial resolves e^(j w theta) over tau once it has pi points a wave or so.
+  int n = 24 + static_cast<int>(w_max * loop.tau_s);
+  for (int attempt = 0; attempt < 3 && !set.complete; ++attempt, n += n / 2) {
+    const Eigen::VectorXcd eigenvalues = Generator(loop, flame_slope, n).eigenvalues();
+    found.clear();
+    for (const Complex64& start : eigenvalues) {
+      if (start.imag() < -1e-6 || start.imag() > 1.1 * w_max || start.real() < growth_min - 1.0) {
+        continue;
+      }
+      take(Newton(loop, flame_slope, start));
+    }
+    list();
   }
+  if (!set.complete) take_limiting();
   return set;
 }
 
-Pole RightmostPole(const LoopParameters<double>& loop, double flame_slope, double frequency_max) {
+std::optional<Pole> RightmostPole(const LoopParameters<double>& loop, double flame_slope,
+                                  double frequency_max) {
+  if (flame_slope == 0.0) return OpenPole(loop.acoustics);
   constexpr double kDeepest = -1e3;
   for (double growth_min = PoleOptions().growth_min; growth_min > kDeepest; growth_min *= 4.0) {
     const PoleSet set = ClosedLoopPoles(loop, flame_slope, {growth_min, frequency_max});
     if (!set.poles.empty()) return set.poles.front();
   }
-  LOG(FATAL) << "no pole up to " << frequency_max << " times omega";
+  return std::nullopt;
 }
 
 }  // namespace howl

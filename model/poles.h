@@ -8,7 +8,8 @@
 // Then Newton on the characteristic equation, to rounding. Then a count by the argument principle
 // over the rectangle growth_min <= Re s <= bound, |Im s| <= frequency_max, where `bound` exceeds
 // the real part of every pole: |k| sup|s G| e^(-tau bound) < 1. If the count and the list differ,
-// the discretisation is refined.
+// the discretisation is refined, and last Newton starts from where the poles tend to as k vanishes
+// and as it grows without end.
 //
 // Growth rates in 1/s, frequencies in Hz. What is searched is a share of the first mode's natural
 // frequency w = 2 pi omega, so that the same loop run slower or faster has the same poles for the
@@ -16,6 +17,7 @@
 #ifndef HOWL_MODEL_POLES_H_
 #define HOWL_MODEL_POLES_H_
 
+#include <optional>
 #include <vector>
 
 #include "model/loop.h"
@@ -38,13 +40,15 @@ struct PoleSet {
   bool complete = false;    // the list has as many as were counted
 };
 
+// flame_slope is not zero.
 PoleSet ClosedLoopPoles(const LoopParameters<double>& loop, double flame_slope,
                         const PoleOptions& options = {});
 
-// Of the rightmost pole up to frequency_max, in units of omega; the search widens until there is
-// one.
-Pole RightmostPole(const LoopParameters<double>& loop, double flame_slope,
-                   double frequency_max = PoleOptions().frequency_max);
+// The rightmost pole up to frequency_max, in units of omega; the search widens until there is one,
+// and gives nothing where there is none down to growth rates of a thousand w. With a slope of zero
+// the slowest mode's.
+std::optional<Pole> RightmostPole(const LoopParameters<double>& loop, double flame_slope,
+                                  double frequency_max = PoleOptions().frequency_max);
 
 }  // namespace howl
 

@@ -6,15 +6,19 @@
 #include <cstdlib>
 #include <istream>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "estimation/unit_seed.h"
 
 namespace howl {
 
 namespace {
 
-constexpr std::string_view kMagic = "howl.enclosure/1";
+constexpr std::size_t kMostSearches = 1000000;
+constexpr std::string_view kMagic = "howl.enclosure/2";
 
 void Write(std::ostream& out, double value) {
   char text[40];
@@ -119,28 +123,80 @@ bool Read(std::istream& in, std::size_t experiments, BoundSearch& search) {
   return true;
 }
 
+// So that a damaged length asks for no memory.
+std::size_t BytesLeft(std::istream& in) {
+  const std::istream::pos_type here = in.tellg();
+  in.seekg(0, std::ios::end);
+  const std::istream::pos_type end = in.tellg();
+  in.seekg(here);
+  return end > here ? static_cast<std::size_t>(end - here) : 0;
+}
+
+struct Head {
+  std::size_t searches = 0;
+  std::size_t experiments = 0;
+};
+
+bool ReadHead(std::istream& in, Head& head) {
+  std::string magic;
+  return in >> magic >> head.searches >> head.experiments && magic == kMagic;
+}
+
+// The text of the next search; nothing where it is not what was written. Where a length is damaged,
+// so are all that follow: where the next begins is not known.
+std::optional<std::string> NextSearch(std::istream& in) {
+  std::size_t size = 0;
+  std::uint64_t hash = 0;
+  const bool framed = in >> size >> hash && in.get() == '\n' && size <= BytesLeft(in);
+  std::string bytes(framed ? size : 0, '\0');
+  if (!framed || !in.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    in.setstate(std::ios::failbit);
+    return std::nullopt;
+  }
+  return UnitSeed(0, bytes) == hash ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
 }  // namespace
 
 void WriteBoundSearches(std::ostream& out, std::size_t experiments,
                         const std::vector<BoundSearch>& searches) {
   out << kMagic << ' ' << searches.size() << ' ' << experiments << '\n';
-  for (const BoundSearch& search : searches) Write(out, search);
+  for (const BoundSearch& search : searches) {
+    std::ostringstream text;
+    Write(text, search);
+    const std::string bytes = std::move(text).str();
+    out << bytes.size() << ' ' << UnitSeed(0, bytes) << '\n' << bytes;
+  }
 }
 
-bool ReadBoundSearches(std::istream& in, std::size_t experiments,
-                       std::vector<BoundSearch>& searches) {
-  std::string magic;
-  std::size_t written_searches = 0, written_experiments = 0;
-  if (!(in >> magic >> written_searches >> written_experiments) || magic != kMagic ||
-      written_searches != searches.size() || written_experiments != experiments) {
-    return false;
+std::optional<std::size_t> ReadBoundSearches(std::istream& in, std::size_t experiments,
+                                             std::vector<BoundSearch>& searches) {
+  Head head;
+  if (!ReadHead(in, head) || head.searches != searches.size() || head.experiments != experiments) {
+    return std::nullopt;
   }
-  std::vector<BoundSearch> loaded = searches;
-  for (BoundSearch& search : loaded) {
-    if (!Read(in, experiments, search)) return false;
+  std::size_t damaged = 0;
+  for (std::size_t k = 0; k < searches.size(); ++k) {
+    BoundSearch search = searches[k];
+    const std::optional<std::string> bytes = NextSearch(in);
+    std::istringstream text(bytes.value_or(""));
+    if (bytes && Read(text, experiments, search)) {
+      searches[k] = std::move(search);
+    } else {
+      ++damaged;
+    }
   }
-  searches = std::move(loaded);
-  return true;
+  return damaged;
+}
+
+std::size_t CountDamagedSearches(std::istream& in) {
+  Head head;
+  std::size_t damaged = 0;
+  if (!ReadHead(in, head)) return 0;
+  for (std::size_t k = 0; k < head.searches && k < kMostSearches; ++k) {
+    damaged += NextSearch(in) ? 0 : 1;
+  }
+  return damaged;
 }
 
 }  // namespace howl

@@ -164,7 +164,8 @@ void Enclosure::Save(std::ostream& out) const {
 }
 
 bool Enclosure::Load(std::istream& in) {
-  return ReadBoundSearches(in, impl_->setting.problem.experiments.size(), impl_->searches);
+  return ReadBoundSearches(in, impl_->setting.problem.experiments.size(), impl_->searches)
+      .has_value();
 }
 
 }  // namespace howl

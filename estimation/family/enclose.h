@@ -61,7 +61,7 @@ class Enclosure {
   bool IsComplete() const;
 
   // The state of an interrupted run as text, exact. Load expects the same problem and options;
-  // false on anything else than what Save wrote.
+  // false on anything else than what Save wrote. A search whose text is damaged begins anew.
   void Save(std::ostream& out) const;
   bool Load(std::istream& in);
 

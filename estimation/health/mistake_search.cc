@@ -121,7 +121,7 @@ void Search::Refit(Trial& trial) const {
 }
 
 Health Search::Findings() {
-  if (cost_ < kMuchBetter) return {};
+  if (!(cost_ >= kMuchBetter)) return {};  // a failed fit has none
   const std::vector<Mistake> mistakes = PossibleMistakes(experiments_);
   for (const Mistake& mistake : mistakes) {
     if (mistake.together) Try(mistake, kShared);

@@ -6,6 +6,7 @@
 #include "io/config/config_schema.h"
 #include "io/config/config_sections.h"
 #include "io/config/config_text.h"
+#include "io/config/scalar_check.h"
 #include "io/config/schema_check.h"
 #include "io/config/schema_words.h"
 #include "io/config/yaml_tree.h"
@@ -64,6 +65,7 @@ Config LoadConfig(const std::filesystem::path& path) {
   config.source = path;
   config.operating_parameter = ReadOperatingParameter(root);
   CheckSchema(file, tree, ConfigSchemaFor(config.operating_parameter, ReadNames(tree)));
+  CheckScalars(file, tree);
   root.Read("title", config.title);
   ReadExperiments(root, config);
   ReadModel(root, config);

@@ -1,4 +1,5 @@
 #include <map>
+#include <string_view>
 
 #include "io/config/config_sections.h"
 
@@ -53,6 +54,22 @@ void ReadNumbers(const ConfigCursor& cursor, Experiment& experiment) {
   }
 }
 
+// simulate writes NAME.csv beside what the other commands write.
+void CheckName(const ConfigCursor& cursor, const std::string& name) {
+  constexpr std::string_view kTaken[] = {"characteristics", "lines",     "transfer", "flame_curve",
+                                         "family",          "tradeoff",  "profile",  "sweep",
+                                         "trial",           "prediction"};
+  for (const std::string_view taken : kTaken) {
+    if (name != taken) continue;
+    cursor.FailAt("name", "\"" + name + "\" is the name of a file of results, " + name +
+                              ".csv, expected another name");
+  }
+  // In the name of a record's file this would be taken from the environment.
+  if (name.find("${") != std::string::npos) {
+    cursor.FailAt("name", "\"" + name + "\" has ${, expected a name without it");
+  }
+}
+
 }  // namespace
 
 void ReadExperiments(const ConfigCursor& root, Config& config) {
@@ -61,6 +78,7 @@ void ReadExperiments(const ConfigCursor& root, Config& config) {
     ExperimentConfig& read = config.experiments.emplace_back();
     read.line = cursor.Line();
     cursor.Read("name", read.experiment.name);
+    CheckName(cursor, read.experiment.name);
     cursor.Read(config.operating_parameter, read.experiment.phi);
     cursor.Read("reliable", read.experiment.reliable);
     const auto [earlier, is_new] =

@@ -24,6 +24,12 @@ bool IsVariableName(const std::string& name) {
   }
 }
 
+// What the environment holds may be no one else's business.
+std::string ShownPath(const ConfigCursor& file, const std::filesystem::path& path) {
+  const std::string& text = file.Node().text;
+  return text.find("${") == std::string::npos ? path.string() : text;
+}
+
 }  // namespace
 
 std::string ExpandEnvironment(const ConfigCursor& file) {
@@ -63,11 +69,11 @@ RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::pat
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(spec.file, error);
   if (!std::filesystem::exists(status)) {
-    FailAbsent(file, "there is no file \"" + spec.file.string() +
+    FailAbsent(file, "there is no file \"" + ShownPath(file, spec.file) +
                          "\", expected a path relative to the config's folder");
   }
   if (std::filesystem::is_directory(status)) {
-    file.Fail("\"" + spec.file.string() + "\" is a folder, expected a file of samples");
+    file.Fail("\"" + ShownPath(file, spec.file) + "\" is a folder, expected a file of samples");
   }
   record.Read("pressure", spec.pressure);
   record.Read("heat_release", spec.heat_release);

@@ -62,16 +62,12 @@ void CheckLine(const std::string& file, const std::string& text, std::string_vie
     fail("the line is longer than " + std::to_string(kMaxConfigLineBytes >> 10) +
          " kB, expected shorter lines: samples belong in a record's file");
   }
-  for (std::size_t i = 0; i < line.size();) {
-    const std::size_t length = Utf8Length(line.substr(i));
-    if (length == 0 || IsControl(line[i])) {
-      std::array<char, 8> code{};
-      std::snprintf(code.data(), code.size(), "0x%02x",
-                    static_cast<unsigned>(static_cast<unsigned char>(line[i])));
-      fail(std::string("byte ") + code.data() + " at column " + std::to_string(i + 1) +
-           " is not text, expected a YAML file in UTF-8");
-    }
-    i += length;
+  if (const std::size_t at = FindNoText(line); at != line.npos) {
+    std::array<char, 8> code{};
+    std::snprintf(code.data(), code.size(), "0x%02x",
+                  static_cast<unsigned>(static_cast<unsigned char>(line[at])));
+    fail(std::string("byte ") + code.data() + " at column " + std::to_string(at + 1) +
+         " is not text, expected a YAML file in UTF-8");
   }
   const std::size_t indent = line.find_first_not_of(" \t\r");
   if (indent != std::string_view::npos && line.substr(0, indent).find('\t') != line.npos) {
@@ -80,6 +76,17 @@ void CheckLine(const std::string& file, const std::string& text, std::string_vie
 }
 
 }  // namespace
+
+std::size_t FindNoText(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = Utf8Length(text.substr(i));
+    if (length == 0 || IsControl(text[i])) return i;
+    // U+0080 to U+009F steer a terminal as escape sequences do.
+    if (text[i] == '\xc2' && static_cast<unsigned char>(text[i + 1]) < 0xa0) return i;
+    i += length;
+  }
+  return std::string_view::npos;
+}
 
 std::string ReadConfigText(const std::filesystem::path& path) {
   const std::string file = path.string();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace howl {
 
@@ -15,6 +16,10 @@ inline constexpr std::size_t kMaxConfigLineBytes = std::size_t{256} << 10;
 // UTF-8 text without control characters. Throws UserError for a missing file, a folder, a file or
 // line that is too long, bytes that are not text, and a tab in an indentation.
 std::string ReadConfigText(const std::filesystem::path& path);
+
+// Where `text` has its first byte that is no UTF-8 or a control character (other than tab and line
+// ends); npos where all is text.
+std::size_t FindNoText(std::string_view text);
 
 // The key that a line (from 1), or the nearest one above it that has a key, opens with: what a
 // message names when the text does not parse. Empty where there is none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/memory.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -108,6 +109,11 @@ std::vector<ArrayChannel> FindChannels(const std::string& file,
     }
     found.push_back(channel);
     const std::size_t samples = arrays[channel.array].samples();
+    const double bytes = static_cast<double>(sizeof(double)) * static_cast<double>(samples);
+    if (bytes * static_cast<double>(names.size()) > MemoryBytes()) {
+      finder.Fail(name, std::to_string(samples) +
+                            " samples do not fit into the memory, expected a shorter record");
+    }
     const std::size_t expected = arrays[found.front().array].samples();
     if (samples != expected) {
       finder.Fail(name, std::to_string(samples) + " samples, expected " + std::to_string(expected) +

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -25,7 +26,26 @@ class PlainBytes final : public ByteSource {
   }
   ~PlainBytes() override { close(descriptor_); }
 
+  // The first bytes, which Read gives again: a pipe cannot be read twice.
+  std::string_view Peek(std::size_t size) {
+    peeked_.resize(size);
+    peeked_.resize(Take(peeked_.data(), size));
+    return peeked_;
+  }
+
   std::size_t Read(char* to, std::size_t size) override {
+    std::size_t done = std::min(size, peeked_.size() - given_);
+    std::copy_n(peeked_.data() + given_, done, to);
+    given_ += done;
+    done += Take(to + done, size - done);
+    taken_ += static_cast<double>(done);
+    return done;
+  }
+
+  double FractionRead() const override { return size_ > 0.0 ? taken_ / size_ : 0.0; }
+
+ private:
+  std::size_t Take(char* to, std::size_t size) {
     std::size_t done = 0;
     while (done < size) {
       const ssize_t got = read(descriptor_, to + done, size - done);
@@ -34,14 +54,12 @@ class PlainBytes final : public ByteSource {
       if (got == 0) break;
       done += static_cast<std::size_t>(got);
     }
-    taken_ += static_cast<double>(done);
     return done;
   }
 
-  double FractionRead() const override { return size_ > 0.0 ? taken_ / size_ : 0.0; }
-
- private:
   int descriptor_;
+  std::string peeked_;
+  std::size_t given_ = 0;  // of them
   double size_ = 0.0;
   double taken_ = 0.0;
 };
@@ -110,17 +128,11 @@ class GzipBytes final : public ByteSource {
   bool at_end_ = false;
 };
 
-bool IsGzip(const std::filesystem::path& file) {
-  unsigned char magic[2] = {};
-  return PlainBytes(file).Read(reinterpret_cast<char*>(magic), 2) == 2 && magic[0] == 0x1f &&
-         magic[1] == 0x8b;
-}
-
 }  // namespace
 
 std::unique_ptr<ByteSource> OpenBytes(const std::filesystem::path& file) {
   auto plain = std::make_unique<PlainBytes>(file);
-  if (!IsGzip(file)) return plain;
+  if (plain->Peek(2) != "\x1f\x8b") return plain;
   return std::make_unique<GzipBytes>(std::move(plain));
 }
 

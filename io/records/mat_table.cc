@@ -3,9 +3,7 @@
 #include <matio.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <utility>
@@ -13,6 +11,7 @@
 
 #include "io/records/array_columns.h"
 #include "io/records/hdf5_lock.h"
+#include "io/records/mat5_check.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -55,36 +54,12 @@ std::string Problem(const matvar_t& variable) {
   return variable.rank == 2 ? "" : std::to_string(variable.rank) + " dimensions";
 }
 
-// matio gives zeros for what lies behind the end of a MATLAB 5 file. Its elements follow each other
-// behind a header of 128 bytes, each with a tag of its type and its length in bytes.
-void RefuseTruncated(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, 128> header{};
-  in.read(header.data(), header.size());
-  const bool swapped = header[126] == 'M';  // "MI" as seen from here: the other byte order
-  const std::uintmax_t size = std::filesystem::file_size(file);
-  std::uintmax_t at = header.size();
-  while (at + 8 <= size) {
-    std::array<unsigned char, 8> tag{};
-    in.seekg(static_cast<std::streamoff>(at));
-    in.read(reinterpret_cast<char*>(tag.data()), tag.size());
-    std::uint32_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | tag[swapped ? 4 + i : 7 - i];
-    at += tag.size() + length;
-  }
-  if (at > size) {
-    throw UserError(file.string(), 0, "",
-                    "a truncated MATLAB file of " + std::to_string(size) + " bytes, expected " +
-                        std::to_string(at) + " or more");
-  }
-}
-
 class MatTable final : public TableSource {
  public:
   explicit MatTable(const std::filesystem::path& file)
       : file_(file.string()), mat_(Mat_Open(file_.c_str(), MAT_ACC_RDONLY)) {
     if (!mat_) throw UserError(file_, 0, "", "not a readable MATLAB .mat file");
-    if (Mat_GetVersion(mat_.get()) == MAT_FT_MAT5) RefuseTruncated(file);
+    if (Mat_GetVersion(mat_.get()) == MAT_FT_MAT5) CheckMat5(file);
     for (;;) {
       const Variable variable(Mat_VarReadNextInfo(mat_.get()));
       if (!variable) break;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "io/number_range.h"
 #include "io/records/number_text.h"
 #include "io/records/table_source.h"
 #include "io/records/time_column.h"
@@ -116,6 +118,11 @@ double Loader::CheckTime(std::span<const double> time, std::size_t first, double
   const auto fault = FindTimeFault(time, step, resolution, unit_s);
   if (fault) FailData(first + fault->row, *spec_.time, fault->what);
   const double rate_hz = SamplingRateHz(time, resolution) * (1.0 / unit_s);
+  if (!IsCarried(rate_hz)) {
+    FailData(first, *spec_.time,
+             "a sampling rate of " + NumberText(rate_hz, 6) +
+                 " Hz is out of range, expected one " + kMagnitudeWords);
+  }
   if (!spec_.sampling_hz) return rate_hz;
   const double span = time.back() - time.front();
   const double tolerance = kSamplingRateTolerance + resolution / span;
@@ -140,6 +147,11 @@ void Loader::Take(std::vector<double>& column, const ColumnName& name, Part part
                NumberText(value) + (std::isfinite(value) ? " times its scale" : "") +
                    ", expected a finite number");
     }
+    if (std::abs(value * scale) > kMostMagnitude) {
+      FailData(part.first + i, name,
+               NumberText(value) + (scale == 1.0 ? "" : " times its scale") +
+                   " is out of range, expected a number of magnitude up to 1e30");
+    }
     least = std::min(least, value);
     most = std::max(most, value);
     column[i] = value * scale;
@@ -148,6 +160,12 @@ void Loader::Take(std::vector<double>& column, const ColumnName& name, Part part
     FailData(part.first, name,
              "constant at " + NumberText(least) + " in all " + std::to_string(part.count) +
                  " samples, expected a signal");
+  }
+  if (!((most - least) * std::abs(scale) >= kLeastMagnitude)) {
+    FailData(part.first, name,
+             "from " + NumberText(least) + " to " + NumberText(most) +
+                 (scale == 1.0 ? "" : " times its scale") +
+                 ", expected a signal that moves by 1e-30 or more: a larger scale");
   }
   // Shrunk in place where that frees much: a copy of a long record would double its memory.
   column.resize(part.count);
@@ -160,7 +178,13 @@ Record Loader::Load() {
   std::vector<ColumnName> names = {spec_.pressure};
   if (spec_.heat_release) names.push_back(*spec_.heat_release);
   if (spec_.time) names.push_back(*spec_.time);
-  Columns columns = table_->Read(names);
+  Columns columns;
+  try {
+    columns = table_->Read(names);
+  } catch (const std::bad_alloc&) {
+    throw UserError(spec_.file.string(), 0, "",
+                    "does not fit into the memory, expected a shorter record");
+  }
 
   const std::size_t rows = columns.front().size();
   const std::string few = " samples, expected at least " + std::to_string(kFewestSamples);

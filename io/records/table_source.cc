@@ -45,6 +45,9 @@ std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, ignored)) {
     throw UserError(file.string(), 0, "", "a folder, expected a file");
   }
+  // A pipe gives its bytes once, so that nothing may look at them beforehand: it carries text.
+  const bool is_there = std::filesystem::exists(file, ignored);
+  if (is_there && !std::filesystem::is_regular_file(file, ignored)) return OpenTextTable(file);
   const std::string start = ReadStart(file);
   if (start.empty()) {
     throw UserError(file.string(), 1, "", "an empty file, expected columns of numbers");

@@ -1,6 +1,10 @@
 #include "io/report/page.h"
 
+#include <exception>
+#include <functional>
+
 #include "io/report/browser_data.h"
+#include "io/report/fault_words.h"
 #include "io/report/health_section.h"
 #include "io/report/page_tables.h"
 #include "io/report/render.h"
@@ -100,10 +104,10 @@ std::string RunText(const ReportInput& input) {
   return out;
 }
 
-std::string MissingHtml(const ReportInput& input) {
-  if (input.missing.empty()) return {};
+std::string MissingHtml(const std::vector<std::string>& missing) {
+  if (missing.empty()) return {};
   std::string out = "<section id=\"missing\"><h2>What is missing</h2><ul>";
-  for (const std::string& each : input.missing) out += "<li>" + EscapeHtml(each) + "</li>";
+  for (const std::string& each : missing) out += "<li>" + EscapeHtml(each) + "</li>";
   return out + "</ul></section>\n";
 }
 
@@ -162,8 +166,20 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
   std::string body;
   std::string contents;
   const bool has_browser = input.members.has_value();
+  // A bad field of one file costs the part that shows it, not the page.
+  std::vector<std::string> missing = input.missing;
+  const auto part = [&](const std::string& name, const std::function<std::string()>& make) {
+    try {
+      return make();
+    } catch (const std::exception& error) {
+      missing.push_back(name + " is left out: " + FaultWords(error));
+      return std::string();
+    }
+  };
+  const std::string health = part("the health", [&] { return HealthHtml(input); });
   for (const Section& section : Sections()) {
-    std::string inside = SectionText(section.id, input);
+    std::string inside = part(std::string("the table under \"") + section.title + "\"",
+                              [&] { return SectionText(section.id, input); });
     inside += FiguresHtml(figures, section, svgs);
     if (!inside.empty()) {
       body += "<section id=\"" + std::string(section.id) + "\"><h2>" + section.title + "</h2>" +
@@ -171,7 +187,7 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
       contents += "<a href=\"#" + std::string(section.id) + "\">" + section.title + "</a>\n";
     }
     if (section.id == std::string("family") && has_browser) {
-      body += BrowserHtml(input);
+      body += part("the browser", [&] { return BrowserHtml(input); });
       contents += "<a href=\"#browser\">Browse the family</a>\n";
     }
   }
@@ -181,8 +197,8 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
          "<link rel=\"icon\" href=\"data:,\">\n<title>" +
          title + "</title>\n<style>" + (has_browser ? std::string(kPlotStyle) : std::string()) +
          kPageStyle + "</style>\n</head>\n<body>\n<header><h1>" + title + "</h1><p class=\"run\">" +
-         RunText(input) + "</p><nav>" + contents + "</nav></header>\n<main>\n" + HealthHtml(input) +
-         MissingHtml(input) + body + "</main>\n" +
+         RunText(input) + "</p><nav>" + contents + "</nav></header>\n<main>\n" + health +
+         MissingHtml(missing) + body + "</main>\n" +
          (has_browser ? std::string("<footer>Plots of the browser: uPlot, MIT License.</footer>\n")
                       : std::string()) +
          "</body>\n</html>\n";

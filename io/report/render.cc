@@ -1,14 +1,18 @@
 #include "io/report/render.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "estimation/parallel.h"
 #include "io/report/script.h"
@@ -19,6 +23,8 @@ namespace howl {
 namespace {
 
 constexpr int kNoSuchCommand = 127;
+constexpr int kHung = -1;
+constexpr int kStopped = -2;
 
 std::string FileText(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -47,9 +53,33 @@ class WorkFolder {
   std::filesystem::path path_;
 };
 
-// Runs gnuplot on folder/name.gp; its exit status, kNoSuchCommand where there is no gnuplot.
+// The child's exit status; it is ended when it takes too long, or when the user wants no more.
+int WaitFor(pid_t child, const RenderOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  std::chrono::milliseconds nap{1};
+  int status = 0;
+  for (;;) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+    if (ended < 0 && errno != EINTR) return 1;
+    const bool hung =
+        std::chrono::duration<double>(Clock::now() - start).count() > options.longest_s;
+    if (hung || options.stopped()) {
+      kill(child, SIGKILL);
+      while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+      }
+      return hung ? kHung : kStopped;
+    }
+    std::this_thread::sleep_for(nap);
+    nap = std::min(2 * nap, std::chrono::milliseconds{20});
+  }
+}
+
+// Runs gnuplot on folder/name.gp; its exit status, kNoSuchCommand where there is no gnuplot, kHung
+// or kStopped where it was ended.
 int RunGnuplot(const std::filesystem::path& folder, const std::string& name,
-               const std::string& format) {
+               const std::string& format, const RenderOptions& options) {
   const std::string log = (folder / (name + "." + format + ".log")).string();
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -67,10 +97,7 @@ int RunGnuplot(const std::filesystem::path& folder, const std::string& name,
   const int failed = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) return kNoSuchCommand;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  return WaitFor(child, options);
 }
 
 std::string FirstLine(const std::string& text) {
@@ -94,26 +121,35 @@ void ReplaceAll(std::string& text, const std::string& from, const std::string& t
 }  // namespace
 
 std::map<std::string, std::string> RenderFigures(const std::vector<Figure>& figures,
-                                                 const std::filesystem::path& folder, int threads,
+                                                 const std::filesystem::path& folder,
+                                                 const RenderOptions& options,
                                                  std::vector<std::string>& missing) {
   const WorkFolder work;
   std::map<std::string, std::string> svgs;
   std::vector<std::string> faults(figures.size());
   std::atomic<bool> no_gnuplot = false;
-  RunUnits(figures.size(), threads, [&](std::size_t i) {
+  std::atomic<bool> hangs = false;
+  RunUnits(figures.size(), options.threads, [&](std::size_t i) {
     const Figure& figure = figures[i];
     std::ofstream(work.path() / (figure.name + ".csv")) << figure.csv;
     std::ofstream(work.path() / (figure.name + ".gp")) << WholeScript(figure);
     for (const char* format : {"svg", "pdf"}) {
-      const int status = no_gnuplot ? kNoSuchCommand : RunGnuplot(work.path(), figure.name, format);
+      if (hangs || options.stopped()) return;
+      const int status =
+          no_gnuplot ? kNoSuchCommand : RunGnuplot(work.path(), figure.name, format, options);
       if (status == kNoSuchCommand) {
         no_gnuplot = true;
+      } else if (status == kHung || status == kStopped) {
+        hangs = hangs || status == kHung;
+        faults[i] = "it took too long, and was ended; figures after it were not tried";
+        std::filesystem::remove(work.path() / (figure.name + "." + format));
       } else if (status != 0) {
         faults[i] = FirstLine(FileText(work.path() / (figure.name + "." + format + ".log")));
         std::filesystem::remove(work.path() / (figure.name + "." + format));
       }
     }
   });
+  if (options.stopped()) return {};
   for (std::size_t i = 0; i < figures.size(); ++i) {
     for (const char* ending : {".csv", ".gp", ".svg", ".pdf"}) {
       const auto made = work.path() / (figures[i].name + ending);

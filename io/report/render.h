@@ -3,6 +3,7 @@
 #define HOWL_IO_REPORT_RENDER_H_
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,10 +12,18 @@
 
 namespace howl {
 
+struct RenderOptions {
+  int threads = 1;
+  double longest_s = 60.0;  // for gnuplot to draw a figure: beyond it hangs, and is ended
+  std::function<bool()> stopped = [] { return false; };  // the user wants no more
+};
+
 // Writes all figures to `folder` and returns each one's SVG by name. Without gnuplot, or where it
-// fails, data and script are written all the same, and `missing` says so.
+// fails or hangs, data and script are written all the same, and `missing` says so. Stopped, it
+// writes nothing. What it makes on the way is gone in the end.
 std::map<std::string, std::string> RenderFigures(const std::vector<Figure>& figures,
-                                                 const std::filesystem::path& folder, int threads,
+                                                 const std::filesystem::path& folder,
+                                                 const RenderOptions& options,
                                                  std::vector<std::string>& missing);
 
 // An SVG of gnuplot's made fit to stand inside a page: no XML head and ids of its own. The

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "io/records/records.h"
+#include "io/report/fault_words.h"
 #include "io/report/read_measured.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
@@ -36,9 +37,8 @@ void Try(ReportInput& input, const char* file, const char* command,
   try {
     read(path);
   } catch (const std::exception& error) {
-    std::string what = error.what();
-    input.missing.push_back(std::string(file) + " is not usable (" + what + "); howl " + command +
-                            " writes it anew");
+    input.missing.push_back(std::string(file) + " is not usable (" + FaultWords(error) +
+                            "); howl " + command + " writes it anew");
   }
 }
 
@@ -291,7 +291,11 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
     ReadRecords(input, *input.config, input.records);
   }
   if (input.title.empty()) input.title = folder.lexically_normal().filename().string();
-  input.measured = ReadMeasured(input);
+  try {
+    input.measured = ReadMeasured(input);
+  } catch (const std::exception& error) {
+    input.missing.push_back("the characteristics are left out: " + FaultWords(error));
+  }
   ReadPublishedLines(input);
   Try(input, "records.yaml", "simulate", [&](const auto& path) {
     // The records that were analysed are no simulation to set beside themselves.

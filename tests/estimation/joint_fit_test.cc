@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -65,6 +66,33 @@ TEST(JointFit, LoopGainsOfThePublishedTable) {
     EXPECT_NEAR(ComputeErrors(problem.experiments()[i], fit.models[i]).loop_gain, expected[i],
                 0.0006);
   }
+}
+
+// It was a crash.
+TEST(JointFit, FailsWhereNoStartHasAFiniteCost) {
+  std::vector<Experiment> experiments = R228();
+  TransferPoint point;
+  point.frequency_hz = experiments[0].frequency_hz;
+  point.re = std::numeric_limits<double>::quiet_NaN();
+  point.variance_re = point.variance_im = 1.0;
+  experiments[0].transfer = {point};
+  const JointProblem problem(experiments, DefaultModelSpec(), DefaultResidualSet());
+  const JointFit fit = SolveJoint(problem, {}, 1, 1);
+  EXPECT_FALSE(fit.converged);
+  EXPECT_TRUE(std::isnan(fit.cost));
+  EXPECT_THAT(fit.termination, testing::HasSubstr("not finite at any start"));
+  EXPECT_EQ(fit.models.size(), experiments.size());
+  EXPECT_EQ(fit.residuals.size(), problem.residuals().size());
+  EXPECT_TRUE(std::isnan(JointCost(problem, fit.logs)));
+}
+
+TEST(JointFit, FailsWithoutAResidual) {
+  ResidualSet none = DefaultResidualSet();
+  for (const ResidualKind kind : kResidualKinds) none[kind].enabled = false;
+  const JointProblem problem(R228(), DefaultModelSpec(), none);
+  const JointFit fit = SolveJoint(problem, {}, 1, 1);
+  EXPECT_FALSE(fit.converged);
+  EXPECT_TRUE(std::isnan(fit.cost));
 }
 
 TEST(JointFit, WithoutPriorsOneDirectionAnExperimentIsFree) {

@@ -1,7 +1,10 @@
 // Every mistake gives one line that names the data's file and line.
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <thread>
 
 #include "tests/io/record_files.h"
 
@@ -44,6 +47,47 @@ TEST_F(Errors, TheUnchangedFileIsGood) {
   RecordSpec spec = Spec(Csv());
   spec.sampling_hz.reset();
   EXPECT_EQ(LoadRecord(spec, "rig.yaml", 7).sampling_hz, 1000.0);
+}
+
+// An earlier stage was 8 KiB ahead of the reader.
+TEST_F(Errors, APipeGivesAllItsRows) {
+  const std::filesystem::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::string text = Csv();
+  text.erase(0, text.find('\n') + 1);  // numbered columns
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << text; });
+  const RecordSpec spec{
+      .file = pipe, .pressure = "2", .heat_release = "3", .time = "1", .sampling_hz = 1000.0};
+  const Record record = LoadRecord(spec, "rig.yaml", 7);
+  writer.join();
+  EXPECT_EQ(record.pressure.size(), static_cast<std::size_t>(kSamples));
+  EXPECT_NEAR(record.pressure[1], std::sin(0.7), 1e-6);
+}
+
+// matio fills what is missing with what it finds behind it.
+TEST_F(Errors, MatlabDimensionsOtherThanTheNumbers) {
+  const std::filesystem::path file = folder_ / "a.mat";
+  const RecordSpec spec{.file = file, .heat_release = "q", .sampling_hz = 1000.0};
+  for (const matio_compression packing : {MAT_COMPRESSION_ZLIB, MAT_COMPRESSION_NONE}) {
+    mat_t* mat = Mat_CreateVer(file.c_str(), nullptr, MAT_FT_MAT5);
+    for (const char* const name : {"p", "q"}) {
+      std::vector<double> values(48);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i % 7);
+      AddMatVariable(mat, name, values.size(), 1, values, packing);
+    }
+    Mat_Close(mat);
+    EXPECT_EQ(ErrorOf(spec), "no error");
+  }
+  const std::string bytes = ReadBytes(file);
+  const std::size_t at = bytes.find(std::string("\x30\0\0\0\x01\0\0\0", 8));
+  ASSERT_NE(at, std::string::npos);
+  for (const int rows : {64, 32}) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(rows);
+    folder_.Write("a.mat", damaged);
+    EXPECT_EQ(ErrorOf(spec), "a.mat: p: has 48 numbers, expected " + std::to_string(rows) +
+                                 " x 1 by its dimensions: damaged");
+  }
 }
 
 TEST_F(Errors, NotFinite) {

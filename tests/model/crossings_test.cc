@@ -80,17 +80,17 @@ TEST(Crossings, MarginsAreWhereStabilityChanges) {
   const LoopMargins margins = Margins(model.loop, slope, 2000.0);
   ASSERT_TRUE(margins.stable);
   const double factor = std::pow(10.0, margins.gain_margin_db / 20.0);
-  EXPECT_LT(RightmostPole(model.loop, slope * factor * 0.9999).growth_rate, 0.0);
-  EXPECT_GT(RightmostPole(model.loop, slope * factor * 1.0001).growth_rate, 0.0);
+  EXPECT_LT(RightmostPole(model.loop, slope * factor * 0.9999)->growth_rate, 0.0);
+  EXPECT_GT(RightmostPole(model.loop, slope * factor * 1.0001)->growth_rate, 0.0);
   // Slightly less gain than unstable: the delay that destabilises.
   const double near = 0.999 * factor * slope;
   const LoopMargins close = Margins(model.loop, near, 2000.0);
   ASSERT_TRUE(std::isfinite(close.delay_margin_s));
   LoopParameters<double> loop = model.loop;
   loop.tau_s += 0.999 * close.delay_margin_s;
-  EXPECT_LT(RightmostPole(loop, near).growth_rate, 0.0);
+  EXPECT_LT(RightmostPole(loop, near)->growth_rate, 0.0);
   loop.tau_s += 0.002 * close.delay_margin_s;
-  EXPECT_GT(RightmostPole(loop, near).growth_rate, 0.0);
+  EXPECT_GT(RightmostPole(loop, near)->growth_rate, 0.0);
 }
 
 TEST(Crossings, NyquistCurveIsSmoothAndEndsWhereAsked) {

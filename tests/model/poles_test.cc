@@ -81,6 +81,38 @@ TEST(Poles, NeutralChainTendsToItsLine) {
   EXPECT_NEAR(off(8000.0) / off(4000.0), 1.0, 0.02);
 }
 
+// The search never ended, or found nothing, where the loop hardly feels its flame.
+TEST(Poles, OfAVanishingSlopeAreTheModes) {
+  for (const double m_over_n : {0.0, 0.4}) {
+    for (const double slope : {0.0, -1e-30, -1e-9}) {
+      const ClosedLoop model = SeedLoop(m_over_n);
+      const auto pole = RightmostPole(model.loop, slope);
+      ASSERT_TRUE(pole.has_value()) << slope;
+      // Of s^2 + 2 xi w s + w^2, xi = 0.2 at 215 Hz; the slope moves it by k N = 7e-6 of w.
+      EXPECT_NEAR(pole->growth_rate, -0.2 * kTwoPi * 215.0, 1e-4 * kTwoPi * 215.0) << slope;
+      EXPECT_NEAR(pole->frequency_hz, 215.0 * std::sqrt(1.0 - 0.04), 0.02) << slope;
+    }
+    ClosedLoop slow = SeedLoop(m_over_n);
+    slow.loop.acoustics.xi = 1.25;  // roots at -w / 2 and -2 w
+    const auto pole = RightmostPole(slow.loop, 0.0);
+    ASSERT_TRUE(pole.has_value());
+    EXPECT_NEAR(pole->growth_rate, -0.5 * kTwoPi * 215.0, 1e-9);
+    EXPECT_EQ(pole->frequency_hz, 0.0);
+  }
+}
+
+// As k grows the poles tend to those of k (N + M) e^(-tau s) = 1, s = (ln|k (N + M)| + j pi n) /
+// tau; off it by 2 xi w / (tau s) and the like.
+TEST(Poles, OfALargeSlopeAreTheDelays) {
+  for (const double slope : {-1.0, -1e10, -1e26}) {
+    const ClosedLoop model = SeedLoop(0.4);
+    const auto pole = RightmostPole(model.loop, slope);
+    ASSERT_TRUE(pole.has_value()) << slope;
+    const double growth = std::log(-slope * 6609.0 * 1.4) / model.loop.tau_s;
+    EXPECT_NEAR(pole->growth_rate / growth, 1.0, 0.1) << slope;
+  }
+}
+
 TEST(Floquet, OfALinearFlameAreTheExponentialsOfThePoles) {
   ClosedLoop model = SeedLoop(0.415);
   model.flame.shape = FlameShape::kLinear;

@@ -52,14 +52,14 @@ ClosedLoop Scaled(ClosedLoop model, const Units& u) {
 // The growth rates that were wrong above 2 kHz: of the published loop at every decade.
 TEST(Scaling, GrowthRatesOfALoopAtAnyFrequency) {
   const ClosedLoop model = SeedLoop(0.415);
-  const Pole of_the_paper = RightmostPole(model.loop, model.flame.slope);
+  const Pole of_the_paper = *RightmostPole(model.loop, model.flame.slope);
   const PoleSet all = ClosedLoopPoles(model.loop, model.flame.slope);
   ASSERT_TRUE(all.complete);
   EXPECT_GT(of_the_paper.growth_rate, 0.0);
   for (const double omega_hz : {1.0, 20.0, 215.0, 1990.0, 2010.0, 5000.0, 1e5}) {
     const Units units{omega_hz / 215.0, 1e-6, 1e6};
     const ClosedLoop scaled = Scaled(model, units);
-    const Pole pole = RightmostPole(scaled.loop, scaled.flame.slope);
+    const Pole pole = *RightmostPole(scaled.loop, scaled.flame.slope);
     EXPECT_NEAR(pole.growth_rate / units.a, of_the_paper.growth_rate, 1e-8) << omega_hz;
     EXPECT_NEAR(pole.frequency_hz / units.a, of_the_paper.frequency_hz, 1e-8) << omega_hz;
     const PoleSet set = ClosedLoopPoles(scaled.loop, scaled.flame.slope);

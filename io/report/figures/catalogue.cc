@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "estimation/parallel.h"
+#include "io/report/fault_words.h"
 
 namespace howl {
 namespace {
@@ -48,7 +49,7 @@ std::vector<Figure> AllFigures(const ReportInput& input, int threads,
     try {
       made[i] = kFigures[i].make(input);
     } catch (const std::exception& error) {
-      faults[i] = error.what();
+      faults[i] = FaultWords(error);
     }
   });
   std::vector<Figure> figures;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <random>
 
 namespace howl {
@@ -36,6 +37,23 @@ TEST(FindLines, FalseAlarmsAreRare) {
     alarms += Lines(Noise(8192, 0.5, seed), 0.0).empty() ? 0 : 1;
   }
   EXPECT_LE(alarms, 20);
+}
+
+// A record that repeats itself exactly has a line at every multiple of its repetition, and rounding
+// between them, all of it beyond any floor: each pair of candidates was compared by walking from
+// one to the other, which took the cube of their number.
+TEST(FindLines, ARecordThatRepeatsItselfTakesNoLonger) {
+  const Record once = Noise(2000, 0.9, 3);
+  Record record{5000.0, {}, {}};
+  for (int k = 0; k < 160; ++k) {
+    record.pressure.insert(record.pressure.end(), once.pressure.begin(), once.pressure.end());
+    record.heat_release.insert(record.heat_release.end(), once.heat_release.begin(),
+                               once.heat_release.end());
+  }
+  const std::clock_t start = std::clock();
+  EXPECT_FALSE(Lines(record, 0.0).empty());
+  // A record of as many samples that does not repeat itself takes 0.3 s; this one took 50 s.
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 10.0);
 }
 
 TEST(FindLines, ListsFundamentalHarmonicAndNonHarmonicLine) {

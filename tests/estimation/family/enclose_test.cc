@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 
+#include "estimation/family/bound_text.h"
 #include "estimation/family/enumerate.h"
 #include "estimation/family/inside.h"
 #include "tests/estimation/family/reference.h"
@@ -301,6 +302,35 @@ TEST(EncloseTest, KilledTenTimesAtRandomAndResumedIsTheSame) {
   EXPECT_FALSE(last.IsComplete());
   ASSERT_TRUE(last.Run());
   EXPECT_EQ(Text(last), expected);
+}
+
+// A digit changed in the state gave bounds that no search had found.
+TEST(EncloseTest, DamagedSearchesBeginAnew) {
+  const FamilyProblem problem = Problem(2, 1);
+  const EncloseOptions options{.max_cells = 80, .threads = 1};
+  Enclosure whole(problem, options);
+  ASSERT_TRUE(whole.Run());
+  const std::string expected = Text(whole);
+  std::mt19937 random(5);
+  const std::size_t head = expected.find('\n') + 1;
+  for (int trial = 0; trial < 8; ++trial) {
+    std::string damaged = expected;
+    std::size_t at = 0;
+    do {
+      at = std::uniform_int_distribution<std::size_t>(head, damaged.size() - 1)(random);
+    } while (damaged[at] < '0' || damaged[at] > '9');
+    damaged[at] = damaged[at] == '9' ? '0' : static_cast<char>(damaged[at] + 1);
+    Enclosure again(problem, options);
+    std::istringstream in(damaged);
+    ASSERT_TRUE(again.Load(in)) << at;
+    EXPECT_FALSE(again.IsComplete()) << at;
+    ASSERT_TRUE(again.Run());
+    EXPECT_EQ(Text(again), expected) << at;
+    std::istringstream count(damaged);
+    EXPECT_GE(CountDamagedSearches(count), 1u) << at;
+  }
+  std::istringstream sound(expected);
+  EXPECT_EQ(CountDamagedSearches(sound), 0u);
 }
 
 TEST(EncloseTest, SameWhateverTheThreads) {

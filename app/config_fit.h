@@ -1,0 +1,23 @@
+// A config's joint fit.
+#ifndef HOWL_APP_CONFIG_FIT_H_
+#define HOWL_APP_CONFIG_FIT_H_
+
+#include <vector>
+
+#include "app/options.h"
+#include "estimation/experiment.h"
+#include "estimation/joint_fit.h"
+#include "estimation/joint_problem.h"
+#include "io/config/config.h"
+
+namespace howl {
+
+// The joint fit's problem. Throws UserError when the config leaves no residual to fit.
+JointProblem MakeJointProblem(const Config& config, const std::vector<Experiment>& experiments);
+
+// Throws NegativeAnswer when no start has finite residuals.
+JointFit SolveConfig(const Config& config, const Options& options, const JointProblem& problem);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_CONFIG_FIT_H_

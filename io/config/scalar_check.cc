@@ -1,0 +1,70 @@
+#include "io/config/scalar_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include "io/config/config_text.h"
+#include "io/config/schema_words.h"
+#include "io/number_range.h"
+#include "io/user_error.h"
+
+namespace howl {
+namespace {
+
+// "1e-400" is read as zero, which it is not.
+bool IsTooSmallForADouble(const LocatedNode& node) {
+  if (node.number != 0.0) return false;
+  const std::string_view digits(node.text.data(),
+                                std::min(node.text.find_first_of("eE"), node.text.size()));
+  return digits.find_first_of("123456789") != std::string_view::npos;
+}
+
+void CheckNumber(const std::string& file, const LocatedNode& node, const std::string& key) {
+  if (!std::isfinite(node.number)) return;  // .inf, where the schema takes it
+  if (IsCarried(node.number) && !IsTooSmallForADouble(node)) return;
+  throw UserError(file, node.line, key,
+                  DescribeValue(node) + " is out of range, expected 0 or a number of magnitude " +
+                      kMagnitudeWords);
+}
+
+void CheckText(const std::string& file, int line, const std::string& key, const std::string& text) {
+  const std::size_t at = FindNoText(text);
+  if (at == std::string::npos) return;
+  std::array<char, 8> code{};
+  std::snprintf(code.data(), code.size(), "0x%02x",
+                static_cast<unsigned>(static_cast<unsigned char>(text[at])));
+  throw UserError(file, line, key,
+                  "byte " + std::string(code.data()) + " at character " + std::to_string(at + 1) +
+                      " is not text, expected letters, digits and signs alone");
+}
+
+void Check(const std::string& file, const LocatedNode& node, const std::string& key) {
+  switch (node.kind) {
+    case LocatedNode::Kind::kInteger:
+    case LocatedNode::Kind::kNumber:
+      return CheckNumber(file, node, key);
+    case LocatedNode::Kind::kText:
+      return CheckText(file, node.line, key, node.text);
+    default:
+      break;
+  }
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    Check(file, node.items[i], key + "[" + std::to_string(i) + "]");
+  }
+  for (const LocatedMember& member : node.members) {
+    const std::string inner = JoinKey(key, member.key);
+    CheckText(file, member.key_line, inner, member.key);
+    // Where an effect is absent, which may be as far off as one likes.
+    if (member.key == "null_value") continue;
+    Check(file, member.value, inner);
+  }
+}
+
+}  // namespace
+
+void CheckScalars(const std::string& file, const LocatedNode& root) { Check(file, root, ""); }
+
+}  // namespace howl

@@ -1,0 +1,17 @@
+// What holds for every scalar of a config, whatever its key: numbers lie within the range that the
+// arithmetic carries (io/number_range.h), and texts are text.
+#ifndef HOWL_IO_CONFIG_SCALAR_CHECK_H_
+#define HOWL_IO_CONFIG_SCALAR_CHECK_H_
+
+#include <string>
+
+#include "io/config/located_node.h"
+
+namespace howl {
+
+// Throws UserError for the first scalar or key that breaks this.
+void CheckScalars(const std::string& file, const LocatedNode& root);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_CONFIG_SCALAR_CHECK_H_
