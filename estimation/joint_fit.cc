@@ -156,6 +156,20 @@ void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
   }
 }
 
+// Where model and data miss each other by more than the stated standard deviations, these are too
+// small for what model and data are: all intervals widen by the misfit, as those of a transfer's
+// fit do. What is fitted as well as stated keeps its own.
+void WidenByMisfit(JointFit& fit) {
+  std::size_t residuals = 0;
+  for (const FitResidual& residual : fit.residuals) residuals += residual.values.size();
+  const auto determined = static_cast<std::size_t>(fit.identifiability.rank);
+  if (residuals <= determined) return;
+  const double per_dof = 2.0 * fit.cost / static_cast<double>(residuals - determined);
+  if (!(per_dof > 1.0)) return;
+  fit.identifiability.covariance *= per_dof;
+  for (double& log_std : fit.identifiability.log_std) log_std *= std::sqrt(per_dof);
+}
+
 // The first start that reaches the lowest cost; one that converged beats one that did not. None
 // where no cost is finite: Ceres gives -1 where it could not evaluate its problem at all.
 std::vector<StartResult>::const_iterator BestStart(const std::vector<StartResult>& starts) {
@@ -255,9 +269,10 @@ JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
   fit.logs = best->logs;
   fit.models = problem.Models(fit.logs);
   fit.identifiability = IdentifiabilityAt(problem, fit.logs);
+  DescribeResiduals(problem, fit);
+  WidenByMisfit(fit);
   DescribeParameters(problem, fit);
   RefuseGuardRails(fit);
-  DescribeResiduals(problem, fit);
   return fit;
 }
 

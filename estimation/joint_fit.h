@@ -15,8 +15,11 @@ namespace howl {
 
 struct FitParameter {
   std::string name;
-  double value = 0.0;         // natural units
-  double std_relative = 0.0;  // standard deviation of the logarithm; infinite: not determined
+  double value = 0.0;  // natural units
+  // Standard deviation of the logarithm, widened where the fit misses the data by more than the
+  // stated standard deviations: by the root of chi-square per degree of freedom. Infinite: not
+  // determined.
+  double std_relative = 0.0;
   bool at_bound = false;
   // At a bound that no one set: a default that only keeps the search among numbers. Where a fit
   // ends there, the data drive the parameter out of every model, and it is no fit. A second mode
@@ -44,7 +47,7 @@ struct JointFit {
   std::vector<LoopModel> models;         // one an experiment
   std::vector<FitParameter> parameters;  // of the models: without the unknowns of the transfers
   std::vector<FitResidual> residuals;
-  // Over the parameters that are not fixed, in their order.
+  // Over the parameters that are not fixed, in their order; the covariance is widened as above.
   std::vector<std::string> free_names;
   Identifiability identifiability;
 };

@@ -258,8 +258,15 @@ void JointProblem::AddEqualities(int i, const ResidualSet& residuals) {
                                 residuals[ResidualKind::kLimitCycleGain].std});
   }
   if (ActsOn(residuals, ResidualKind::kLimitCyclePhase, experiment)) {
+    // A cycle that noise drives has the phase of 180 degrees at the frequency that it keeps over
+    // ever, from which that of a record lies off by its standard deviation. G is not asked there:
+    // p = G q holds at whatever frequency the record had.
+    const double tau_s =
+        DelayFromPhase(experiment.frequency_hz, experiment.phase_deg, experiment.delay_periods);
     add_loop(ResidualKind::kLimitCyclePhase,
-             {experiment.frequency_hz, residuals[ResidualKind::kLimitCyclePhase].std}, "");
+             SecondCrossing(experiment.frequency_hz, experiment.frequency_std_hz.value_or(0.0),
+                            tau_s, residuals[ResidualKind::kLimitCyclePhase].std),
+             "");
   }
   if (two_modes && ActsOn(residuals, ResidualKind::kSecondCrossing, experiment)) {
     const double tau_s =

@@ -54,7 +54,7 @@ std::array<double, 3> SmoothedWalkCovariance() {
 struct IncrementBasis {
   Eigen::MatrixXd vectors;
   Eigen::VectorXd walk;
-  Eigen::MatrixXd cosines;                    // the K slowest, one a column
+  Eigen::MatrixXd cosines;                    // the slower half, one a column
   Eigen::VectorXd cosine_noise, cosine_walk;  // variances of their sums by either
 };
 
@@ -77,19 +77,76 @@ std::shared_ptr<const IncrementBasis> BasisFor(int n) {
     }
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(walk_matrix,
                                                                            noise_matrix);
-    const int count = CosineCount(n);
+    const int count = std::max(CosineCount(n), n / 2);
     Eigen::MatrixXd cosines(n, count);
     for (int j = 0; j < count; ++j) {
       for (int t = 0; t < n; ++t) cosines(t, j) = std::cos(kPi * (j + 1) * (t + 0.5) / n);
     }
     const auto variances = [&](const Eigen::MatrixXd& covariance) -> Eigen::VectorXd {
-      return (cosines.transpose() * covariance * cosines).diagonal();
+      return (covariance * cosines).cwiseProduct(cosines).colwise().sum().transpose();
     };
     entry = std::make_shared<IncrementBasis>(
         IncrementBasis{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0), cosines,
                        variances(noise_matrix), variances(walk_matrix)});
   }
   return entry;
+}
+
+// Allan's variance of means over T of a process with the one-sided spectrum S(f) = S_1 (2 T f)^-a,
+// over that of the white one with S_1 = S(1 / 2T) everywhere:
+//
+//   sigma^2(T) = 2 int S(f) sin^4(pi f T) / (pi f T)^2 df      (S_1 / 2T for a = 0)
+double AllanFactor(double a) {
+  constexpr double kTop = 40.0;  // whole periods: beyond, sin^4 is 3/8 on average
+  constexpr int kSteps = 8000;
+  double integral = 3.0 / 8.0 / (kPi * kPi) * std::pow(kTop, -1.0 - a) / (1.0 + a);
+  for (int i = 0; i < kSteps; ++i) {
+    const double u = kTop * (i + 0.5) / kSteps;
+    integral +=
+        std::pow(std::sin(kPi * u), 4) / std::pow(kPi * u, 2) * std::pow(u, -a) * kTop / kSteps;
+  }
+  return 2.0 * 2.0 * integral * std::pow(2.0, -a);
+}
+
+// The variance of the mean increment where the frequency wanders slower than white noise does. What
+// of the increments' spectrum the walk rules is taken to fall as j^-a with the number j of the
+// cosine, a anywhere between 0 and 2 (white, flicker and random-walk noise of the frequency), with
+// probability kNoWander for a = 0, where `stationary` is the variance. Otherwise a mean over the
+// record is no estimate of a mean over ever, which such a process has not; it is one of the mean
+// over another stretch of that length, and Allan's variance is its error.
+double WithWander(double stationary, double walk_variance, int n, const Eigen::ArrayXd& squares,
+                  const Eigen::ArrayXd& noise, const Eigen::ArrayXd& walk) {
+  constexpr double kNoWander = 0.8;
+  constexpr int kFewest = 6;  // cosines, for an exponent
+  constexpr int kExponents = 20;
+  constexpr double kSteepest = 2.0;
+  static const std::array<double, kExponents> allan = [] {
+    std::array<double, kExponents> factors{};
+    for (std::size_t k = 0; k < kExponents; ++k) {
+      factors[k] = AllanFactor(kSteepest * static_cast<double>(k + 1) / kExponents);
+    }
+    return factors;
+  }();
+  int count = 0;
+  while (count < squares.size() && walk(count) > noise(count)) ++count;
+  if (count < kFewest) return stationary;
+  const Eigen::ArrayXd relative = squares.head(count) / (noise + walk).head(count);
+  const Eigen::ArrayXd logs = Eigen::ArrayXd::LinSpaced(count, 1.0, count).log();
+  const auto strength = [&](double a) { return (relative * (a * logs).exp()).mean(); };
+  const auto log_likelihood = [&](double a, double at) {
+    return 0.5 * a * logs.sum() - 0.5 * count * std::log(std::max(at, 1e-300));
+  };
+  const double none = log_likelihood(0.0, strength(0.0));
+  double total = kNoWander;
+  double variance = kNoWander * stationary;
+  for (std::size_t k = 0; k < kExponents; ++k) {
+    const double a = kSteepest * static_cast<double>(k + 1) / kExponents;
+    const double at = strength(a);
+    const double weight = (1.0 - kNoWander) / kExponents * std::exp(log_likelihood(a, at) - none);
+    total += weight;
+    variance += weight * at * walk_variance / n * allan[k];
+  }
+  return variance / total;
 }
 
 }  // namespace
@@ -183,12 +240,14 @@ TrendFit FitTrend(std::span<const double> series) {
   const double variance = std::max(second / total - slope * slope, 0.0);
   fit.walk_variance = walk_sum / total;
   fit.noise_variance = white / total;
-  const Eigen::ArrayXd sums = (basis->cosines.transpose() * increments).array();
-  const Eigen::ArrayXd expected = fit.noise_variance * basis->cosine_noise.array() +
-                                  fit.walk_variance * basis->cosine_walk.array();
-  const double slow_excess = (sums.square() / expected.max(1e-300)).mean();
-  fit.slope = {slope, std::sqrt(variance * slow_excess) *
-                          StudentInflation(static_cast<double>(basis->cosines.cols()))};
+  const Eigen::ArrayXd squares = (basis->cosines.transpose() * increments).array().square();
+  const Eigen::ArrayXd of_noise = fit.noise_variance * basis->cosine_noise.array();
+  const Eigen::ArrayXd of_walk = fit.walk_variance * basis->cosine_walk.array();
+  const int slow = CosineCount(n);
+  const double slow_excess = (squares / (of_noise + of_walk).max(1e-300)).head(slow).mean();
+  fit.slope = {slope, std::sqrt(WithWander(variance * slow_excess, fit.walk_variance, n, squares,
+                                           of_noise, of_walk)) *
+                          StudentInflation(slow)};
 
   const double walk_share = fit.walk_variance / fit.noise_variance;
   const Eigen::VectorXd w = (noise + walk_share * walk).array().inverse();

@@ -50,9 +50,14 @@ MeanError ErrorOfMean(std::span<const double> values, double lag_one_correlation
 // blocks (which correlate neighbours), with the strengths d and r of walk and noise unknown:
 // generalised least squares on the increments, averaged over d / r by its restricted likelihood
 // with probability `kNoWalkPrior` for d = 0. The error is scaled by what the K slowest cosines of
-// the increments hold over what the fit expects of them, with K degrees of freedom: a frequency
-// that wanders slower than a walk's shows there. White noise alone is the phase of a pure tone, a
-// walk that of a diffusing limit cycle; the errors of the slope differ by orders of magnitude.
+// the increments hold over what the fit expects of them, with K degrees of freedom. White noise
+// alone is the phase of a pure tone, a walk that of a diffusing limit cycle; the errors of the
+// slope differ by orders of magnitude.
+//
+// A slope that itself wanders, with increments whose spectrum falls as f^-a (a = 1: flicker, 2: a
+// walk), has no mean, and one stretch says of the next what Allan's variance says (IEEE Std 1139).
+// The error is averaged over a by the likelihood of the increments' cosines, a = 0 having the
+// probability 0.8: of a stationary slope it is larger by a few percent to a quarter.
 inline constexpr double kNoWalkPrior = 0.8;
 struct TrendFit {
   Estimate slope;             // per step

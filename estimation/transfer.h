@@ -6,13 +6,13 @@
 //
 // c: coherence, nu: independent complex averages in the point. Noise of p's own only scatters H;
 // white noise of q's own biases it, and is at most S_n, the least level of what of q is not
-// coherent with p: half of that is taken out, and the doubt adds to the variance along H. |H| / c
-// bounds |H| from above.
+// coherent with p: half of that is taken out, and what it truly is stays one unknown of the record
+// (estimation/transfer_point.h) in whatever is fitted to the points. |H| / c bounds |H| from above.
 //
 // Neither the choice of points nor their weights may look at H itself, or chance that makes H large
 // counts more than chance that makes it small: points are taken where their neighbours are
-// coherent, and the variance is that of what of p is not coherent with q, which does not depend on
-// the H that is found.
+// coherent, and the variance is that of what of p is not coherent with q, about the point, which
+// does not depend on the H that is found.
 //
 // Bins under the main lobe of a strong line are left out (the window keeps the line's leakage 92 dB
 // down elsewhere). Points are means over `bins_per_point` adjacent bins, at the mean frequency that

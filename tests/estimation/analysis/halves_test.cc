@@ -1,12 +1,14 @@
-// What analyse prints of one half of a measured record, and of the other half: the two are
+// What analyse and fit print of one half of a measured record, and of the other half: the two are
 // estimates of the same rig minutes apart at most, and have to agree within their 95 % intervals.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "estimation/analyse.h"
+#include "estimation/joint_fit.h"
 #include "model/units.h"
 #include "tests/estimation/analysis/measured_data.h"
 
@@ -84,11 +86,15 @@ Record Half(const Record& record, int which) {
   return {record.sampling_hz, part(record.pressure), part(record.heat_release)};
 }
 
-Agreement HalvesAgree(const std::vector<NamedRecord>& records) {
-  ModelSpec model;
+ModelSpec TwoModes() {
+  ModelSpec model = DefaultModelSpec();
   model.modes = 2;
+  return model;
+}
+
+std::vector<AnalysisSet> AnalyseHalves(const std::vector<NamedRecord>& records) {
   AnalysisOptions options;
-  options.model = model;
+  options.model = TwoModes();
   std::vector<AnalysisSet> sets;
   for (int which : {0, 1}) {
     std::vector<NamedRecord> half;
@@ -97,6 +103,11 @@ Agreement HalvesAgree(const std::vector<NamedRecord>& records) {
     }
     sets.push_back(AnalyseRecords(half, options));
   }
+  return sets;
+}
+
+Agreement HalvesAgree(const std::vector<NamedRecord>& records) {
+  const std::vector<AnalysisSet> sets = AnalyseHalves(records);
   Agreement agreement;
   for (std::size_t i = 0; i < records.size(); ++i) {
     AddCycle(sets[0].analyses[i], sets[1].analyses[i], &agreement);
@@ -106,23 +117,68 @@ Agreement HalvesAgree(const std::vector<NamedRecord>& records) {
   return agreement;
 }
 
-// Not reached yet: 142 of 158. The test runs behind the label long.
-TEST(Halves, DISABLED_OfTheCombustorsRecordsAgreeWithinTheirIntervals) {
-  const auto folder = testing::DataFolder("HOWL_DATA");
-  if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
+// The experiments that both halves show in a limit cycle, fitted together as `fit` does.
+Agreement FitsOfHalvesAgree(const std::vector<NamedRecord>& records) {
+  const std::vector<AnalysisSet> sets = AnalyseHalves(records);
+  std::vector<Experiment> halves[2];
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    std::optional<Experiment> one = ToExperiment(sets[0].analyses[i]);
+    std::optional<Experiment> other = ToExperiment(sets[1].analyses[i]);
+    if (!one || !other) continue;
+    one->delay_periods = sets[0].delay.branch;
+    other->delay_periods = sets[1].delay.branch;
+    halves[0].push_back(*std::move(one));
+    halves[1].push_back(*std::move(other));
+  }
+  JointFit fits[2];
+  for (int which : {0, 1}) {
+    fits[which] =
+        SolveJoint(JointProblem(halves[which], TwoModes(), DefaultResidualSet()), {}, 1, 1);
+    EXPECT_TRUE(fits[which].converged) << fits[which].termination;
+  }
+  Agreement agreement;
+  EXPECT_EQ(fits[0].parameters.size(), fits[1].parameters.size());
+  for (std::size_t k = 0; k < fits[0].parameters.size(); ++k) {
+    const FitParameter& a = fits[0].parameters[k];
+    const FitParameter& b = fits[1].parameters[k];
+    EXPECT_EQ(a.name, b.name);
+    if (a.fixed) continue;
+    agreement.Add(a.name, {std::log(a.value), a.std_relative}, {std::log(b.value), b.std_relative});
+  }
+  return agreement;
+}
+
+std::vector<NamedRecord> CombustorRecords(const std::string& folder) {
   std::vector<NamedRecord> records;
   for (const int point : {1, 5, 8, 9, 11, 12, 14, 15, 17, 19, 21, 22, 24}) {
     records.push_back(
-        {"p" + std::to_string(point), 1.0 * point, testing::CombustorRecord(*folder, point)});
+        {"p" + std::to_string(point), 1.0 * point, testing::CombustorRecord(folder, point)});
   }
-  const Agreement agreement = HalvesAgree(records);
+  return records;
+}
+
+// Not reached yet: 34 of 47. Each half takes another line for the second crossing, and no model
+// fits these: without the residuals second_crossing and second_crossing_gain 42 agree. The test
+// runs behind the label long.
+TEST(Halves, DISABLED_FitsOfTheCombustorsRecordsAgreeWithinTheirIntervals) {
+  const auto folder = testing::DataFolder("HOWL_DATA");
+  if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
+  const Agreement agreement = FitsOfHalvesAgree(CombustorRecords(*folder));
+  EXPECT_GT(agreement.count, 30);
+  EXPECT_GE(agreement.within, 0.9 * agreement.count)
+      << "of " << agreement.count << "; beyond:" << agreement.beyond;
+}
+
+TEST(Halves, OfTheCombustorsRecordsAgreeWithinTheirIntervals) {
+  const auto folder = testing::DataFolder("HOWL_DATA");
+  if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
+  const Agreement agreement = HalvesAgree(CombustorRecords(*folder));
   EXPECT_GT(agreement.count, 120);
   EXPECT_GE(agreement.within, 0.9 * agreement.count)
       << "of " << agreement.count << "; beyond:" << agreement.beyond;
 }
 
-// Not reached yet: 18 of 23.
-TEST(Halves, DISABLED_OfTheRijkeTubesSteadyRecordsAgreeWithinTheirIntervals) {
+TEST(Halves, OfTheRijkeTubesSteadyRecordsAgreeWithinTheirIntervals) {
   const auto folder = testing::DataFolder("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   std::vector<NamedRecord> records;
