@@ -139,7 +139,7 @@ using Places = std::vector<Eigen::Vector2d>;  // log omega, log xi
 
 void AddPlaces(double cycle_hz, Places* places) {
   constexpr std::array kOmega = {0.78, 0.85, 0.92, 0.96, 1.0, 1.05};
-  constexpr std::array kXi = {0.05, 0.1, 0.17, 0.28};
+  constexpr std::array kXi = {0.02, 0.05, 0.1, 0.17, 0.28};
   for (const double omega : kOmega) {
     for (const double xi : kXi) places->emplace_back(std::log(omega * cycle_hz), std::log(xi));
   }

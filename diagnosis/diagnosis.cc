@@ -8,7 +8,6 @@
 
 #include "diagnosis/advice.h"
 #include "diagnosis/calibration.h"
-#include "diagnosis/choose_modes.h"
 #include "diagnosis/gap_map.h"
 #include "diagnosis/localise/localise.h"
 #include "diagnosis/pair.h"
@@ -32,24 +31,6 @@ bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
          after.acoustic_excess + after.flame_excess > kSlackOfASecond * LeastCompeting(first);
 }
 
-// They show in cut B alone.
-bool DelaysDiffer(double own_delays_gain) { return own_delays_gain > DetectionGain(true); }
-
-// A second search of one run keeps its fits under names of its own.
-class SecondMemory final : public FitMemory {
- public:
-  explicit SecondMemory(FitMemory* first) : first_(first) {}
-  std::optional<std::string> Recall(const std::string& key) override {
-    return first_->Recall("own_delays." + key);
-  }
-  void Keep(const std::string& key, const std::string& bytes) override {
-    first_->Keep("own_delays." + key, bytes);
-  }
-
- private:
-  FitMemory* first_;
-};
-
 bool Better(const Attempt& a, const Attempt& b) {
   return a.seen != b.seen ? a.seen : a.candidate.gain > b.candidate.gain;
 }
@@ -58,6 +39,15 @@ bool Better(const Attempt& a, const Attempt& b) {
 
 Diagnosis Search::Run() {
   TryAll();
+  double own_delays_gain = std::numeric_limits<double>::quiet_NaN();
+  if (options_.choose_delays && !reference_ && !Stopped()) {
+    own_delays_gain = OwnDelaysGain();
+    if (DelaysDiffer(own_delays_gain)) {
+      Diagnosis differ;
+      differ.own_delays_gain = own_delays_gain;
+      return differ;
+    }
+  }
   if (options_.bootstrap > 0 && !Stopped()) Bootstrap();
   if (Stopped()) {
     Diagnosis unfinished;
@@ -67,15 +57,6 @@ Diagnosis Search::Run() {
   MeasureGaps();
   std::stable_sort(attempts_.begin(), attempts_.end(), Better);
   if (!attempts_.empty() && attempts_[0].refilled) records_ = *attempts_[0].refilled;
-  double own_delays_gain = std::numeric_limits<double>::quiet_NaN();
-  if (options_.choose_delays && !reference_) {
-    own_delays_gain = OwnDelaysGain();
-    if (DelaysDiffer(own_delays_gain)) {
-      Diagnosis differ;
-      differ.own_delays_gain = own_delays_gain;
-      return differ;
-    }
-  }
   gain_of_noise_ = GainOfNoiseForTheBest();
   Judgement at = Judge();
   Diagnosis out = Conclude(at.evidence, at.belief);
@@ -176,17 +157,6 @@ std::vector<Candidate> Search::Candidates() const {
   return out;
 }
 
-double Search::OwnDelaysGain() const {
-  std::vector<CutRecord> records = records_;
-  for (CutRecord& record : records) record.model.own_delays = true;
-  const EffectFit base = FitBase(records);
-  if (!attempts_.empty() && ShowsInFlame(attempts_[0]) && attempts_[0].candidate.gain > 0.0) {
-    const EffectFit& best = *attempts_[0].fit;
-    return best.cost() - Settle(records, base, best).cost();
-  }
-  return base_.cost() - base.cost();
-}
-
 bool Search::Detected() const {
   const Attempt& top = attempts_[0];
   return top.candidate.gain > DetectionGain(ShowsInFlameAlone(top));
@@ -233,30 +203,6 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
       out.indistinguishable.push_back(attempts_[i].candidate.effect);
     }
   }
-  return out;
-}
-
-Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
-                   const DiagnosisOptions& options) {
-  DiagnosisOptions chosen = options;
-  double second_mode_gain = std::numeric_limits<double>::quiet_NaN();
-  if (options.choose_modes) {
-    const ModesChoice choice = ChooseModes(experiments, options.model);
-    chosen.model.modes = choice.modes;
-    second_mode_gain = choice.second_mode_gain;
-  }
-  if (options.choose_delays) chosen.model.own_delays = false;
-  Diagnosis out = Search(experiments, chosen).Run();
-  const double own_delays_gain = out.own_delays_gain;
-  if (DelaysDiffer(own_delays_gain)) {
-    SecondMemory memory(options.memory);
-    if (options.memory) chosen.memory = &memory;
-    chosen.choose_delays = false;
-    chosen.model.own_delays = true;
-    out = Search(experiments, chosen).Run();
-    out.own_delays_gain = own_delays_gain;
-  }
-  out.second_mode_gain = second_mode_gain;
   return out;
 }
 

@@ -1,6 +1,6 @@
 // One diagnosis, from records to verdict: fit the base, try every effect, measure the gaps, weigh,
 // conclude. Inner workings of diagnosis.h: search.cc fits, search_repair.cc takes saturation out of
-// p first, search_evidence.cc measures, diagnosis.cc concludes.
+// p first, search_evidence.cc measures, diagnosis.cc concludes; diagnose.cc chooses the base.
 #ifndef HOWL_DIAGNOSIS_SEARCH_H_
 #define HOWL_DIAGNOSIS_SEARCH_H_
 
@@ -28,6 +28,9 @@ struct PressureRepair {
   std::vector<ExperimentFit> recorded_held_out;
   std::vector<DiagnosisExperiment> experiments;  // repaired
 };
+
+// Own delays show in cut B alone.
+bool DelaysDiffer(double own_delays_gain);
 
 class Search {
  public:

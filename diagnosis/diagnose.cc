@@ -1,0 +1,70 @@
+// One diagnosis beside the base that the model states, or that the records choose.
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/choose_modes.h"
+#include "diagnosis/search.h"
+
+namespace howl {
+namespace {
+
+// A second search of one run keeps its fits under names of its own.
+class SecondMemory final : public FitMemory {
+ public:
+  explicit SecondMemory(FitMemory* first) : first_(first) {}
+  std::optional<std::string> Recall(const std::string& key) override {
+    return first_->Recall("own_delays." + key);
+  }
+  void Keep(const std::string& key, const std::string& bytes) override {
+    first_->Keep("own_delays." + key, bytes);
+  }
+
+ private:
+  FitMemory* first_;
+};
+
+}  // namespace
+
+bool DelaysDiffer(double own_delays_gain) { return own_delays_gain > DetectionGain(true); }
+
+double Search::OwnDelaysGain() const {
+  std::vector<CutRecord> records = records_;
+  for (CutRecord& record : records) record.model.own_delays = true;
+  const EffectFit base = FitBase(records);
+  const auto best = std::ranges::max_element(
+      attempts_, {}, [](const Attempt& attempt) { return attempt.candidate.gain; });
+  if (best == attempts_.end() || best->candidate.gain <= 0.0 || !ShowsInFlame(*best) ||
+      !best->repaired.empty() || best->refilled) {
+    return base_.cost() - base.cost();
+  }
+  return best->fit->cost() - Settle(records, base, *best->fit).cost();
+}
+
+Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
+                   const DiagnosisOptions& options) {
+  DiagnosisOptions chosen = options;
+  double second_mode_gain = std::numeric_limits<double>::quiet_NaN();
+  if (options.choose_modes) {
+    const ModesChoice choice = ChooseModes(experiments, options.model);
+    chosen.model.modes = choice.modes;
+    second_mode_gain = choice.second_mode_gain;
+  }
+  if (options.choose_delays) chosen.model.own_delays = false;
+  Diagnosis out = Search(experiments, chosen).Run();
+  const double own_delays_gain = out.own_delays_gain;
+  if (DelaysDiffer(own_delays_gain)) {
+    SecondMemory memory(options.memory);
+    if (options.memory) chosen.memory = &memory;
+    chosen.choose_delays = false;
+    chosen.model.own_delays = true;
+    out = Search(experiments, chosen).Run();
+    out.own_delays_gain = own_delays_gain;
+  }
+  out.second_mode_gain = second_mode_gain;
+  return out;
+}
+
+}  // namespace howl
