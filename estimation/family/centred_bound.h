@@ -13,7 +13,8 @@
 
 namespace howl {
 
-// Two modes. Narrows nothing where a variable has no end. Needs a RoundingGuard.
+// Two modes. Narrows nothing where a variable has no end, nor without a line where a transfer is
+// asked for, of which ContractSlabs does as much. Needs a RoundingGuard.
 bool ContractCentred(const ContractTarget& target, ExperimentBox& box);
 
 }  // namespace howl
