@@ -120,8 +120,8 @@ double Loader::CheckTime(std::span<const double> time, std::size_t first, double
   const double rate_hz = SamplingRateHz(time, resolution) * (1.0 / unit_s);
   if (!IsCarried(rate_hz)) {
     FailData(first, *spec_.time,
-             "a sampling rate of " + NumberText(rate_hz, 6) +
-                 " Hz is out of range, expected one " + kMagnitudeWords);
+             "a sampling rate of " + NumberText(rate_hz, 6) + " Hz is out of range, expected one " +
+                 kMagnitudeWords);
   }
   if (!spec_.sampling_hz) return rate_hz;
   const double span = time.back() - time.front();
