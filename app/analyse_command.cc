@@ -8,7 +8,7 @@
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "app/vanishing_text.h"
-#include "estimation/half_width.h"
+#include "estimation/analysis/half_width.h"
 #include "io/results/analysis_files.h"
 #include "io/results/health_json.h"
 #include "io/user_error.h"

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "app/interruption.h"
-#include "estimation/family/bound_text.h"
+#include "estimation/family/bounds/bound_text.h"
 #include "estimation/unit_seed.h"
 #include "io/whole_file.h"
 #include "model/version.h"

@@ -5,7 +5,7 @@
 #define HOWL_APP_BOUNDS_RUN_H_
 
 #include "app/options.h"
-#include "estimation/family/enclose.h"
+#include "estimation/family/bounds/enclose.h"
 #include "io/config/config.h"
 
 namespace howl {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "app/options.h"
-#include "estimation/experiment.h"
-#include "estimation/joint_fit.h"
-#include "estimation/joint_problem.h"
+#include "estimation/analysis/experiment.h"
+#include "estimation/fit/joint_fit.h"
+#include "estimation/fit/joint_problem.h"
 #include "io/config/config.h"
 
 namespace howl {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "estimation/family/advise.h"
+#include "estimation/family/answers/advise.h"
 #include "io/config/simulation_spec.h"
 #include "io/results/family_json.h"
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "app/options.h"
-#include "estimation/family/conflict.h"
-#include "estimation/family/enclose.h"
-#include "estimation/family/enumerate.h"
-#include "estimation/family/predict.h"
-#include "estimation/family/sample.h"
-#include "estimation/family/tradeoff.h"
+#include "estimation/family/answers/conflict.h"
+#include "estimation/family/answers/predict.h"
+#include "estimation/family/answers/tradeoff.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/members/enumerate.h"
+#include "estimation/family/members/sample.h"
 #include "io/config/config.h"
 #include "io/results/family_json.h"
 

@@ -8,7 +8,7 @@
 
 #include "app/conflict_text.h"
 #include "app/text_table.h"
-#include "estimation/half_width.h"
+#include "estimation/analysis/half_width.h"
 
 namespace howl {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <string>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 
 namespace howl {
 
-// One wrapped line for each reason (estimation/loop_gain_reason.h) with the experiments that it
-// holds for; empty where there is none.
+// One wrapped line for each reason (estimation/analysis/loop_gain_reason.h) with the experiments
+// that it holds for; empty where there is none.
 std::string LowLoopGainText(const AnalysisSet& set);
 
 }  // namespace howl

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/options.h"
-#include "estimation/analyse.h"
-#include "estimation/experiment.h"
-#include "estimation/family/problem.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/analysis/experiment.h"
+#include "estimation/family/problem/problem.h"
 #include "io/config/config.h"
 
 namespace howl {

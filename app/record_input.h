@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/options.h"
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "estimation/health/analysis_health.h"
 #include "io/config/config.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "app/text_table.h"
-#include "estimation/loop_crossings.h"
+#include "estimation/fit/loop_crossings.h"
 
 namespace howl {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "estimation/joint_fit.h"
-#include "estimation/mode_branch.h"
+#include "estimation/fit/joint_fit.h"
+#include "estimation/fit/mode_branch.h"
 
 namespace howl {
 

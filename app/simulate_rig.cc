@@ -9,7 +9,7 @@
 
 #include "app/simulate_start.h"
 #include "app/text_table.h"
-#include "estimation/spectrum.h"
+#include "estimation/analysis/spectrum.h"
 #include "io/user_error.h"
 
 namespace howl {

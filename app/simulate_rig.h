@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "estimation/experiment.h"
-#include "estimation/flame_shape.h"
+#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/flame_shape.h"
 #include "estimation/parameters.h"
 #include "io/config/config.h"
 #include "model/harmonic_balance.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "estimation/experiment.h"
+#include "estimation/analysis/experiment.h"
 #include "io/config/config.h"
 #include "model/harmonic_balance.h"
 

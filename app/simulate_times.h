@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "estimation/experiment.h"
+#include "estimation/analysis/experiment.h"
 #include "io/config/config.h"
 #include "model/simulate.h"
 

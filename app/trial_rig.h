@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/options.h"
-#include "diagnosis/trial/case_plan.h"
-#include "estimation/experiment.h"
+#include "estimation/analysis/experiment.h"
 #include "io/config/config.h"
+#include "trial/case_plan.h"
 
 namespace howl {
 

@@ -9,7 +9,7 @@
 
 #include "app/trial_folder.h"
 #include "app/trial_rig.h"
-#include "diagnosis/trial/score.h"
+#include "trial/score.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "estimation/vanishing_phi.h"
+#include "estimation/analysis/vanishing_phi.h"
 
 namespace howl {
 

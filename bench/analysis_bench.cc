@@ -2,7 +2,7 @@
 // 5000 Hz, on one core; characteristics, lines, delay, flame curve, transfer and its fit.
 #include <benchmark/benchmark.h>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 
 namespace howl {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "bench/null_rig.h"
-#include "diagnosis/trial/tally.h"
 #include "estimation/parallel.h"
 #include "model/effects/catalogue.h"
+#include "trial/tally.h"
 
 int main(int argc, char** argv) {
   using namespace howl;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/null_rig.h"
-#include "diagnosis/trial/tally.h"
 #include "estimation/parallel.h"
+#include "trial/tally.h"
 
 int main(int argc, char** argv) {
   using namespace howl;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "estimation/family/enclose.h"
-#include "estimation/family/enumerate.h"
-#include "estimation/family/sample.h"
-#include "estimation/family/tradeoff.h"
+#include "estimation/family/answers/tradeoff.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/members/enumerate.h"
+#include "estimation/family/members/sample.h"
 #include "tests/r228.h"
 
 namespace howl {

@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 #include <ceres/crs_matrix.h>
 
-#include "estimation/joint_fit.h"
+#include "estimation/fit/joint_fit.h"
 #include "tests/r228.h"
 
 namespace howl {

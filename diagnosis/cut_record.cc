@@ -10,7 +10,7 @@
 
 #include "diagnosis/real_fft.h"
 #include "diagnosis/sensor_noise.h"
-#include "estimation/statistics.h"
+#include "estimation/analysis/statistics.h"
 
 namespace howl {
 namespace {

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "diagnosis/base_model.h"
-#include "estimation/record.h"
+#include "estimation/analysis/record.h"
 #include "model/effects/effect.h"
 
 namespace howl {

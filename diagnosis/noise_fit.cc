@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/cut_record.h"
-#include "estimation/statistics.h"
+#include "estimation/analysis/statistics.h"
 
 namespace howl {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "estimation/statistics.h"
+#include "estimation/analysis/statistics.h"
 
 namespace howl {
 namespace {

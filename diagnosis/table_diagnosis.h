@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "estimation/experiment.h"
-#include "estimation/statistics.h"
+#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/statistics.h"
 #include "model/acoustics.h"
 
 namespace howl {

@@ -1,5 +1,6 @@
-// The dynamic range that the arithmetic carries. Every number of a config is zero or has a magnitude
-// within it; a record's signal moves by no less than its lower end, and no sample exceeds its upper.
+// The dynamic range that the arithmetic carries. Every number of a config is zero or has a
+// magnitude within it; a record's signal moves by no less than its lower end, and no sample exceeds
+// its upper.
 //
 // A double holds magnitudes from 1e-308 to 1e308. The estimators go up to the sixth power of a
 // sample (the envelope's statistics) and the searches 1e9 to either side of a product of two

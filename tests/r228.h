@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "estimation/experiment.h"
+#include "estimation/analysis/experiment.h"
 
 namespace howl {
 

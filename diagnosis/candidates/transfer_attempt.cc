@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "diagnosis/candidates/attempt.h"
-#include "estimation/half_width.h"
+#include "estimation/analysis/half_width.h"
 
 namespace howl {
 namespace {

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "estimation/health/finding.h"
 
 namespace howl {

@@ -8,8 +8,8 @@
 #ifndef HOWL_ESTIMATION_HEALTH_FIT_HEALTH_H_
 #define HOWL_ESTIMATION_HEALTH_FIT_HEALTH_H_
 
+#include "estimation/fit/joint_fit.h"
 #include "estimation/health/finding.h"
-#include "estimation/joint_fit.h"
 
 namespace howl {
 

@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
+#include "estimation/fit/joint_fit.h"
 #include "estimation/health/finding.h"
-#include "estimation/joint_fit.h"
 
 namespace howl {
 

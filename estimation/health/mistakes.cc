@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
+#include "estimation/analysis/statistics.h"
 #include "estimation/health/number_words.h"
-#include "estimation/statistics.h"
 #include "model/units.h"
 
 namespace howl {

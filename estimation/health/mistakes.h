@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/experiment.h"
+#include "estimation/analysis/experiment.h"
 
 namespace howl {
 

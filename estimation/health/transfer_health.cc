@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "estimation/analysis/transfer_search.h"
 #include "estimation/health/analysis_health.h"
 #include "estimation/health/mistake_search.h"
 #include "estimation/health/number_words.h"
 #include "estimation/parallel.h"
-#include "estimation/transfer_search.h"
 
 namespace howl {
 namespace {

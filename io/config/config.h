@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis_spec.h"
-#include "estimation/experiment.h"
-#include "estimation/family/family_spec.h"
+#include "estimation/analysis/analysis_spec.h"
+#include "estimation/analysis/experiment.h"
+#include "estimation/family/problem/family_spec.h"
+#include "estimation/fit/solver_spec.h"
 #include "estimation/parameters.h"
 #include "estimation/residual_spec.h"
-#include "estimation/solver_spec.h"
 #include "io/config/located_node.h"
 #include "io/config/simulation_spec.h"
 #include "io/record_spec.h"

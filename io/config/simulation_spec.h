@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "estimation/experiment.h"
+#include "estimation/analysis/experiment.h"
 #include "model/effects/effect.h"
 #include "model/flame.h"
 #include "model/sweep.h"

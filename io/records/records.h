@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "estimation/record.h"
+#include "estimation/analysis/record.h"
 #include "io/record_spec.h"
 
 namespace howl {

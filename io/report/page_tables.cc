@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <vector>
 
-#include "diagnosis/trial/power.h"
-#include "estimation/half_width.h"
+#include "estimation/analysis/half_width.h"
 #include "io/report/figures/curves.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
 #include "io/report/spelled_interval.h"
 #include "io/results/verdict_remarks.h"
+#include "trial/power.h"
 
 namespace howl {
 namespace {

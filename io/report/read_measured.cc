@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "estimation/delay.h"
+#include "estimation/analysis/delay.h"
 
 namespace howl {
 namespace {

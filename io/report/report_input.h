@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analyse.h"
-#include "estimation/family/tradeoff.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/family/answers/tradeoff.h"
 #include "estimation/parameters.h"
 #include "io/config/config.h"
 #include "io/report/csv_table.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "estimation/statistics.h"
+#include "estimation/analysis/statistics.h"
 
 namespace howl {
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 
 namespace howl {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "estimation/family/conflict.h"
+#include "estimation/family/answers/conflict.h"
 
 namespace howl {
 

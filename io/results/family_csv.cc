@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "estimation/family/membership.h"
+#include "estimation/family/problem/membership.h"
 #include "io/results/csv_writer.h"
 #include "io/user_error.h"
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "estimation/experiment.h"
+#include "estimation/analysis/experiment.h"
 #include "estimation/parameters.h"
 
 namespace howl {

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "estimation/family/advise.h"
-#include "estimation/family/conflict.h"
-#include "estimation/family/enclose.h"
-#include "estimation/family/family_profile.h"
-#include "estimation/family/predict.h"
-#include "estimation/family/sample.h"
-#include "estimation/family/tradeoff.h"
-#include "estimation/family/transfer_volume.h"
+#include "estimation/family/answers/advise.h"
+#include "estimation/family/answers/conflict.h"
+#include "estimation/family/answers/family_profile.h"
+#include "estimation/family/answers/predict.h"
+#include "estimation/family/answers/tradeoff.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/members/sample.h"
+#include "estimation/family/members/transfer_volume.h"
 
 namespace howl {
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "estimation/family/family_parameter.h"
+#include "estimation/family/problem/family_parameter.h"
 #include "io/results/solution_json.h"
 
 namespace howl {

@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "estimation/family/problem.h"
+#include "estimation/family/problem/problem.h"
 
 namespace howl {
 

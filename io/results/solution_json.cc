@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "estimation/family/membership.h"
-#include "estimation/loop_crossings.h"
+#include "estimation/family/problem/membership.h"
+#include "estimation/fit/loop_crossings.h"
 
 namespace howl {
 namespace {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "estimation/joint_fit.h"
-#include "estimation/mode_branch.h"
-#include "estimation/vanishing_phi.h"
+#include "estimation/analysis/vanishing_phi.h"
+#include "estimation/fit/joint_fit.h"
+#include "estimation/fit/mode_branch.h"
 
 namespace howl {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "diagnosis/trial/score.h"
+#include "trial/score.h"
 
 namespace howl {
 

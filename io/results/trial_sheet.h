@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "diagnosis/trial/score.h"
+#include "trial/score.h"
 
 namespace howl {
 

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "estimation/analyse.h"
-#include "estimation/family/membership.h"
-#include "estimation/joint_fit.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/family/problem/membership.h"
+#include "estimation/fit/joint_fit.h"
 #include "model/cycle_scale.h"
 #include "model/harmonic_balance.h"
 #include "model/random_stream.h"

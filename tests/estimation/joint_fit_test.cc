@@ -1,4 +1,4 @@
-#include "estimation/joint_fit.h"
+#include "estimation/fit/joint_fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "estimation/closed_form.h"
-#include "estimation/family/membership.h"
+#include "estimation/analysis/closed_form.h"
+#include "estimation/family/problem/membership.h"
 #include "tests/r228.h"
 
 namespace howl {

@@ -1,12 +1,12 @@
 // Two modes on the published experiments: which branch the fit is on, and what the other costs.
-#include "estimation/mode_branch.h"
+#include "estimation/fit/mode_branch.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 
-#include "estimation/loop_crossings.h"
+#include "estimation/fit/loop_crossings.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

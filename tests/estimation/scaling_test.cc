@@ -5,12 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include "estimation/analyse.h"
-#include "estimation/family/enclose.h"
-#include "estimation/family/enumerate.h"
-#include "estimation/family/sample.h"
-#include "estimation/family/tradeoff.h"
-#include "estimation/joint_fit.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/family/answers/tradeoff.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/members/enumerate.h"
+#include "estimation/family/members/sample.h"
+#include "estimation/fit/joint_fit.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 #include "tests/r228.h"
 

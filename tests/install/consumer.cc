@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "estimation/joint_fit.h"
+#include "estimation/fit/joint_fit.h"
 
 int main() {
   howl::Experiment experiment;

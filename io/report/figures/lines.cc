@@ -2,7 +2,7 @@
 // the model's loop closes a second time.
 #include <cmath>
 
-#include "estimation/half_width.h"
+#include "estimation/analysis/half_width.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"

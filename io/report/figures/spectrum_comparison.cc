@@ -2,7 +2,7 @@
 // record, the simulated one stands beside the measured frequencies.
 #include <cmath>
 
-#include "estimation/spectrum.h"
+#include "estimation/analysis/spectrum.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"

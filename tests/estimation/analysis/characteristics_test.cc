@@ -1,4 +1,4 @@
-#include "estimation/characteristics.h"
+#include "estimation/analysis/characteristics.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "model/units.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 

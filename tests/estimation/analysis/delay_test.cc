@@ -1,4 +1,4 @@
-#include "estimation/delay.h"
+#include "estimation/analysis/delay.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "estimation/flame_curve.h"
-#include "estimation/vanishing_phi.h"
+#include "estimation/analysis/flame_curve.h"
+#include "estimation/analysis/vanishing_phi.h"
 
 namespace howl {
 namespace {

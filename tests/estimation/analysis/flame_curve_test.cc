@@ -1,11 +1,11 @@
-#include "estimation/flame_curve.h"
+#include "estimation/analysis/flame_curve.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "model/harmonic_balance.h"
 #include "model/simulate.h"
 

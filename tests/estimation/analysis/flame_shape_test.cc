@@ -1,4 +1,4 @@
-#include "estimation/flame_shape.h"
+#include "estimation/analysis/flame_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "estimation/residuals/flame_bin_residual.h"
 #include "model/harmonic_balance.h"
 #include "model/simulate.h"

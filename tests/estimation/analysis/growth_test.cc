@@ -1,4 +1,4 @@
-#include "estimation/growth.h"
+#include "estimation/analysis/growth.h"
 
 #include <gtest/gtest.h>
 

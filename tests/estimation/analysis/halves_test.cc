@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analyse.h"
-#include "estimation/joint_fit.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/fit/joint_fit.h"
 #include "model/units.h"
 #include "tests/estimation/analysis/measured_data.h"
 

@@ -1,4 +1,4 @@
-#include "estimation/lines.h"
+#include "estimation/analysis/lines.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "model/harmonic_balance.h"
 #include "model/simulate.h"
 #include "model/units.h"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/record.h"
+#include "estimation/analysis/record.h"
 
 namespace howl::testing {
 

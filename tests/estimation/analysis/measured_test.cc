@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "tests/estimation/analysis/measured_data.h"
 
 namespace howl {

@@ -1,4 +1,4 @@
-#include "estimation/spectrum.h"
+#include "estimation/analysis/spectrum.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "estimation/statistics.h"
+#include "estimation/analysis/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "estimation/spectrum.h"
+#include "estimation/analysis/spectrum.h"
 
 namespace howl {
 namespace {

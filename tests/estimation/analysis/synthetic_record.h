@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "estimation/record.h"
+#include "estimation/analysis/record.h"
 
 namespace howl::testing {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "estimation/analyse.h"
+#include "estimation/analysis/analyse.h"
 #include "model/units.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 

@@ -1,4 +1,4 @@
-#include "estimation/transfer.h"
+#include "estimation/analysis/transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "estimation/analyse.h"
-#include "estimation/family/membership.h"
-#include "estimation/transfer_ellipsoid.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/analysis/transfer_ellipsoid.h"
+#include "estimation/family/problem/membership.h"
 #include "tests/estimation/analysis/measured_data.h"
 
 namespace howl {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/family/carrying_mode_bound.h"
-#include "estimation/family/enumerate.h"
+#include "estimation/family/bounds/carrying_mode_bound.h"
+#include "estimation/family/members/enumerate.h"
 #include "tests/r228.h"
 
 namespace howl {

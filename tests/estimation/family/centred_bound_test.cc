@@ -1,6 +1,6 @@
 // The contraction by the limit cycle's response and the loop at a line, against models drawn by the
 // independent reference: none is lost, and what is left of a box is not much more than they fill.
-#include "estimation/family/centred_bound.h"
+#include "estimation/family/bounds/centred_bound.h"
 
 #include <gtest/gtest.h>
 

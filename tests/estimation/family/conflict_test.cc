@@ -1,4 +1,4 @@
-#include "estimation/family/conflict.h"
+#include "estimation/family/answers/conflict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "estimation/family/enumerate.h"
-#include "estimation/family/feasible.h"
+#include "estimation/family/bounds/feasible.h"
+#include "estimation/family/members/enumerate.h"
 #include "tests/r228.h"
 
 namespace howl {

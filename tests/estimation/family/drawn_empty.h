@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "estimation/family/problem.h"
+#include "estimation/family/problem/problem.h"
 #include "tests/estimation/family/reference.h"
 
 namespace howl::reference {

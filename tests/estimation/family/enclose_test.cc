@@ -1,4 +1,4 @@
-#include "estimation/family/enclose.h"
+#include "estimation/family/bounds/enclose.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <random>
 #include <sstream>
 
-#include "estimation/family/bound_text.h"
-#include "estimation/family/enumerate.h"
-#include "estimation/family/inside.h"
+#include "estimation/family/bounds/bound_text.h"
+#include "estimation/family/bounds/inside.h"
+#include "estimation/family/members/enumerate.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -1,12 +1,12 @@
-#include "estimation/family/enumerate.h"
+#include "estimation/family/members/enumerate.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/closed_form.h"
-#include "estimation/family/two_mode_solve.h"
+#include "estimation/analysis/closed_form.h"
+#include "estimation/fit/two_mode_solve.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -1,12 +1,12 @@
-#include "estimation/family/expression.h"
+#include "estimation/family/bounds/expression.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "estimation/family/enclose.h"
-#include "estimation/family/enumerate.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/members/enumerate.h"
 #include "tests/r228.h"
 
 namespace howl {

@@ -1,4 +1,4 @@
-#include "estimation/family/interval.h"
+#include "estimation/family/bounds/interval.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "estimation/family/contract.h"
+#include "estimation/family/bounds/contract.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

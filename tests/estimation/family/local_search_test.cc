@@ -1,14 +1,14 @@
 // Local searches and the profiles made of them, against closed forms of one experiment with one
 // mode.
-#include "estimation/family/local_search.h"
+#include "estimation/family/local/local_search.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "estimation/family/enclose.h"
-#include "estimation/family/enumerate.h"
-#include "estimation/family/family_profile.h"
+#include "estimation/family/answers/family_profile.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/members/enumerate.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -1,11 +1,11 @@
-#include "estimation/family/predict.h"
+#include "estimation/family/answers/predict.h"
 
 #include <gtest/gtest.h>
 
-#include "estimation/closed_form.h"
-#include "estimation/family/advise.h"
-#include "estimation/family/enumerate.h"
-#include "estimation/family/sample.h"
+#include "estimation/analysis/closed_form.h"
+#include "estimation/family/answers/advise.h"
+#include "estimation/family/members/enumerate.h"
+#include "estimation/family/members/sample.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

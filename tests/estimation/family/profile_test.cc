@@ -1,4 +1,4 @@
-#include "estimation/family/profile.h"
+#include "estimation/family/answers/profile.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "estimation/analyse.h"
-#include "estimation/closed_form.h"
-#include "estimation/family/enclose.h"
-#include "estimation/family/feasible.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/analysis/closed_form.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/bounds/feasible.h"
 #include "estimation/unit_seed.h"
 #include "model/floquet.h"
 #include "model/harmonic_balance.h"

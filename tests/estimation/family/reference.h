@@ -7,8 +7,8 @@
 #include <complex>
 #include <vector>
 
-#include "estimation/experiment.h"
-#include "estimation/family/membership.h"
+#include "estimation/analysis/experiment.h"
+#include "estimation/family/problem/membership.h"
 
 namespace howl::reference {
 

@@ -1,4 +1,4 @@
-#include "estimation/family/sample.h"
+#include "estimation/family/members/sample.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <complex>
 #include <random>
 
-#include "estimation/family/convergence.h"
-#include "estimation/family/enclose.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/members/convergence.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

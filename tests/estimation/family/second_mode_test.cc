@@ -7,13 +7,13 @@
 #include <complex>
 #include <random>
 
-#include "estimation/family/conflict.h"
-#include "estimation/family/contract.h"
-#include "estimation/family/enumerate.h"
-#include "estimation/family/feasible.h"
-#include "estimation/family/local_search.h"
-#include "estimation/family/sample.h"
-#include "estimation/family/second_mode_bound.h"
+#include "estimation/family/answers/conflict.h"
+#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/feasible.h"
+#include "estimation/family/bounds/second_mode_bound.h"
+#include "estimation/family/local/local_search.h"
+#include "estimation/family/members/enumerate.h"
+#include "estimation/family/members/sample.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -1,12 +1,12 @@
-#include "estimation/family/tradeoff.h"
+#include "estimation/family/answers/tradeoff.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/family/enumerate.h"
-#include "estimation/family/two_mode_tradeoff.h"
+#include "estimation/family/members/enumerate.h"
+#include "estimation/family/members/two_mode_tradeoff.h"
 #include "tests/r228.h"
 
 namespace howl {

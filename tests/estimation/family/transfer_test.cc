@@ -1,6 +1,6 @@
 // Transfers as a condition of membership. Truth: the falsification test of reference.h, and the
 // ellipsoid written out a second time from its covariance.
-#include "estimation/transfer.h"
+#include "estimation/analysis/transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -10,15 +10,15 @@
 #include <limits>
 #include <random>
 
-#include "estimation/family/conflict.h"
-#include "estimation/family/enclose.h"
-#include "estimation/family/enumerate.h"
-#include "estimation/family/inside.h"
-#include "estimation/family/local_search.h"
-#include "estimation/family/sample.h"
-#include "estimation/family/tradeoff.h"
-#include "estimation/family/transfer_starts.h"
-#include "estimation/family/transfer_volume.h"
+#include "estimation/family/answers/conflict.h"
+#include "estimation/family/answers/tradeoff.h"
+#include "estimation/family/bounds/enclose.h"
+#include "estimation/family/bounds/inside.h"
+#include "estimation/family/local/local_search.h"
+#include "estimation/family/members/enumerate.h"
+#include "estimation/family/members/sample.h"
+#include "estimation/family/members/transfer_starts.h"
+#include "estimation/family/members/transfer_volume.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

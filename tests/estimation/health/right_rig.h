@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "estimation/analyse.h"
-#include "estimation/experiment.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/analysis/experiment.h"
 #include "model/crossings.h"
 #include "model/loop.h"
 #include "model/simulate.h"

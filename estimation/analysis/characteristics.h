@@ -1,0 +1,111 @@
+// Characteristics of a limit cycle (seed, section 2 and table 2): its frequency f, and the phase
+// and gain from q to p at f.
+//
+// Method `seed`, the paper's: f = argmax |FFT p|; phase and gain are the means of those of
+// FFT p / FFT q over 11 bins around f, weighted by |FFT p|.
+//
+// Method `local`, the default. A limit cycle's phase diffuses and its amplitude breathes, so that
+// no sinusoid fits a whole record; but p = H q holds in every short block. With the blocks' complex
+// amplitudes P_b, Q_b at f (spectrum.h) and e_b = P_b - H Q_b, least squares gives
+//
+//   H = sum conj(Q_b) P_b / sum |Q_b|^2,     H - true = sum conj(Q_b) e_b / sum |Q_b|^2
+//
+// the sinusoids' own least-squares fit where the phase does not diffuse. The error is that of the
+// mean of the scores conj(Q_b) e_b, whose long-run variance is estimated from the scores themselves
+// (statistics.h): it holds under coloured noise and under fluctuations of gain or phase alike.
+// Noise of q's own biases |H| down by at most the incoherent share of the blocks: the value given
+// is the geometric mean of both regressions, and half their distance enters the standard deviation.
+// f is the slope of the blocks' phase, fundamental and harmonics of p and q together, under white
+// noise plus a random walk of unknown strengths (statistics.h: FitTrend).
+#ifndef HOWL_ESTIMATION_ANALYSIS_CHARACTERISTICS_H_
+#define HOWL_ESTIMATION_ANALYSIS_CHARACTERISTICS_H_
+
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectrum.h"
+#include "estimation/analysis/statistics.h"
+
+namespace howl {
+
+enum class CharacteristicsMethod { kLocal, kSeed };
+
+struct CharacteristicsOptions {
+  CharacteristicsMethod method = CharacteristicsMethod::kLocal;
+  double min_frequency_hz = 0.0;  // where the limit cycle is looked for; 0: LowestSearched
+  double max_frequency_hz = 0.0;  // 0: four tenths of the sampling rate
+  // The variance of A^2 over its squared mean, A the cycle's envelope: 0 for a steady cycle, 1 for
+  // a resonance that noise excites, and pi/2 - 1 where a Van der Pol loop in noise is neutral.
+  double intermittent_fluctuation = 0.25;
+  double no_cycle_fluctuation = 0.5707963267948966;
+};
+
+enum class CycleState { kLimitCycle, kIntermittent, kNoLimitCycle };
+std::string_view CycleStateName(CycleState state);  // as in files
+
+// The highest peak of p's spectrum in the search range, and what it takes to be one.
+struct PeakTest {
+  double low_hz = 0.0, high_hz = 0.0;  // the range; empty where low_hz >= high_hz
+  double frequency_hz = 0.0;
+  double over_floor = 0.0;  // the spectrum there over the noise beside it
+  double threshold = 0.0;   // of over_floor
+};
+
+inline constexpr double kFewestPeriods = 8.0;  // of the cycle, in a record
+// Over the record, beyond which it is not stationary: of the amplitude, and of the frequency.
+inline constexpr double kMostAmplitudeDrift = 0.2;
+inline constexpr double kMostFrequencyDrift = 0.005;
+
+// Drift counts when it is significant (three standard deviations: four tests a record) and large
+// enough to matter.
+inline bool Drifts(const Estimate& rate, double enough) {
+  return std::abs(rate.value) > 3.0 * rate.std && std::abs(rate.value) > enough;
+}
+
+struct Characteristics {
+  PeakTest peak;
+  CycleState state = CycleState::kNoLimitCycle;
+  Estimate frequency_hz;
+  Estimate phase_deg;  // from q to p: negative when p lags q; absent (NaN) without q
+  Estimate gain;       // |p| / |q|
+  double p_amplitude = 0.0, q_amplitude = 0.0;  // of the fundamental, root mean square envelope
+  double line_width_hz = 0.0;    // full width at half maximum by phase diffusion: D / (2 pi)
+  double coherence = 0.0;        // of p and q over the blocks at f
+  double gain_bias_bound = 0.0;  // relative: how far q's own noise can have moved the gain
+  Estimate power_fluctuation;    // variance of A^2 over its squared mean, free of the noise floor
+
+  // Stationarity over the record.
+  Estimate frequency_drift_hz_per_s;
+  Estimate amplitude_drift_per_s;    // relative
+  double low_amplitude_share = 0.0;  // of the time, envelope below half its root mean square
+  bool stationary = false;
+
+  int block_samples = 0;
+  double block_noise_power = 0.0;  // of the noise floor in |P_b|^2
+  // The share of that floor which is not coherent with q, and so may be noise of p's own; the rest
+  // is pressure that the flame feels. One without q.
+  double floor_incoherent_share = 1.0;
+  std::vector<double> envelope;  // of p, one a block
+};
+
+// Where the search for a cycle begins: 20 Hz, below which rigs rumble and drift; of slow records a
+// 250th of the sampling rate, which 20 Hz is of the paper's; and nothing that has less than eight
+// periods in the record.
+double LowestSearched(double sampling_hz, double duration_s);
+
+// Needs at least eight periods of the cycle; a record without a significant peak gives
+// kNoLimitCycle with the fields it could estimate. `spectrum` is the record's WelchSpectrum.
+Characteristics EstimateCharacteristics(const Record& record, const CrossSpectrum& spectrum,
+                                        const CharacteristicsOptions& options = {});
+
+// The paper's procedure on mean-free samples; standard deviations are not part of it.
+Characteristics SeedCharacteristics(std::span<const double> p, std::span<const double> q,
+                                    double sampling_hz, double min_frequency_hz,
+                                    double max_frequency_hz);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_ANALYSIS_CHARACTERISTICS_H_

@@ -1,0 +1,54 @@
+// Delay from the q-to-p phase at the limit cycle (seed, section 3.1). Condition (1a) reads
+// Delta + 90 - 360 f tau = 180 - 360 (k + 1) degrees, hence
+//
+//   tau_k = (270 + Delta + 360 k) / (360 f)                                      (3), for k = 0
+//
+// in seconds; f in hertz, Delta in (-180, 180] degrees. One record cannot tell the branch k, the
+// number of whole periods that the delay exceeds. Several can: the loop keeps one delay while its
+// frequency moves, so the branch is the one whose tau_k differ least, relative to their mean; a
+// wrong k adds (k' - k) / f to each, and as k grows the spread tends to that of 1 / f. Where no
+// branch has less than half of that spread the delays agree on none, and the seed's k = 0 stands. A
+// config may also name the branch.
+#ifndef HOWL_ESTIMATION_ANALYSIS_DELAY_H_
+#define HOWL_ESTIMATION_ANALYSIS_DELAY_H_
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "estimation/analysis/statistics.h"
+
+namespace howl {
+
+struct DelayInput {
+  Estimate frequency_hz;
+  Estimate phase_deg;
+};
+
+// phase_deg is taken as it is, not wrapped. The errors of phase and frequency count as independent
+// (an unknown one, NaN, as zero). Were tau to stay while the frequency wanders, the phase would
+// wander with it by 360 tau and the frequency's error would cancel; on measured records it does
+// not: between halves of a record tau moves with the frequency.
+Estimate DelayOnBranch(const DelayInput& input, int branch);
+
+struct DelayBranch {
+  int branch = 0;
+  double mean_tau_s = 0.0;
+  double spread = 0.0;  // standard deviation over mean, over the experiments
+};
+
+struct DelayChoice {
+  int branch = 0;
+  bool by_consistency = false;        // else given, or k = 0
+  std::vector<DelayBranch> branches;  // all that were compared, smallest spread first
+  std::vector<Estimate> tau_s;        // one an experiment, on the chosen branch
+};
+
+// Branches 0 .. max_branch, and -1 where every tau stays positive, compete when there are three
+// experiments or more and their frequencies differ by at least one percent.
+DelayChoice EstimateDelays(std::span<const DelayInput> inputs, std::optional<int> branch = {},
+                           int max_branch = 5);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_ANALYSIS_DELAY_H_

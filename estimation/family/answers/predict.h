@@ -1,0 +1,68 @@
+// What the family says of things that were not measured.
+//
+// An expression of the parameters has a guaranteed interval (estimation/family/bounds/enclose.h
+// with EncloseOptions::expressions). Everything else is evaluated member by member: its interval is
+// the range over the members given, sampled, and says so.
+#ifndef HOWL_ESTIMATION_FAMILY_ANSWERS_PREDICT_H_
+#define HOWL_ESTIMATION_FAMILY_ANSWERS_PREDICT_H_
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "estimation/family/problem/problem.h"
+#include "model/flame.h"
+
+namespace howl {
+
+enum class IntervalKind { kGuaranteed, kSampled };
+
+struct Prediction {
+  std::string name;
+  IntervalKind kind = IntervalKind::kSampled;
+  Range interval{1.0, -1.0};    // lo > hi: no member has it
+  Range central_90{1.0, -1.0};  // 5 % to 95 % of the members, sampled ones only
+  std::size_t members = 0;      // that have a value
+};
+
+// A member's value; nothing where it has none.
+using MemberPredictor = std::function<std::optional<double>(std::span<const LoopModel>)>;
+
+// Members are asked on `threads` threads (0: all cores); the answer does not depend on the number.
+Prediction PredictSampled(std::string name, std::span<const Member> members,
+                          const MemberPredictor& predictor, int threads = 1);
+
+// The amplitude of p in the limit cycle that the member has with that flame, next to a frequency:
+// the describing function closes the loop at the phase crossing within 20 % of it,
+//
+//   |L(j 2 pi f) D(A)| = 1,
+//
+// and harmonic balance (model/harmonic_balance.h) refines frequency and amplitude. Nothing where
+// the loop has no such crossing or its gain at rest does not exceed one there.
+std::optional<double> PressureAmplitude(const LoopModel& model, const Flame<double>& flame,
+                                        double frequency_hz);
+
+// A frequency within (lo, hi) at which arg L = 180 degrees (mod 360): the one nearest to the middle
+// of the band. Near 750 Hz it is the seed's non-harmonic line.
+std::optional<double> CrossingNear(const LoopModel& model, const Range& band_hz);
+
+// |L(j 2 pi f) Phi'(0)| there: above one, the loop can oscillate at the line by itself.
+std::optional<double> LineGain(const LoopModel& model, const Range& band_hz, double flame_slope);
+
+// A member at a phi that was not measured. The rule: each parameter is linear in phi between the
+// two neighbouring experiments (so xi still does not fall with phi, and omega stays within its
+// spread); nothing outside the measured range.
+std::optional<LoopModel> InterpolateModel(std::span<const Experiment> experiments,
+                                          std::span<const LoopModel> models, double phi);
+
+// The limit cycle that a member predicts at that phi: the crossing of the interpolated loop nearest
+// to the frequency interpolated between the neighbours, within `reach` of it relatively.
+std::optional<double> InterpolatedFrequency(std::span<const Experiment> experiments,
+                                            std::span<const LoopModel> models, double phi,
+                                            double reach = 0.2);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_FAMILY_ANSWERS_PREDICT_H_

@@ -1,0 +1,43 @@
+// What all searches for the bounds of one family have in common: the problem, the root cell that
+// holds every member, what narrows cells, what finds members, and members to start from. Not
+// changed by a search: one setting serves all threads.
+#ifndef HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_SETTING_H_
+#define HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_SETTING_H_
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "estimation/family/bounds/bound_quantity.h"
+#include "estimation/family/bounds/cell.h"
+#include "estimation/family/bounds/contract.h"
+#include "estimation/family/local/local_search.h"
+#include "estimation/family/members/enumerate.h"
+#include "estimation/family/problem/problem.h"
+
+namespace howl {
+
+struct BoundSetting {
+  BoundSetting(const FamilyProblem& family, std::uint64_t seed_of_draws);
+
+  double Value(const BoundQuantity& quantity, std::span<const LoopModel> models) const {
+    return ValueOf(quantity, problem, models);
+  }
+  double Reach(const BoundQuantity& quantity, const Cell& cell) const {
+    return ReachOf(quantity, problem, contractor, cell);
+  }
+
+  FamilyProblem problem;
+  std::uint64_t seed;
+  CellContractor contractor;
+  LocalSearch local;
+  Cell root;                             // contracted
+  bool root_empty;                       // proved: no member at all
+  std::unique_ptr<MemberDrawer> drawer;  // none where transfers leave it nothing to meet
+  std::vector<Member> base;              // over the whole set; empty where none was found
+};
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_SETTING_H_

@@ -1,0 +1,189 @@
+#include "estimation/family/local/local_conditions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "estimation/family/local/local_point.h"
+#include "model/units.h"
+
+namespace howl {
+
+namespace {
+
+class RowMaker {
+ public:
+  RowMaker(const LocalCoordinates& c, const LocalState& state,
+           const std::vector<LocalPoint<LocalJet>>& points, const SoftConditions& soft,
+           std::vector<ConditionRow>* rows)
+      : c_(c), state_(state), points_(points), soft_(soft), rows_(rows) {}
+
+  void AddTolerances(std::size_t i) {
+    const LocalScale& scale = c_.scales[i];
+    if (scale.has_phase) AddBoth(i, kLocalPhase, Condition::kPhase);
+    if (scale.has_gain) AddBoth(i, kLocalGain, Condition::kGain);
+    if (scale.has_loop_phase) AddBoth(i, kLocalLoopPhase, Condition::kLoopPhase);
+    const double xi_max = c_.problem.test.xi_max;
+    if (std::isfinite(xi_max)) {
+      Add(1.0 + (points_[i].ln_xi - std::log(xi_max * (1 - kLocalMargin))), i,
+          IsSoft(Condition::kXiMax));
+    }
+  }
+
+  void AddSecondMode(std::size_t i) {
+    const LocalPoint<LocalJet>& p = points_[i];
+    const double tolerance =
+        c_.problem.test.second_crossing_tolerance_deg * kRadPerDeg * (1.0 - kLocalMargin);
+    for (const LocalJet& error : p.line_rad) {
+      Add(error / tolerance, i, IsSoft(Condition::kSecondCrossing));
+      Add(-error / tolerance, i, IsSoft(Condition::kSecondCrossing));
+    }
+    const MembershipTest& test = c_.problem.test;
+    for (const LocalJet& ln_gain : p.ln_line_gain) {
+      const double least = std::log(test.second_crossing_gain_min * (1.0 + kLocalMargin));
+      Add(1.0 + (least - ln_gain), i, IsSoft(Condition::kSecondCrossingGain));
+    }
+    if (std::isfinite(test.second_mode_share_max)) {
+      Add(p.second_mode_share / (test.second_mode_share_max * (1.0 - kLocalMargin)), i,
+          IsSoft(Condition::kSecondModeShare));
+    }
+    if (!c_.shared_second) {
+      Add(1.0 - p.above, i, false);
+      Add(1.0 - p.below, i, false);
+    }
+  }
+
+  void AddDomain(std::size_t i) {
+    const LocalPoint<LocalJet>& p = points_[i];
+    AddRange(i, ParameterKind::kOmega, p.ln_omega);
+    AddRange(i, ParameterKind::kN, p.ln_N);
+    if (c_.two_modes && !c_.shared_second) {
+      AddRange(i, c_.SecondKind(), c_.relative ? p.ln_M - p.ln_N : p.ln_M);
+    }
+    const Range tau = c_.problem.RangeOf(ParameterKind::kTau, i);
+    if (tau.lo > 0.0) Add(1.0 + (1.0 - p.tau_s / tau.lo), i, soft_.domain);
+    if (std::isfinite(tau.hi)) Add(1.0 + (p.tau_s / tau.hi - 1.0), i, soft_.domain);
+  }
+
+  void AddTransfer(std::size_t i) {
+    const auto& ellipsoid = c_.problem.experiments[i].transfer_ellipsoid;
+    if (!ellipsoid || !std::isfinite(c_.problem.test.transfer_distance_max)) return;
+    const LocalPoint<LocalJet>& p = points_[i];
+    const TransferMatrix& factor = ellipsoid->Factor(c_.two_modes);
+    const LocalJet v[kNumTransferParameters] = {
+        p.ln_omega - ellipsoid->Centre()(0), p.ln_xi - ellipsoid->Centre()(1),
+        p.ln_N - ellipsoid->Centre()(2), p.ln_M - ellipsoid->Centre()(3)};
+    LocalJet sum(1e-8);
+    Eigen::Matrix<double, kLocals, kLocals> form;
+    form.setZero();
+    for (int r = 0; r < kNumTransferParameters; ++r) {
+      LocalJet part(0.0);
+      for (int k = r; k < kNumTransferParameters; ++k) {
+        if (factor(r, k) != 0.0) part += factor(r, k) * v[k];
+      }
+      sum += part * part;
+      form += part.v * part.v.transpose();
+    }
+    const LocalJet distance = sqrt(sum);
+    const double limit = c_.problem.test.transfer_distance_max * (1 - kLocalMargin);
+    Add(distance / limit, i, IsSoft(Condition::kTransfer));
+    rows_->back().owner = static_cast<int>(i);
+    rows_->back().curvature = (form - distance.v * distance.v.transpose()) / (distance.a * limit);
+  }
+
+  void AddBetween(std::size_t i, std::size_t j) {
+    if (std::isfinite(c_.ln_spread)) {
+      AddPair(points_[i].ln_omega, i, points_[j].ln_omega, j, c_.ln_spread, 0.0,
+              IsSoft(Condition::kOmegaSpread));
+    }
+    if (c_.problem.test.xi_increasing && c_.targets[j].phi < c_.targets[i].phi) {
+      AddPair(points_[j].ln_xi, j, points_[i].ln_xi, i, 1.0, 1.0 + kLocalMargin,
+              IsSoft(Condition::kXiIncreasing));
+    }
+  }
+
+ private:
+  bool IsSoft(Condition condition) const { return soft_.conditions.Contains(condition); }
+
+  void Add(const LocalJet& violation, std::size_t i, bool is_soft) {
+    ConditionRow& row = rows_->emplace_back();
+    row.weight = is_soft ? 1.0 : 0.0;
+    row.value = (is_soft ? 0.0 : 1.0) - violation.a;
+    for (int k = 0; k < kLocals; ++k) {
+      const int at = c_.index[i][static_cast<std::size_t>(k)];
+      if (at < 0 || violation.v[k] == 0.0) continue;
+      row.index[static_cast<std::size_t>(row.count)] = at;
+      row.slope[static_cast<std::size_t>(row.count++)] = -violation.v[k];
+    }
+  }
+
+  // The violation offset + (a - b) / scale, of two experiments.
+  void AddPair(const LocalJet& a, std::size_t i, const LocalJet& b, std::size_t j, double scale,
+               double offset, bool is_soft) {
+    Add(offset + a / scale, i, is_soft);
+    ConditionRow& row = rows_->back();
+    row.value += b.a / scale;
+    for (int k = 0; k < kLocals; ++k) {
+      const int at = c_.index[j][static_cast<std::size_t>(k)];
+      if (at < 0 || b.v[k] == 0.0) continue;
+      row.index[static_cast<std::size_t>(row.count)] = at;
+      row.slope[static_cast<std::size_t>(row.count++)] = b.v[k] / scale;
+    }
+  }
+
+  void AddBoth(std::size_t i, int k, Condition condition) {
+    const LocalJet coordinate(state_.local[i][static_cast<std::size_t>(k)], k);
+    Add(coordinate, i, IsSoft(condition));
+    Add(-coordinate, i, IsSoft(condition));
+  }
+
+  void AddRange(std::size_t i, ParameterKind kind, const LocalJet& ln) {
+    const Range range = c_.problem.RangeOf(kind, i);
+    if (range.lo > 0.0) Add(1.0 + (std::log(range.lo) - ln), i, soft_.domain);
+    if (std::isfinite(range.hi)) Add(1.0 + (ln - std::log(range.hi)), i, soft_.domain);
+  }
+
+  const LocalCoordinates& c_;
+  const LocalState& state_;
+  const std::vector<LocalPoint<LocalJet>>& points_;
+  const SoftConditions& soft_;
+  std::vector<ConditionRow>* rows_;
+};
+
+}  // namespace
+
+bool ConditionRows(const LocalCoordinates& c, LocalState& state, const SoftConditions& soft,
+                   std::vector<ConditionRow>* rows) {
+  const std::size_t n = c.targets.size();
+  static thread_local std::vector<LocalPoint<LocalJet>> points;
+  points.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!BuildLocalPoint(c, i, state.local[i], state.omega_hz[i], points[i])) return false;
+  }
+  rows->clear();
+  RowMaker maker(c, state, points, soft, rows);
+  for (std::size_t i = 0; i < n; ++i) {
+    maker.AddTolerances(i);
+    if (c.two_modes) maker.AddSecondMode(i);
+    maker.AddDomain(i);
+    maker.AddTransfer(i);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      if (i != j) maker.AddBetween(i, j);
+    }
+  }
+  return true;
+}
+
+double LargestViolation(const LocalCoordinates& c, LocalState& state, const SoftConditions& soft) {
+  std::vector<ConditionRow> rows;
+  if (!ConditionRows(c, state, soft, &rows)) return std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (const ConditionRow& row : rows) {
+    if (row.weight > 0.0) largest = std::max(largest, -row.value);
+  }
+  return largest;
+}
+
+}  // namespace howl

@@ -1,0 +1,29 @@
+// The guard rails of a search: with f the frequency of a cycle and g its gain, both over all
+// experiments,
+//
+//   omega: f / 1000 .. 1000 f,   tau: 0.0001 / f .. 1000 / f,   N and M: 2 pi f g (1e-9 .. 1e9)
+//
+// in units of the data, so that a loop run slower or faster, or recorded in other units, is
+// searched alike. xi and M / N have no dimension; their bounds are the model's own.
+#ifndef HOWL_ESTIMATION_FIT_SEARCH_RANGE_H_
+#define HOWL_ESTIMATION_FIT_SEARCH_RANGE_H_
+
+#include <span>
+
+#include "estimation/analysis/experiment.h"
+#include "estimation/parameters.h"
+
+namespace howl {
+
+struct SearchRange {
+  double min = 0.0;  // natural units, positive
+  double max = 0.0;
+};
+
+// What `spec` has of its own comes first; an initial value of its own lies within.
+SearchRange MakeSearchRange(ParameterKind kind, const ParameterSpec& spec,
+                            std::span<const Experiment> experiments);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_FIT_SEARCH_RANGE_H_

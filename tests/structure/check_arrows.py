@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Includes run one way: a room uses itself and the rooms above it in its list, no others.
+
+    check_arrows.py ROOT
+
+Names every include that points back, as file:line, and exits with 1 where there is one.
+"""
+
+import pathlib
+import re
+import sys
+
+# In order: a room may use those that stand before it.
+LISTS = {
+    "": ["model", "estimation", "diagnosis", "trial", "io", "app"],
+    "estimation": ["estimation/residuals", "estimation/analysis", "estimation/fit",
+                   "estimation/family/problem", "estimation/family/local",
+                   "estimation/family/members", "estimation/family/bounds",
+                   "estimation/family/answers", "estimation/health"],
+}
+# howl_rig is a second simulator, so that a trial is no comparison of a program with itself.
+ALONE = ["rig"]
+# Neither of these two knows of the other, whatever their order.
+APART = [("diagnosis", "trial")]
+
+
+def room_of(path, rooms):
+    return next((room for room in rooms if path == room or path.startswith(room + "/")), None)
+
+
+def faults(path, included):
+    for rooms in LISTS.values():
+        mine, other = room_of(path, rooms), room_of(included, rooms)
+        if mine and other and rooms.index(other) > rooms.index(mine):
+            yield f"{mine} uses {other}, which stands above it"
+    for alone in ALONE:
+        if (room_of(path, [alone]) is None) != (room_of(included, [alone]) is None):
+            yield f"{alone} stands alone"
+    for pair in APART:
+        if {room_of(path, pair), room_of(included, pair)} == set(pair):
+            yield f"{pair[0]} and {pair[1]} stand apart"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    found = counted = 0
+    for top in LISTS[""] + ALONE:
+        for source in sorted((root / top).rglob("*.[hc]*")):
+            path = source.relative_to(root).as_posix()
+            for number, line in enumerate(source.read_text(encoding="utf-8").split("\n"), 1):
+                include = re.match(r'#include "([^"]+)"', line)
+                if not include:
+                    continue
+                counted += 1
+                for fault in faults(path, include[1]):
+                    found += 1
+                    print(f"{path}:{number}: {include[1]}: {fault}")
+    print(f"{counted} includes, {found} against the order of the rooms")
+    return 1 if found or counted == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
