@@ -33,7 +33,7 @@ EffectPointer LowPassFrom(double low_hz) {
   return std::make_shared<DeclaredEffect>(std::move(out));
 }
 
-TEST(AtBound, ACandidateSaysThatItsSearchEndsThere) {
+TEST(LongAtBound, ACandidateSaysThatItsSearchEndsThere) {
   constexpr double kTrueHz = 400.0;
   const std::vector<DiagnosisExperiment> rig =
       SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, kTrueHz)});

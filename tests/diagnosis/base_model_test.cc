@@ -72,7 +72,7 @@ TEST(BaseModel, AnEffectOnTopOfOneModeIsNamed) {
 }
 
 // What one mode lacks is one more, at three times the first's frequency.
-TEST(BaseModel, ATwoModeRigBesideOneModeHasAModeTooMany) {
+TEST(LongBaseModel, ATwoModeRigBesideOneModeHasAModeTooMany) {
   const Diagnosis diagnosis = DiagnoseBeside({.modes = 1}, SimulateRig());
   EXPECT_EQ(diagnosis.effect, "extra_acoustic_mode");
   ASSERT_FALSE(diagnosis.candidates.empty());
@@ -107,7 +107,7 @@ TEST(BaseModel, TheFirstModeIsFoundBelowACycleOfTheSecond) {
   }
 }
 
-TEST(BaseModel, TheConfigsRatioIsTheBases) {
+TEST(LongBaseModel, TheConfigsRatioIsTheBases) {
   const std::vector<DiagnosisExperiment> rig = OtherRatioRig();
   const Diagnosis right = DiagnoseBeside({.modes = 2, .harmonic_ratio = kOtherRatio}, rig);
   EXPECT_EQ(right.kind, VerdictKind::kNone) << right.effect;

@@ -83,7 +83,7 @@ DiagnosisOptions Few(std::size_t replicates) {
   return options;
 }
 
-TEST(Bootstrap, NoiseAloneGainsLittleAndAnEffectMuch) {
+TEST(LongBootstrap, NoiseAloneGainsLittleAndAnEffectMuch) {
   const Diagnosis null = Diagnose(SimulateRig(), Few(3));
   ASSERT_EQ(null.bootstrap_gains.size(), 3u);
   EXPECT_TRUE(std::is_sorted(null.bootstrap_gains.begin(), null.bootstrap_gains.end()));
@@ -96,7 +96,7 @@ TEST(Bootstrap, NoiseAloneGainsLittleAndAnEffectMuch) {
   EXPECT_DOUBLE_EQ(slow.candidates[0].p_value, 0.25);
 }
 
-TEST(Bootstrap, IsTheSameForAllNumbersOfThreadsAndAnotherForAnotherSeed) {
+TEST(LongBootstrap, IsTheSameForAllNumbersOfThreadsAndAnotherForAnotherSeed) {
   const std::vector<DiagnosisExperiment> rig = SimulateRig();
   DiagnosisOptions options = Few(2);
   options.threads = 1;
@@ -107,7 +107,7 @@ TEST(Bootstrap, IsTheSameForAllNumbersOfThreadsAndAnotherForAnotherSeed) {
   EXPECT_NE(one, Diagnose(rig, options).bootstrap_gains);
 }
 
-TEST(Bootstrap, OneCandidatesGainOfNoiseIsSmallAndTheSameForAllNumbersOfThreads) {
+TEST(LongBootstrap, OneCandidatesGainOfNoiseIsSmallAndTheSameForAllNumbersOfThreads) {
   const std::vector<DiagnosisExperiment> rig = SimulateRig();
   const std::vector<CutRecord> records = MakeCutRecords(rig);
   const EffectFit base = FitBase(records);
@@ -142,7 +142,7 @@ class Kept final : public FitMemory {
   std::mutex lock_;
 };
 
-TEST(Bootstrap, GoesOnWhereItWasStopped) {
+TEST(LongBootstrap, GoesOnWhereItWasStopped) {
   const std::vector<DiagnosisExperiment> rig = SimulateRig();
   DiagnosisOptions options = Few(3);
   options.threads = 1;

@@ -117,7 +117,7 @@ TEST(Diagnose, ClippedPressureUnderNoiseIsRepairedToo) {
   EXPECT_LT(diagnosis.gap_after, 1.2 * diagnosis.gap_floor);
 }
 
-TEST(Diagnose, AnExtraModeIsSeenBesideClippedPressure) {
+TEST(LongDiagnose, AnExtraModeIsSeenBesideClippedPressure) {
   const Diagnosis diagnosis =
       DiagnoseAmong({"p_clipping", "extra_acoustic_mode", "channel_skew"},
                     Clipped(SimulatePoints(
@@ -133,7 +133,7 @@ TEST(Diagnose, AnExtraModeIsSeenBesideClippedPressure) {
   EXPECT_NEAR(ratio->value, 2.2, 0.02);
 }
 
-TEST(Diagnose, ALowPassOfQIsSeenBesideClippedPressure) {
+TEST(LongDiagnose, ALowPassOfQIsSeenBesideClippedPressure) {
   const Diagnosis diagnosis = DiagnoseAmong(
       {"p_clipping", "q_sensor_lowpass", "extra_acoustic_mode"},
       Clipped(SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)})));
@@ -146,7 +146,7 @@ TEST(Diagnose, ALowPassOfQIsSeenBesideClippedPressure) {
 }
 
 // Under the base's filling the form of first order fits better.
-TEST(Diagnose, TheFormOfALowPassIsFoundBesideClippedPressure) {
+TEST(LongDiagnose, TheFormOfALowPassIsFoundBesideClippedPressure) {
   const double cutoff_hz = 270.0;
   const Diagnosis diagnosis =
       DiagnoseAmong({"p_clipping", "q_sensor_lowpass"},
@@ -191,7 +191,7 @@ TEST(Diagnose, FewLevelsAreSeenBesideClippedPressure) {
   EXPECT_EQ(diagnosis.effect, "p_clipping+quantisation");
 }
 
-TEST(Diagnose, WhatIsNotInTheCatalogueIsUnknownBesideClippedPressure) {
+TEST(LongDiagnose, WhatIsNotInTheCatalogueIsUnknownBesideClippedPressure) {
   const Diagnosis diagnosis = DiagnoseAmong(
       {"p_clipping", "delay_varies_with_phi"},
       Clipped(SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)})));

@@ -129,7 +129,7 @@ TEST(Diagnose, TheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-TEST(Diagnose, TellsHumInPFromATone) {
+TEST(LongDiagnose, TellsHumInPFromATone) {
   std::vector<DiagnosisExperiment> rig = CleanRig();
   for (DiagnosisExperiment& experiment : rig) {
     for (std::size_t i = 0; i < experiment.record.pressure.size(); ++i) {

@@ -47,7 +47,7 @@ TEST(Localise, FilterOnRecordedHeatRelease) {
   EXPECT_GT(best.gain, 100.0);
 }
 
-TEST(Localise, FilterOnRecordedPressure) {
+TEST(LongLocalise, FilterOnRecordedPressure) {
   const BlockSlack best = Best(LocaliseRig(
       SimulateRig({std::make_shared<SecondOrderResponse>(Channel::kPressure, 900.0, 0.2)})));
   EXPECT_EQ(best.block, LoopBlock::kPressureInstrument) << best.form;
@@ -55,7 +55,7 @@ TEST(Localise, FilterOnRecordedPressure) {
 }
 
 // A bent channel, bent here and not by the simulator.
-TEST(Localise, StaticMapOfAChannel) {
+TEST(LongLocalise, StaticMapOfAChannel) {
   for (const bool pressure : {true, false}) {
     std::vector<DiagnosisExperiment> experiments = SimulateRig();
     for (DiagnosisExperiment& experiment : experiments) {
@@ -72,7 +72,7 @@ TEST(Localise, StaticMapOfAChannel) {
   }
 }
 
-TEST(Localise, NoiseAddedToRecordedPressure) {
+TEST(LongLocalise, NoiseAddedToRecordedPressure) {
   std::vector<DiagnosisExperiment> experiments = SimulateRig();
   std::mt19937_64 generator(5);
   std::normal_distribution<double> normal;

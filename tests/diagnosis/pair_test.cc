@@ -140,7 +140,7 @@ TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
 
 // With half of q lost, what its repair gets wrong looks like damping that moves with the amplitude:
 // clipping alone is the answer, and the two together are not excluded.
-TEST(Diagnose, WhatRepairedHeatReleaseMayFeignIsNotAsserted) {
+TEST(LongDiagnose, WhatRepairedHeatReleaseMayFeignIsNotAsserted) {
   std::vector<DiagnosisExperiment> rig = SimulateRig();
   CutOff(0.75, &Record::heat_release, &rig);
   const Diagnosis alone = DiagnoseAmong({"q_clipping", "nonlinear_damping"}, rig);
@@ -209,7 +209,7 @@ TEST(Pair, JoiningKeepsNamesBlocksAndWhatTheLastBrings) {
   EXPECT_EQ(three.candidate.parameters[2].name, "intermittency.size");
 }
 
-TEST(Diagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {
+TEST(LongDiagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {
   const Diagnosis diagnosis = DiagnoseAmong(
       {"extra_acoustic_mode", "q_sensor_lowpass", "crosstalk_p_to_q"},
       SimulatePoints(
@@ -223,7 +223,7 @@ TEST(Diagnose, ASecondTransferFunctionMakesTheVerdictUnknown) {
   EXPECT_EQ(diagnosis.together, "q_sensor_lowpass+extra_acoustic_mode");
 }
 
-TEST(Diagnose, AModeOnTopOfAModeIsNoCauseOfItsOwn) {
+TEST(LongDiagnose, AModeOnTopOfAModeIsNoCauseOfItsOwn) {
   const Diagnosis diagnosis =
       DiagnoseAmong({"extra_acoustic_mode", "channel_skew"},
                     SimulatePoints(
@@ -233,7 +233,7 @@ TEST(Diagnose, AModeOnTopOfAModeIsNoCauseOfItsOwn) {
   EXPECT_EQ(diagnosis.where[0].block, LoopBlock::kAcoustics);
 }
 
-TEST(Diagnose, AnEdgeInTheSamplesThatNothingExplainsIsUnknown) {
+TEST(LongDiagnose, AnEdgeInTheSamplesThatNothingExplainsIsUnknown) {
   std::vector<DiagnosisExperiment> rig = SimulateRig();
   CutOff(0.8, &Record::pressure, &rig);
   const Diagnosis diagnosis =

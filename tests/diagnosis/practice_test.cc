@@ -64,7 +64,7 @@ Score Judge(const std::string& truth, const Diagnosis& diagnosis) {
   return named && others.size() <= 2 ? Score::kClass : Score::kWrong;
 }
 
-TEST(Practice, ANullAndASkew) {
+TEST(LongPractice, ANullAndASkew) {
   const char* folder = std::getenv("HOWL_PRACTICE");
   if (!folder) GTEST_SKIP() << "HOWL_PRACTICE is not set";
   for (const int number : {2, 3}) {

@@ -52,7 +52,7 @@ TEST(Reference, OnesLeaveEveryBitAsItWas) {
 }
 
 // Both have a low-pass on q, which no base has: the model's shortcoming, not the rig's difference.
-TEST(Reference, WhatBothHaveIsNotNamed) {
+TEST(LongReference, WhatBothHaveIsNotNamed) {
   const std::shared_ptr<const Instrument> low_pass =
       std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0);
   DiagnosisOptions options;
@@ -93,7 +93,7 @@ TEST(Reference, IsClippedAsOftenAsTheRig) {
 
 // Behind a low-pass, which the reference has as a factor after the flame, a saturation is no part
 // of the flame's any more: cut B sees it as a slower flame.
-TEST(Reference, WhatClippingFeignsIsNotNamed) {
+TEST(LongReference, WhatClippingFeignsIsNotNamed) {
   const std::shared_ptr<const Instrument> low_pass =
       std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 150.0);
   DiagnosisOptions options;
@@ -177,7 +177,7 @@ MeasuredRig ReadCombustor(const std::string& folder) {
 
 // The measured combustor, which no model of the catalogue explains: its first half in time is the
 // reference, its second half the rig.
-TEST(Reference, NamesKnownEffectsInMeasuredRecords) {
+TEST(LongReference, NamesKnownEffectsInMeasuredRecords) {
   const char* folder = std::getenv("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   const MeasuredRig all = ReadCombustor(folder);
