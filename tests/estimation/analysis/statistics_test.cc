@@ -104,7 +104,9 @@ TEST(FitTrend, NeighbouringStretchesOfAWanderingFrequencyAgree) {
       ratio += std / std::sqrt(2.0 / kSteps) / kTrials;
     }
     EXPECT_GT(agree, 0.91 * kTrials) << "wanders " << wanders;
-    if (!wanders) EXPECT_LT(ratio, 1.2 * StudentInflation(CosineCount(kSteps)));
+    if (!wanders) {
+      EXPECT_LT(ratio, 1.2 * StudentInflation(CosineCount(kSteps)));
+    }
   }
 }
 
