@@ -107,7 +107,7 @@ std::string StateWithEachKeyOnce(const std::string& state) {
   return state;
 }
 
-TEST(Diagnose, StoppedAtAnyUnitItGoesOnToTheSameBytes) {
+TEST(LongDiagnose, StoppedAtAnyUnitItGoesOnToTheSameBytes) {
   const TemporaryFolder folder;
   const std::string config =
       folder

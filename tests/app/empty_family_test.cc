@@ -141,7 +141,7 @@ TEST(EmptyFamily, TwoModes) {
 }
 
 // Data that a record gives cannot be pasted: the limits can.
-TEST(EmptyFamily, RecordsHaveLinesForTheLimitsAlone) {
+TEST(LongEmptyFamily, RecordsHaveLinesForTheLimitsAlone) {
   const TemporaryFolder folder;
   const std::string rig = folder.path().string() + "/rig";
   ASSERT_EQ(RunHowl("simulate " + Config("r228_reliable") + " --out " + rig).status, 0);

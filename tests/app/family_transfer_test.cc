@@ -95,7 +95,7 @@ std::string MeasuredConfig(const std::string& distance) {
 
 // On the measured rig two modes fit the transfer badly: the least distance says how badly, and just
 // above it there is a family, just below none.
-TEST(FamilyTransfer, MeasuredCombustorSaysHowFarTheModelIsFromTheTransfer) {
+TEST(LongFamilyTransfer, MeasuredCombustorSaysHowFarTheModelIsFromTheTransfer) {
   if (std::getenv("HOWL_DATA") == nullptr) GTEST_SKIP() << "HOWL_DATA is not set";
   const TemporaryFolder folder;
   const std::string out = " --out " + folder.path().string();

@@ -115,7 +115,7 @@ TEST(Family, OneModeMembersFulfilTheSeedsEquations) {
   ExpectMembersFulfilTheSeedsEquations("r228", true, 0.3);
 }
 
-TEST(Family, TwoModeMembersFulfilTheSeedsEquations) {
+TEST(LongFamily, TwoModeMembersFulfilTheSeedsEquations) {
   ExpectMembersFulfilTheSeedsEquations("r228_two_modes", false, 0.4);
 }
 

@@ -22,7 +22,7 @@ std::string ExperimentsOf(const std::string& config) {
   return text.substr(begin, text.find("\nfamily:") - begin) + "\n";
 }
 
-TEST(OneModel, RecordsOfOneModeHaveAFamily) {
+TEST(LongOneModel, RecordsOfOneModeHaveAFamily) {
   for (const std::string seed : {"1", "2", "3"}) {
     const TemporaryFolder folder;
     const std::string out = " --seed " + seed + " --out " + folder.path().string();

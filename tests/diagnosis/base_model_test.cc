@@ -61,7 +61,7 @@ TEST(BaseModel, AOneModeRigBesideOneModeIsNotAccused) {
   }));
 }
 
-TEST(BaseModel, AnEffectOnTopOfOneModeIsNamed) {
+TEST(LongBaseModel, AnEffectOnTopOfOneModeIsNamed) {
   const EffectPointer effect = QSensorLowPass()[0];
   const std::vector<double> cutoff_hz = {245.0};
   const Diagnosis diagnosis = DiagnoseBeside(

@@ -97,7 +97,7 @@ TEST(DeclaredEffects, NamesAnEffectThatTheCatalogueLacks) {
 }
 
 // The photomultiplier bends: y = x / (1 + |x| / limit).
-TEST(DeclaredEffects, EstimatesAStaticMapOfQ) {
+TEST(LongDeclaredEffects, EstimatesAStaticMapOfQ) {
   std::vector<DiagnosisExperiment> rig = CleanRig();
   double largest = 0.0;
   for (const double q : rig[0].record.heat_release) largest = std::max(largest, std::abs(q));

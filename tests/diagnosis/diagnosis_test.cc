@@ -92,7 +92,7 @@ TEST(Diagnose, CleanRigIsNotAccused) {
   EXPECT_NEAR(total, 1.0, 1e-9);
 }
 
-TEST(Diagnose, NamesALowPassOnQAndItsCutOff) {
+TEST(LongDiagnose, NamesALowPassOnQAndItsCutOff) {
   const std::vector<DiagnosisExperiment> rig =
       SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)});
   DiagnosisOptions options;

@@ -158,7 +158,7 @@ void ExpectSameBounds(const std::vector<Experiment>& experiments, const ModelSpe
 }
 
 TEST(Scaling, FamilyBoundsOfOneMode) { ExpectSameBounds(R228(), DefaultModelSpec(), 0); }
-TEST(Scaling, FamilyBoundsOfTwoModes) { ExpectSameBounds(WithLines(), TwoModes(), 30); }
+TEST(LongScaling, FamilyBoundsOfTwoModes) { ExpectSameBounds(WithLines(), TwoModes(), 30); }
 
 void ExpectSameMembers(const std::vector<Experiment>& experiments, const ModelSpec& model) {
   constexpr std::size_t kMembers = 50;

@@ -34,6 +34,8 @@ const char* KindName(BifurcationKind kind) {
 std::optional<Figure> BifurcationFigure(const ReportInput& input) {
   const MeasuredPoint* reference = input.Reference();
   if (reference == nullptr || input.Fitted(reference->name) == nullptr) return std::nullopt;
+  // A fit that did not converge is no loop: its parameters stand where its search gave up.
+  if (!input.solution.value("converged", false)) return std::nullopt;
   const LoopModel& model = input.Fitted(reference->name)->model;
   const double response = std::abs(RateAt(model, reference->frequency_hz.value));
   const SimulationSpec spec = input.config ? input.config->simulation : SimulationSpec{};
