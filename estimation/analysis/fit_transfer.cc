@@ -227,12 +227,14 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const 
   fit.acoustics = {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]),
                    second_mode ? std::exp(x[3]) : 0.0, model.harmonic_ratio};
   // The points' own scatter averages out over them. The level of q's noise does not: it is one for
-  // all of them, known by its prior and by what the points say of it.
-  Eigen::MatrixXd information =
-      solution.jacobian.transpose() * solution.jacobian / std::max(per_dof(solution), 1.0);
-  information(free, free) += 1.0;
-  const Eigen::MatrixXd inverse = CovarianceOf(information);
-  fit.log_covariance.topLeftCorner(free, free) = inverse.topLeftCorner(free, free);
+  // all of them. The points say something of it too, by a form that holds to first order in it, so
+  // that what they say moves the estimate; the doubt stays that of its prior.
+  const double scale = std::max(per_dof(solution), 1.0);
+  const Eigen::MatrixXd of_parameters = solution.jacobian.leftCols(free);
+  const Eigen::MatrixXd inverse = CovarianceOf(of_parameters.transpose() * of_parameters / scale);
+  const Eigen::VectorXd moved =
+      inverse * (of_parameters.transpose() * solution.jacobian.col(free)) / scale;
+  fit.log_covariance.topLeftCorner(free, free) = inverse + moved * moved.transpose();
   const auto estimate = [&](int i) {
     const double value = std::exp(x[static_cast<std::size_t>(i)]);
     return Estimate{value, value * std::sqrt(fit.log_covariance(i, i))};

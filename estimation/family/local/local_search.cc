@@ -46,6 +46,8 @@ std::optional<Member> FromCentres(const LocalCoordinates& c, const std::vector<C
   return member;
 }
 
+constexpr double kUnknownMOverN = 0.1;  // a start: a second mode that is minor by (5b)
+
 }  // namespace
 
 struct LocalSearch::Impl {
@@ -154,8 +156,13 @@ std::optional<Member> LocalSearch::FromTransfer() const {
   for (const Experiment& experiment : problem.experiments) {
     if (!experiment.transfer_ellipsoid) return std::nullopt;
     const TransferVector& centre = experiment.transfer_ellipsoid->Centre();
-    ln_second += (c.relative ? centre(3) - centre(2) : centre(3)) /
-                 static_cast<double>(problem.experiments.size());
+    // Where a transfer says nothing of the second mode its fit ends anywhere, at the least of sizes
+    // too, and no search comes back from there.
+    const double ln_M = experiment.transfer_ellipsoid->IsDetermined(3)
+                            ? centre(3)
+                            : centre(2) + std::log(kUnknownMOverN);
+    ln_second +=
+        (c.relative ? ln_M - centre(2) : ln_M) / static_cast<double>(problem.experiments.size());
     centres.push_back({std::exp(centre(0)),
                        std::clamp(std::exp(centre(1)), std::max(xi.lo, kLocalLeastXi) * (1 + 1e-6),
                                   std::min(xi.hi, kLocalLargestXi) * (1 - 1e-6))});

@@ -1,7 +1,12 @@
 #include "estimation/family/members/transfer_starts.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "estimation/family/local/local_search.h"
 #include "estimation/family/members/enumerate.h"
+#include "estimation/family/problem/membership.h"
 #include "estimation/family/problem/random.h"
 #include "estimation/parallel.h"
 
@@ -9,20 +14,58 @@ namespace howl {
 
 namespace {
 
+constexpr double kWellInside = 0.9;  // of every tolerance, as chains like to begin
+
+// A long bent valley takes more than one search: each begins where the last one ended, for as long
+// as that brings it nearer.
+std::optional<Approach> Approached(const FamilyProblem& problem, const LocalSearch& search,
+                                   const Member& start) {
+  constexpr int kMostSearches = 10;
+  constexpr double kNearer = 0.99;
+  std::optional<Approach> approach = search.FindMember(start, kWellInside);
+  for (int k = 1; k < kMostSearches && approach; ++k) {
+    if (Holds(problem, approach->member)) return approach;
+    std::optional<Approach> next = search.FindMember(approach->member, kWellInside);
+    if (!next || !(next->violation < kNearer * approach->violation)) return std::nullopt;
+    approach = std::move(next);
+  }
+  return approach && Holds(problem, approach->member) ? std::move(approach) : std::nullopt;
+}
+
+std::optional<Member> ByNarrowing(const FamilyProblem& problem, Member member) {
+  constexpr double kStep = 0.25;
+  double distance = 0.0;
+  for (std::size_t i = 0; i < member.size(); ++i) {
+    const double here = ComputeErrors(problem.experiments[i], member[i]).transfer_distance;
+    if (std::isfinite(here)) distance = std::max(distance, here);
+  }
+  FamilyProblem step = problem;
+  while (distance > problem.test.transfer_distance_max) {
+    distance = std::max(kStep * distance, problem.test.transfer_distance_max);
+    step.test.transfer_distance_max = distance;
+    std::optional<Approach> approach = Approached(step, LocalSearch(step), member);
+    if (!approach) return std::nullopt;
+    member = std::move(approach->member);
+  }
+  return member;
+}
+
 std::optional<Member> FirstMember(const FamilyProblem& problem, const LocalSearch& search) {
   constexpr std::size_t kTried = 8;
-  const auto inside = [&](const Member& start) -> std::optional<Member> {
-    std::optional<Approach> approach = search.FindMember(start, 0.9);
-    if (!approach || !Holds(problem, approach->member)) return std::nullopt;
-    return std::move(approach->member);
-  };
-  if (const std::optional<Member> centre = search.FromTransfer()) {
-    if (std::optional<Member> member = inside(*centre)) return member;
-  }
+  const std::optional<Member> centre = search.FromTransfer();
   FamilyProblem without = problem;
   without.test.transfer_distance_max = std::numeric_limits<double>::infinity();
-  for (const Member& start : EnumerateMembers(without, kTried, 0, 1).members) {
-    if (std::optional<Member> member = inside(start)) return member;
+  std::vector<Member> starts = EnumerateMembers(without, kTried, 0, 1).members;
+  if (centre) starts.insert(starts.begin(), *centre);
+  for (const Member& start : starts) {
+    std::optional<Approach> approach = Approached(problem, search, start);
+    if (approach) return std::move(approach->member);
+  }
+  // An ellipsoid that is long in one direction and thin in the others is a bent valley for the
+  // search: from a member of the rest it is drawn in by steps.
+  if (centre) starts.erase(starts.begin());
+  for (const Member& start : starts) {
+    if (std::optional<Member> member = ByNarrowing(problem, start)) return member;
   }
   return std::nullopt;
 }
