@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "estimation/family/local/local_search.h"
 #include "estimation/family/members/enumerate.h"
@@ -18,20 +19,24 @@ constexpr double kWellInside = 0.9;  // of every tolerance, as chains like to be
 
 // A long bent valley takes more than one search: each begins where the last one ended, for as long
 // as that brings it nearer.
-std::optional<Approach> Approached(const FamilyProblem& problem, const LocalSearch& search,
-                                   const Member& start) {
+std::optional<Member> Approached(const FamilyProblem& problem, const LocalSearch& search,
+                                 const Member& start) {
   constexpr int kMostSearches = 10;
   constexpr double kNearer = 0.99;
-  std::optional<Approach> approach = search.FindMember(start, kWellInside);
-  for (int k = 1; k < kMostSearches && approach; ++k) {
-    if (Holds(problem, approach->member)) return approach;
-    std::optional<Approach> next = search.FindMember(approach->member, kWellInside);
-    if (!next || !(next->violation < kNearer * approach->violation)) return std::nullopt;
-    approach = std::move(next);
+  Member from = start;
+  double violation = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kMostSearches; ++k) {
+    std::optional<Approach> approach = search.FindMember(from, kWellInside);
+    if (!approach || !(approach->violation < kNearer * violation)) return std::nullopt;
+    if (Holds(problem, approach->member)) return std::move(approach->member);
+    violation = approach->violation;
+    from = std::move(approach->member);
   }
-  return approach && Holds(problem, approach->member) ? std::move(approach) : std::nullopt;
+  return std::nullopt;
 }
 
+// From a member of the rest of the test the ellipsoid is drawn in by steps, where it is too long in
+// one direction and too thin in the others to be reached at once.
 std::optional<Member> ByNarrowing(const FamilyProblem& problem, Member member) {
   constexpr double kStep = 0.25;
   double distance = 0.0;
@@ -43,27 +48,24 @@ std::optional<Member> ByNarrowing(const FamilyProblem& problem, Member member) {
   while (distance > problem.test.transfer_distance_max) {
     distance = std::max(kStep * distance, problem.test.transfer_distance_max);
     step.test.transfer_distance_max = distance;
-    std::optional<Approach> approach = Approached(step, LocalSearch(step), member);
-    if (!approach) return std::nullopt;
-    member = std::move(approach->member);
+    std::optional<Member> nearer = Approached(step, LocalSearch(step), member);
+    if (!nearer) return std::nullopt;
+    member = *std::move(nearer);
   }
   return member;
 }
 
 std::optional<Member> FirstMember(const FamilyProblem& problem, const LocalSearch& search) {
   constexpr std::size_t kTried = 8;
-  const std::optional<Member> centre = search.FromTransfer();
+  if (const std::optional<Member> centre = search.FromTransfer()) {
+    if (std::optional<Member> member = Approached(problem, search, *centre)) return member;
+  }
   FamilyProblem without = problem;
   without.test.transfer_distance_max = std::numeric_limits<double>::infinity();
-  std::vector<Member> starts = EnumerateMembers(without, kTried, 0, 1).members;
-  if (centre) starts.insert(starts.begin(), *centre);
+  const std::vector<Member> starts = EnumerateMembers(without, kTried, 0, 1).members;
   for (const Member& start : starts) {
-    std::optional<Approach> approach = Approached(problem, search, start);
-    if (approach) return std::move(approach->member);
+    if (std::optional<Member> member = Approached(problem, search, start)) return member;
   }
-  // An ellipsoid that is long in one direction and thin in the others is a bent valley for the
-  // search: from a member of the rest it is drawn in by steps.
-  if (centre) starts.erase(starts.begin());
   for (const Member& start : starts) {
     if (std::optional<Member> member = ByNarrowing(problem, start)) return member;
   }
