@@ -4,6 +4,7 @@
 
 #include "app/command.h"
 #include "app/health_text.h"
+#include "app/delay_text.h"
 #include "app/loop_gain_text.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
@@ -144,6 +145,7 @@ int Run(const Options& options) {
     std::printf("phase, gain, delay, flame curve and transfer need heat release: not available\n");
   }
   std::printf("%s", LowLoopGainText(set).c_str());
+  std::printf("%s", DelayText(set.delay).c_str());
   std::printf("%s", VanishingText(set.vanishing_phi, config.operating_parameter).c_str());
   const std::string written =
       "written: characteristics.csv, lines.csv, transfer.csv, flame_curve.csv and analysis.json "

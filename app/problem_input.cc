@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/delay_text.h"
 #include "app/record_input.h"
 #include "io/user_error.h"
 
@@ -52,23 +53,28 @@ ProblemInput LoadInput(const Config& config, const Options& options) {
     const Analysis& analysis = input.analysis->analyses[next++];
     std::optional<Experiment> experiment = ToExperiment(analysis);
     if (!experiment) {
-      input.left_out.push_back(Shortcoming(analysis, analysis_options));
+      input.notes.push_back(Shortcoming(analysis, analysis_options));
       continue;
     }
     experiment->delay_periods = input.analysis->delay.branch;
     experiment->reliable = experiment->reliable && each.experiment.reliable;
     input.experiments.push_back(*std::move(experiment));
   }
+  if (input.analysis && DelayIsOpen(input.analysis->delay)) {
+    std::string note = DelayText(input.analysis->delay);
+    note.pop_back();  // the end of the line
+    input.notes.push_back(std::move(note));
+  }
   return input;
 }
 
-void PrintLeftOut(const Options& options, const ProblemInput& input) {
+void PrintNotes(const Options& options, const ProblemInput& input) {
   if (options.quiet) return;
-  for (const std::string& line : input.left_out) std::fprintf(stderr, "%s\n", line.c_str());
+  for (const std::string& line : input.notes) std::fprintf(stderr, "%s\n", line.c_str());
 }
 
 void RequireExperiments(const Config& config, const Options& options, const ProblemInput& input) {
-  if (!input.experiments.empty()) return PrintLeftOut(options, input);
+  if (!input.experiments.empty()) return PrintNotes(options, input);
   std::string why;
   for (std::size_t i = 0; i < input.records.size() && why.empty(); ++i) {
     for (const Finding& finding :

@@ -18,7 +18,9 @@ struct ProblemInput {
   std::vector<Experiment> experiments;  // that fit and family can take; may be empty
   std::optional<AnalysisSet> analysis;  // when the config has records
   std::vector<NamedRecord> records;     // that were analysed
-  std::vector<std::string> left_out;    // a line for each record that gives no experiment
+  // What the user should know before the answer: a line for each record that gives no experiment,
+  // and one for a delay whose whole periods the records cannot tell.
+  std::vector<std::string> notes;
 };
 
 // Published numbers as they are; records analysed first. An experiment whose record shows no limit
@@ -26,10 +28,10 @@ struct ProblemInput {
 ProblemInput LoadInput(const Config& config, const Options& options);
 
 // On standard error, unless the user wants it quiet.
-void PrintLeftOut(const Options& options, const ProblemInput& input);
+void PrintNotes(const Options& options, const ProblemInput& input);
 
 // Throws UserError when no experiment is left, with what the analysis says of the first; else
-// prints which are left out.
+// prints the notes.
 void RequireExperiments(const Config& config, const Options& options, const ProblemInput& input);
 
 // The experiments alone. Throws UserError when none is left.

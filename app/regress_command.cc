@@ -64,7 +64,7 @@ Json FreshFamily(const Config& config, const Options& options,
 // solution and family where p and q have a cycle, the trade-off for published tables.
 Json FreshResults(const Config& config, const Options& options, bool with_family) {
   const ProblemInput input = LoadInput(config, options);
-  PrintLeftOut(options, input);
+  PrintNotes(options, input);
   Json results = {{"schema", kReferenceSchema}};
   if (input.analysis) results["analysis"] = AnalysisJson(*input.analysis);
   if (!input.experiments.empty()) {

@@ -9,6 +9,46 @@
 
 namespace howl {
 
+namespace {
+
+constexpr double kDecided = 0.95;
+
+// Spreads below the clock and text of any record count as equal.
+constexpr double kLeastSpread = 1e-9;
+
+// Most probable first; phases have been unwrapped about their mean.
+std::vector<DelayBranch> CompareDelayBranches(std::span<const DelayInput> inputs, int max_branch) {
+  std::vector<DelayBranch> branches;
+  const double n = static_cast<double>(inputs.size());
+  for (int k = -1; k <= max_branch && inputs.size() >= 3; ++k) {
+    double sum = 0.0, squares = 0.0;
+    bool positive = true;
+    for (const DelayInput& input : inputs) {
+      const double tau_s = DelayOnBranch(input, k).value;
+      positive = positive && tau_s > 0.0;
+      sum += tau_s;
+      squares += tau_s * tau_s;
+    }
+    const double mean = sum / n;
+    const double variance = std::max(squares / n - mean * mean, 0.0) * n / (n - 1.0);
+    if (positive) branches.push_back({k, mean, std::sqrt(variance) / mean, 0.0});
+  }
+  std::stable_sort(
+      branches.begin(), branches.end(),
+      [](const DelayBranch& a, const DelayBranch& b) { return a.spread < b.spread; });
+  double total = 0.0;
+  for (DelayBranch& branch : branches) {
+    const double relative = std::max(branches.front().spread, kLeastSpread) /
+                            std::max(branch.spread, kLeastSpread);
+    branch.probability = std::pow(relative, n - 1.0);
+    total += branch.probability;
+  }
+  for (DelayBranch& branch : branches) branch.probability /= total;
+  return branches;
+}
+
+}  // namespace
+
 Estimate DelayOnBranch(const DelayInput& input, int branch) {
   const double f = input.frequency_hz.value;
   const double tau_s = DelayFromPhase(f, input.phase_deg.value, branch);
@@ -30,40 +70,11 @@ DelayChoice EstimateDelays(std::span<const DelayInput> given, std::optional<int>
   for (DelayInput& input : inputs) {
     input.phase_deg.value = mean_deg + WrapDeg(input.phase_deg.value - mean_deg);
   }
-  double lowest = std::numeric_limits<double>::infinity(), highest = 0.0;
-  for (const DelayInput& input : inputs) {
-    lowest = std::min(lowest, input.frequency_hz.value);
-    highest = std::max(highest, input.frequency_hz.value);
-  }
-  for (int k = -1; k <= max_branch && inputs.size() >= 3; ++k) {
-    double sum = 0.0, squares = 0.0;
-    bool positive = true;
-    for (const DelayInput& input : inputs) {
-      const double tau_s = DelayOnBranch(input, k).value;
-      positive = positive && tau_s > 0.0;
-      sum += tau_s;
-      squares += tau_s * tau_s;
-    }
-    const double n = static_cast<double>(inputs.size());
-    const double mean = sum / n;
-    const double variance = std::max(squares / n - mean * mean, 0.0) * n / (n - 1.0);
-    if (positive) choice.branches.push_back({k, mean, std::sqrt(variance) / mean});
-  }
-  double sum = 0.0, squares = 0.0;
-  for (const DelayInput& input : inputs) {
-    sum += 1.0 / input.frequency_hz.value;
-    squares += 1.0 / (input.frequency_hz.value * input.frequency_hz.value);
-  }
-  const double n = static_cast<double>(inputs.size());
-  const double period_spread =
-      std::sqrt(std::max(squares / n - sum * sum / (n * n), 0.0) * n / std::max(n - 1.0, 1.0)) /
-      (sum / n);
-  std::sort(choice.branches.begin(), choice.branches.end(),
-            [](const DelayBranch& a, const DelayBranch& b) { return a.spread < b.spread; });
+  choice.branches = CompareDelayBranches(inputs, max_branch);
   if (branch.has_value()) {
     choice.branch = *branch;
-  } else if (!choice.branches.empty() && highest > 1.01 * lowest &&
-             choice.branches.front().spread < 0.5 * period_spread) {
+    choice.given = true;
+  } else if (!choice.branches.empty() && choice.branches.front().probability >= kDecided) {
     choice.branch = choice.branches.front().branch;
     choice.by_consistency = true;
   }

@@ -209,7 +209,8 @@ Json AnalysisJson(const AnalysisSet& set) {
   for (const DelayBranch& branch : set.delay.branches) {
     branches.push_back({{"periods", branch.branch},
                         {"mean_tau_s", NumberOrNull(branch.mean_tau_s)},
-                        {"spread", NumberOrNull(branch.spread)}});
+                        {"spread", NumberOrNull(branch.spread)},
+                        {"probability", branch.probability}});
   }
   return {{"schema", "howl.analysis/1"},
           {"experiments", experiments},

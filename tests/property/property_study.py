@@ -2,12 +2,16 @@
 """Asks every command the same question about loops that are known exactly.
 
     property_study.py HOWL [--problems 200] [--first 0] [--jobs 2] [--without-diagnosis]
+                      [--store FOLDER]
 
 For each drawn problem (one or two modes, a shared delay or one for each experiment): fit and family on
 the exact table; simulate the drawn loop, its parameters held; analyse, fit, family and diagnose on the
-simulated records, with the config that simulate wrote, its parameters free again. Counted are: empty families, guaranteed bounds that the truth leaves, 95 %
-intervals that hold it, and diagnoses that accuse. Exit status 1 where a guarantee fails or a share is
-less than its binomial scatter allows.
+simulated records, with the config that simulate wrote, its parameters free again. Counted are: empty
+families, guaranteed bounds that the truth leaves, 95 % intervals that hold it, and diagnoses that
+accuse. Exit status 1 where a guarantee fails or a share is less than its binomial scatter allows.
+
+With --store each problem's counts stay in the folder, and a study that was stopped goes on from there;
+a folder belongs to one program and one kind of study.
 """
 
 import argparse
@@ -19,6 +23,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import problem as problems
@@ -184,6 +189,28 @@ def study(howl, seed, with_diagnosis):
     return tally
 
 
+def stored_study(options, seed):
+    """A study's counts: of the folder if it has them, and put there if not."""
+    path = pathlib.Path(options.store) / f"{seed:03d}.json" if options.store else None
+    tally = Tally()
+    if path and path.exists():
+        stored = json.loads(path.read_text(encoding="utf-8"))
+        tally.counts = {name: tuple(count) for name, count in stored["counts"].items()}
+        tally.failures = stored["failures"]
+        return tally
+    started = time.monotonic()
+    tally = study(options.howl, seed, not options.without_diagnosis)
+    print(f"problem {seed}: {time.monotonic() - started:.0f} s", *tally.failures, sep="\n  ",
+          file=sys.stderr, flush=True)
+    if path:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part = path.with_suffix(".part")
+        part.write_text(json.dumps({"counts": tally.counts, "failures": tally.failures}),
+                        encoding="utf-8")
+        part.replace(path)
+    return tally
+
+
 def required_share(name):
     """Guarantees hold always; 95 % intervals and 5 % false alarms at their rate."""
     return 0.95 if "interval" in name or "diagnosis" in name else 1.0
@@ -196,11 +223,12 @@ def main():
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--without-diagnosis", action="store_true")
+    parser.add_argument("--store", help="folder of one file for each problem")
     options = parser.parse_args()
     total = Tally()
     seeds = range(options.first, options.first + options.problems)
     with ThreadPoolExecutor(options.jobs) as pool:
-        for one in pool.map(lambda s: study(options.howl, s, not options.without_diagnosis), seeds):
+        for one in pool.map(lambda seed: stored_study(options, seed), seeds):
             total.merge(one)
     failed = False
     for name, (done, right) in sorted(total.counts.items()):

@@ -22,7 +22,11 @@ class RowMaker {
     const LocalScale& scale = c_.scales[i];
     if (scale.has_phase) AddBoth(i, kLocalPhase, Condition::kPhase);
     if (scale.has_gain) AddBoth(i, kLocalGain, Condition::kGain);
-    if (scale.has_loop_phase) AddBoth(i, kLocalLoopPhase, Condition::kLoopPhase);
+    if (scale.has_loop_phase) {
+      const LocalJet error = points_[i].loop_phase_rad / scale.loop_phase;
+      Add(error, i, IsSoft(Condition::kLoopPhase));
+      Add(-error, i, IsSoft(Condition::kLoopPhase));
+    }
     const double xi_max = c_.problem.test.xi_max;
     if (std::isfinite(xi_max)) {
       Add(1.0 + (points_[i].ln_xi - std::log(xi_max * (1 - kLocalMargin))), i,

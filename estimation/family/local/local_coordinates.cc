@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "model/units.h"
@@ -14,7 +15,7 @@ bool IsSupported(const LocalCoordinates& c) {
   const FamilyProblem& p = c.problem;
   for (const ParameterKind kind :
        {ParameterKind::kOmega, ParameterKind::kXi, ParameterKind::kN, ParameterKind::kTau}) {
-    if (p.IsShared(kind) && p.experiments.size() > 1) return false;
+    if (kind != ParameterKind::kTau && p.IsShared(kind) && p.experiments.size() > 1) return false;
     for (std::size_t i = 0; i < p.experiments.size(); ++i) {
       const Range range = p.RangeOf(kind, i);
       if (!(range.lo < range.hi)) return false;
@@ -67,8 +68,8 @@ LocalScale MakeScale(const LocalCoordinates& c, std::size_t i, const Range& seco
   if (target.gain.lo > e.gain * (1.0 - test.gain_tolerance)) {  // by the least loop gain
     scale.box[kLocalGain].lo = (target.gain.lo * (1 + kLocalMargin) - e.gain) / scale.gain;
   }
-  scale.box[kLocalLoopPhase] = {-std::numbers::pi / scale.loop_phase,
-                                std::numbers::pi / scale.loop_phase};
+  scale.box[kLocalDelay] = {-std::numbers::pi / scale.loop_phase,
+                            std::numbers::pi / scale.loop_phase};
   scale.box[kLocalSecond] =
       c.shared_second ? second
                       : Range{std::log(0.02 * e.frequency_hz), std::log(50 * e.frequency_hz)};
@@ -78,7 +79,27 @@ LocalScale MakeScale(const LocalCoordinates& c, std::size_t i, const Range& seco
 // A tolerance of zero, or a fixed xi, leaves a coordinate no room.
 bool HasRoom(const LocalScale& scale) {
   return scale.box[kLocalXi].lo < scale.box[kLocalXi].hi && scale.phase > 0.0 && scale.gain > 0.0 &&
-         scale.loop_phase > 0.0;
+         scale.loop_phase > 0.0 && scale.box[kLocalDelay].lo < scale.box[kLocalDelay].hi;
+}
+
+// One coordinate for all experiments: from where the first of their loop phase errors is half a turn
+// to where the last is. Its unit moves the loop phase by about its tolerance.
+void ShareTheDelay(LocalCoordinates& c) {
+  constexpr double kPi = std::numbers::pi;
+  const double n = static_cast<double>(c.targets.size());
+  Range tau_s{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < c.targets.size(); ++i) {
+    const double w = c.targets[i].w_rad_s;
+    const double middle =
+        (1.5 * kPi + c.scales[i].phase_0 + 2.0 * kPi * c.problem.domain.delay_periods) / w;
+    tau_s = {std::max(tau_s.lo, middle - kPi / w), std::min(tau_s.hi, middle + kPi / w)};
+    c.tau_0_s += middle / n;
+    c.tau_scale_s += c.scales[i].loop_phase / w / n;
+  }
+  for (LocalScale& scale : c.scales) {
+    scale.box[kLocalDelay] = {(tau_s.lo - c.tau_0_s) / c.tau_scale_s,
+                              (tau_s.hi - c.tau_0_s) / c.tau_scale_s};
+  }
 }
 
 }  // namespace
@@ -94,13 +115,17 @@ LocalCoordinates MakeLocalCoordinates(const FamilyProblem& problem) {
   c.ln_spread = std::log1p(problem.test.omega_spread_max * (1.0 - kLocalMargin));
   c.supported = IsSupported(c);
   if (!c.supported) return c;
+  c.shared_tau = c.targets.size() > 1 && problem.IsShared(ParameterKind::kTau);
   const Range second = SecondBox(c);
   const int shared = c.shared_second && second.lo < second.hi ? c.size++ : -1;
+  const int delay = c.shared_tau ? c.size++ : -1;
+  for (std::size_t i = 0; i < c.targets.size(); ++i) c.scales.push_back(MakeScale(c, i, second));
+  if (c.shared_tau) ShareTheDelay(c);
   for (std::size_t i = 0; i < c.targets.size(); ++i) {
-    c.scales.push_back(MakeScale(c, i, second));
-    if (!HasRoom(c.scales.back())) c.supported = false;
+    if (!HasRoom(c.scales[i])) c.supported = false;
     std::array<int, kLocals> index{};
-    for (std::size_t k = kLocalXi; k <= kLocalLoopPhase; ++k) index[k] = c.size++;
+    for (std::size_t k = kLocalXi; k < kLocalDelay; ++k) index[k] = c.size++;
+    index[kLocalDelay] = c.shared_tau ? delay : c.size++;
     index[kLocalSecond] = c.shared_second ? shared : (c.two_modes ? c.size++ : -1);
     c.index.push_back(index);
   }

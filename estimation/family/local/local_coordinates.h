@@ -3,7 +3,9 @@
 //   ln xi,  (arg G - phase) / phase scale,  (|G| - gain) / gain scale,
 //   loop phase error / loop phase scale,
 //
-// where a scale is the condition's tolerance, so that the condition is |u| <= 1; and with two modes
+// where a scale is the condition's tolerance, so that the condition is |u| <= 1. Where the
+// experiments share the delay, (tau - tau_0) / tau scale stands once for all of them in the place of
+// their loop phase errors, which follow from it. With two modes there is also
 // ln omega of the experiment's own, or once for all experiments the shared ln M or ln (M / N).
 //
 // Every coordinate lives in an open box. What may be soft is not in the box: the conditions are
@@ -25,7 +27,7 @@ enum LocalCoordinate {
   kLocalXi,
   kLocalPhase,
   kLocalGain,
-  kLocalLoopPhase,
+  kLocalDelay,   // the loop phase error, or the delay that the experiments share
   kLocalSecond,  // ln omega, or what the experiments share of the second mode
   kLocals
 };
@@ -47,6 +49,8 @@ struct LocalCoordinates {
   bool two_modes = false;
   bool relative = false;       // the second mode is M / N, not M
   bool shared_second = false;  // all experiments have the same
+  bool shared_tau = false;
+  double tau_0_s = 0.0, tau_scale_s = 0.0;  // of a shared delay
   bool supported = true;       // else nothing below is of use
   double ratio = 0.0;
   double ln_spread = 0.0;
@@ -58,11 +62,12 @@ struct LocalCoordinates {
   ParameterKind SecondKind() const { return relative ? ParameterKind::kMOverN : ParameterKind::kM; }
   // A coordinate of its own: no constant, and a shared one with the first experiment alone.
   bool IsOwn(std::size_t experiment, std::size_t k) const {
-    return index[experiment][k] >= 0 && !(k == kLocalSecond && shared_second && experiment > 0);
+    const bool shared = (k == kLocalSecond && shared_second) || (k == kLocalDelay && shared_tau);
+    return index[experiment][k] >= 0 && !(shared && experiment > 0);
   }
 };
 
-// Not `supported` where omega, xi, N or tau is shared, or a condition or domain leaves no room.
+// Not `supported` where omega, xi or N is shared, or a condition or domain leaves no room.
 LocalCoordinates MakeLocalCoordinates(const FamilyProblem& problem);
 
 }  // namespace howl

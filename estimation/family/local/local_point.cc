@@ -176,14 +176,19 @@ bool BuildLocalPoint(const LocalCoordinates& c, std::size_t experiment,
   const T theta = scale.phase_0 + scale.phase * v[kLocalPhase];
   const T gain = scale.gain_0 + scale.gain * v[kLocalGain];
   const T t = tan(-theta);
-  const T loop_phase = scale.loop_phase * v[kLocalLoopPhase];
   const T across = xi * t;
   const T root = sqrt(across * across + 1.0);
   const T top = f * (root - across);
   point.ln_xi = v[kLocalXi];
-  point.tau_s = (1.5 * std::numbers::pi + theta - loop_phase +
-                 2.0 * std::numbers::pi * c.problem.domain.delay_periods) /
-                w;
+  const T turns =
+      1.5 * std::numbers::pi + theta + 2.0 * std::numbers::pi * c.problem.domain.delay_periods;
+  if (c.shared_tau) {
+    point.tau_s = c.tau_0_s + c.tau_scale_s * v[kLocalDelay];
+    point.loop_phase_rad = turns - w * point.tau_s;
+  } else {
+    point.loop_phase_rad = scale.loop_phase * v[kLocalDelay];
+    point.tau_s = (turns - point.loop_phase_rad) / w;
+  }
   const T stretch = w * gain * cos(theta);
   if (!c.two_modes) {
     point.ln_omega = log(top);

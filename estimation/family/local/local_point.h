@@ -2,11 +2,12 @@
 // (estimation/family/local/local_coordinates.h). With theta = arg G, t = tan(-theta) and w = 2 pi
 // f,
 //
-//   tau = (3 pi / 2 + theta - loop phase error + 2 pi delay_periods) / w
+//   w tau = 3 pi / 2 + theta - loop phase error + 2 pi delay_periods,
 //
-// and, with one mode, omega and N of estimation/analysis/closed_form.h. With two, N and M follow
-// from omega by estimation/fit/two_mode_solve.h: omega is a coordinate, or where the experiments
-// share the second mode the root next to where the last one was.
+// which gives tau, or with a shared tau the error; and, with one mode, omega and N of
+// estimation/analysis/closed_form.h. With two, N and M follow from omega by
+// estimation/fit/two_mode_solve.h: omega is a coordinate, or where the experiments share the second
+// mode the root next to where the last one was.
 //
 // T is double, or LocalJet: the derivatives with respect to the experiment's coordinates.
 #ifndef HOWL_ESTIMATION_FAMILY_LOCAL_LOCAL_POINT_H_
@@ -27,6 +28,7 @@ using LocalJet = ceres::Jet<double, kLocals>;
 template <typename T>
 struct LocalPoint {
   T ln_omega, ln_xi, ln_N, ln_M, tau_s;
+  T loop_phase_rad;             // its error
   T above, below;               // y - xi t and xi t - y_r: positive where M and N are
   std::vector<T> line_rad;      // loop phase errors
   std::vector<T> ln_line_gain;  // of |L Phi'(0)|, where the test looks at it

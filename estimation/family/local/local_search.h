@@ -31,7 +31,7 @@ class LocalSearch {
   LocalSearch(const LocalSearch&) = delete;
   LocalSearch& operator=(const LocalSearch&) = delete;
 
-  // False where omega, xi, N or tau is shared, or omega_spread_max is zero.
+  // False where omega, xi or N is shared, or omega_spread_max is zero.
   bool IsSupported() const;
 
   // Minimises the largest violation of all conditions until it is below `enough`. Nothing where the

@@ -82,10 +82,41 @@ TEST(LocalSearchTest, EmptyFamilyLeavesAViolation) {
   EXPECT_GT(nearest->violation, 1.0);
 }
 
-TEST(LocalSearchTest, SharedParametersAreNotSearched) {
+TEST(LocalSearchTest, ASharedDampingIsNotSearched) {
   FamilyProblem problem{.experiments = R228()};
-  problem.model[ParameterKind::kTau].scope = ParameterScope::kShared;
+  problem.model[ParameterKind::kXi].scope = ParameterScope::kShared;
   EXPECT_FALSE(LocalSearch(problem).IsSupported());
+}
+
+// With errors of phase within half a degree and of loop phase within one, an experiment allows
+// w tau = 270 degrees + phase +- 1.5 degrees; a shared delay lies in both intervals.
+TEST(LocalSearchTest, ASharedDelayReachesBothExperimentsExtremes) {
+  FamilyProblem problem{.experiments = R228()};
+  problem.experiments = {problem.experiments[2], problem.experiments[3]};
+  problem.model[ParameterKind::kTau].scope = ParameterScope::kShared;
+  double lowest = 0.0, highest = INFINITY;
+  for (const Experiment& e : problem.experiments) {
+    const double w = 2 * M_PI * e.frequency_hz;
+    lowest = std::max(lowest, (270 + e.phase_deg - 1.5) * kRad / w);
+    highest = std::min(highest, (270 + e.phase_deg + 1.5) * kRad / w);
+  }
+  const LocalSearch search(problem);
+  ASSERT_TRUE(search.IsSupported());
+  FamilyProblem loose = problem;
+  loose.test = {0.5, 30.0, 60.0, 0.0, 90.0, 1.5, 1.0, false};
+  for (const Member& start : EnumerateMembers(loose, 5, 3, 1).members) {
+    const auto found = search.FindMember(start);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_TRUE(reference::Passes(problem.experiments, found->member, problem.test));
+    EXPECT_EQ(found->member[0].tau_s, found->member[1].tau_s);
+    const MemberQuantity tau = Quantity(problem, "exp4.tau_s");
+    for (const double sign : {-1.0, 1.0}) {
+      const auto far = search.Farthest(found->member, tau, sign, 3e-5);
+      ASSERT_TRUE(far.has_value());
+      EXPECT_TRUE(reference::Passes(problem.experiments, *far, problem.test));
+      EXPECT_NEAR(tau.value(*far), sign > 0 ? highest : lowest, 3e-9);
+    }
+  }
 }
 
 // The published two-mode problem of six experiments: every bound meets to one per cent.

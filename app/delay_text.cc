@@ -1,0 +1,39 @@
+#include "app/delay_text.h"
+
+#include "app/text_table.h"
+
+namespace howl {
+namespace {
+
+constexpr double kPerCent = 100.0;
+constexpr double kHardlyProbable = 0.05;
+
+std::string PeriodsText(int periods) {
+  return std::to_string(periods) + (periods == 1 ? " whole period" : " whole periods");
+}
+
+}  // namespace
+
+bool DelayIsOpen(const DelayChoice& choice) {
+  return !choice.branches.empty() && !choice.given && !choice.by_consistency;
+}
+
+std::string DelayText(const DelayChoice& choice) {
+  if (choice.branches.empty() || choice.given) return "";
+  if (choice.by_consistency) {
+    return "the delay is " + PeriodsText(choice.branch) + " longer than the shortest (" +
+           Fixed(kPerCent * choice.branches.front().probability, 1) +
+           " %: the experiments' delays agree best so)\n";
+  }
+  std::string odds;
+  for (const DelayBranch& branch : choice.branches) {
+    if (branch.probability < kHardlyProbable && branch.branch != choice.branch) continue;
+    odds += (odds.empty() ? "" : ", ") + std::to_string(branch.branch) + ": " +
+            Fixed(kPerCent * branch.probability, 0) + " %";
+  }
+  return "how many whole periods longer than the shortest the delay is, the data cannot tell (" +
+         odds + "); " + std::to_string(choice.branch) +
+         " is taken, `analysis: {delay_branch: K}` states another\n";
+}
+
+}  // namespace howl
