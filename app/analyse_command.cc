@@ -3,13 +3,14 @@
 #include <cstdio>
 
 #include "app/command.h"
-#include "app/health_text.h"
 #include "app/delay_text.h"
+#include "app/health_text.h"
 #include "app/loop_gain_text.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "app/vanishing_text.h"
 #include "estimation/analysis/half_width.h"
+#include "estimation/analysis/second_crossing.h"
 #include "io/results/analysis_files.h"
 #include "io/results/health_json.h"
 #include "io/user_error.h"
@@ -62,7 +63,8 @@ void PrintCharacteristics(const AnalysisSet& set, const std::string& operating_p
 }
 
 void PrintLines(const AnalysisSet& set) {
-  TextTable table({"experiment", "line Hz", "harmonic", "p", "q", "width Hz", "coherence"});
+  TextTable table({"experiment", "line Hz", "harmonic", "p", "q", "width Hz", "coherence",
+                   "loop deg"});
   for (const Analysis& analysis : set.analyses) {
     std::size_t shown = 0;
     for (const SpectralLine& line : analysis.lines) {
@@ -72,11 +74,14 @@ void PrintLines(const AnalysisSet& set) {
                     Significant(line.p_amplitude, 3), Significant(line.q_amplitude, 3),
                     line.width_hz < line.resolution_hz ? "< " + Significant(line.resolution_hz, 2)
                                                        : Significant(line.width_hz, 2),
-                    analysis.has_heat_release ? Fixed(line.coherence, 2) : "-"});
+                    analysis.has_heat_release ? Fixed(line.coherence, 2) : "-",
+                    line.harmonic > 0 ? "-" : Fixed(LoopPhaseErrorAt(analysis, line).value, 0)});
     }
   }
-  std::printf("\nstrongest lines (all in lines.csv; %s):\n%s", kPlusMinusLegend,
-              table.Text().c_str());
+  std::printf(
+      "\nstrongest lines (all in lines.csv; %s; loop deg: by how much the loop's phase misses a "
+      "second\ncrossing there):\n%s",
+      kPlusMinusLegend, table.Text().c_str());
 }
 
 void PrintTransfers(const AnalysisSet& set, const ModelSpec& model) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/analysis/second_crossing.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -110,13 +111,14 @@ AnalysisSet AnalyseRecords(std::span<const NamedRecord> records, const AnalysisO
 namespace {
 
 // Neighbouring points share data, and where the model does not fit them, their scatter about the
-// best one is the error to reckon with: both widen the points' variance, as they widen the fit's
-// standard deviations.
+// best one is the error to reckon with, which neighbours share too: all three widen the points'
+// variance, as they widen the fit's standard deviations.
 std::vector<TransferPoint> WidenedPoints(const Analysis& analysis) {
   std::vector<TransferPoint> points = analysis.transfer->points;
   const double misfit =
       analysis.transfer_fit ? std::max(1.0, analysis.transfer_fit->chi_square_per_dof) : 1.0;
-  const double factor = misfit * analysis.transfer->neighbour_inflation;
+  const double shared = analysis.transfer_fit ? analysis.transfer_fit->points_per_error : 1.0;
+  const double factor = misfit * shared * analysis.transfer->neighbour_inflation;
   for (TransferPoint& point : points) {
     point.variance_re *= factor;
     point.variance_im *= factor;
@@ -152,15 +154,7 @@ std::optional<Experiment> ToExperiment(const Analysis& analysis) {
   if (analysis.transfer_fit) {
     experiment.transfer_ellipsoid = MakeTransferEllipsoid(*analysis.transfer_fit);
   }
-  // The loop closes a second time at one line: the strongest of p's that is no multiple of the
-  // cycle and lies above it (below lie differences of the two).
-  const SpectralLine* second = nullptr;
-  for (const SpectralLine& line : analysis.lines) {
-    if (line.harmonic != 0 || !line.narrow || line.p_amplitude < 0.01 * c.p_amplitude) continue;
-    if (line.frequency_hz.value < 1.05 * c.frequency_hz.value) continue;
-    if (second == nullptr || line.p_amplitude > second->p_amplitude) second = &line;
-  }
-  if (second != nullptr) {
+  if (const SpectralLine* const second = FindSecondCrossing(analysis)) {
     const Estimate& f = second->frequency_hz;
     experiment.lines.push_back({f.value, std::isfinite(f.std) ? f.std : 0.0});
   }

@@ -80,7 +80,8 @@ struct Solution {
   LogParameters x;
   double q_noise = 0.0;      // u (estimation/residuals/transfer_point.h)
   Eigen::MatrixXd jacobian;  // of the points' whitened residuals over the free parameters, u last
-  double cost = 0.0;         // of the points alone
+  std::vector<double> misfits;  // the points' whitened residuals, two for each
+  double cost = 0.0;            // of the points alone
   bool usable = false;
 };
 
@@ -130,7 +131,7 @@ Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
   evaluate.parameter_blocks.push_back(u);
   problem.GetResidualBlocks(&evaluate.residual_blocks);
   evaluate.residual_blocks.pop_back();  // the prior of u
-  problem.Evaluate(evaluate, &solution.cost, nullptr, nullptr, &jacobian);
+  problem.Evaluate(evaluate, &solution.cost, &solution.misfits, nullptr, &jacobian);
   solution.jacobian = Eigen::MatrixXd::Zero(jacobian.num_rows, jacobian.num_cols);
   for (int row = 0; row < jacobian.num_rows; ++row) {
     const auto r = static_cast<std::size_t>(row);
@@ -168,6 +169,24 @@ std::vector<TransferPoint> WithModelError(std::span<const TransferPoint> points,
     result[k].variance_im += 0.5 * error * error * size;
   }
   return result;
+}
+
+// See TransferFit.
+double PointsPerError(std::span<const double> misfits) {
+  const std::size_t points = misfits.size() / 2;
+  const auto product = [&](std::size_t lag) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 2 * (points - lag); ++i) sum += misfits[i] * misfits[i + 2 * lag];
+    return sum / static_cast<double>(points - lag);
+  };
+  const double power = product(0);
+  double sum = 1.0;
+  for (std::size_t lag = 1; lag < points / 2 && power > 0.0; ++lag) {
+    const double correlation = product(lag) / power;
+    if (!(correlation > 0.0)) break;
+    sum += 2.0 * correlation;
+  }
+  return sum;
 }
 
 // What the points say nothing of has a variance without end, and not, as in a pseudo-inverse, none:
@@ -221,6 +240,7 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const 
       solution = solve(fit.model_error);
       (per_dof(solution) > 1.0 ? low : high) = fit.model_error;
     }
+    fit.points_per_error = PointsPerError(solution.misfits);
   }
   const LogParameters& x = solution.x;
   fit.available = solution.usable;
@@ -229,7 +249,7 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const 
   // The points' own scatter averages out over them. The level of q's noise does not: it is one for
   // all of them. The points say something of it too, by a form that holds to first order in it, so
   // that what they say moves the estimate; the doubt stays that of its prior.
-  const double scale = std::max(per_dof(solution), 1.0);
+  const double scale = std::max(per_dof(solution), 1.0) * fit.points_per_error;
   const Eigen::MatrixXd of_parameters = solution.jacobian.leftCols(free);
   const Eigen::MatrixXd inverse = CovarianceOf(of_parameters.transpose() * of_parameters / scale);
   const Eigen::VectorXd moved =

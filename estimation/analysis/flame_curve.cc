@@ -152,7 +152,7 @@ FlameCurve EstimateFlameCurve(const Record& record, const CrossSpectrum& spectru
     const FlamePolynomial fit(samples, limit, options.fit_range);
     const FlamePolynomial full_fit(full, limit, options.fit_range);
     // Of the highest degree: what a low one misses of the curve is no scatter.
-    constexpr int kDegree = FlamePolynomial::kHighestDegree;
+    constexpr int kDegree = 9;
     const double preference =
         ScatterPreference(samples, FlamePolynomial(samples, limit, options.fit_range, kDegree),
                           full, FlamePolynomial(full, limit, options.fit_range, kDegree));

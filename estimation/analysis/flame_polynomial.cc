@@ -8,7 +8,7 @@ namespace howl {
 namespace {
 
 constexpr int kStretches = 48;
-constexpr double kClearStep = 2.0;  // standard errors by which a higher degree moves the slope
+constexpr double kClearStep = 1.0;  // standard errors by which a higher degree moves the slope
 
 double ErrorOf(const std::vector<double>& scores) {
   const MeanError error = ErrorOfMean(scores, 0.0);
@@ -95,7 +95,7 @@ FlameSlopeFit FitFlameSlope(const FlameSamples& samples, double limit, double ra
     std::vector<double> change(next_scores);
     for (std::size_t i = 0; i < change.size(); ++i) change[i] -= scores[i];
     const double step = next.Coefficient(1) - fit.Coefficient(1);
-    unfitted = 0.5 * std::abs(step);
+    unfitted = std::abs(step);
     if (std::abs(step) < kClearStep * ErrorOf(change)) break;
     fit = next;
     scores = next_scores;

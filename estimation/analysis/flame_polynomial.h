@@ -28,7 +28,7 @@ struct FlameSamples {
 class FlamePolynomial {
  public:
   static constexpr int kLowestDegree = 5;
-  static constexpr int kHighestDegree = 9;
+  static constexpr int kHighestDegree = 13;
 
   FlamePolynomial(const FlameSamples& samples, double limit, double range,
                   int degree = kLowestDegree);

@@ -11,8 +11,6 @@
 namespace howl {
 namespace {
 
-// A harmonic counts where its coherent mean is this many standard errors from zero.
-constexpr double kLockedSigmas = 4.0;
 constexpr double kLeastDiffusion = 5e-12;  // rad^2 a period: a steadier phase counts as this steady
 constexpr double kHighestHarmonic = 0.4;   // of the sampling rate
 
@@ -48,8 +46,11 @@ FlameRegressor::FlameRegressor(const Record& record, const Characteristics& cycl
   first_ = std::max(static_cast<int>(std::ceil((first_s + tau_s) * sampling_hz_)), 0);
   last_ = std::min(static_cast<int>(std::floor((last_s + tau_s) * sampling_hz_)), n);
 
+  // In the slope, of the harmonics beyond: what they count for is taken to halve with each order.
+  double tail = 0.0;
   for (int order = 2; order <= max_harmonic; ++order) {
     if (order * frequency_hz_ > kHighestHarmonic * sampling_hz_) break;
+    tail *= 0.5;
     const Blocks harmonic = Demodulate(p, sampling_hz_, order * frequency_hz_, block_samples_);
     std::complex<double> mean = 0.0;
     double power = 0.0;
@@ -63,12 +64,17 @@ FlameRegressor::FlameRegressor(const Record& record, const Characteristics& cycl
     const double variance_of_mean = std::max(power - std::norm(mean), 0.0) / count;
     const double slope_error = order * order * std::sqrt(variance_of_mean) / cycle.p_amplitude;
     harmonic_slope_variance_ += 0.5 * slope_error * slope_error;
-    if (std::norm(mean) <= kLockedSigmas * kLockedSigmas * variance_of_mean) continue;
+    // Drawn to zero by its own doubt: what is left out for being small is missed in the slope.
+    if (std::norm(mean) <= variance_of_mean) continue;
+    mean *= 1.0 - variance_of_mean / std::norm(mean);
+    tail = std::max(tail, order * order * std::abs(mean) / cycle.p_amplitude);
     // j k w m_k (P_1 / |P_1|)^k with P_1 / |P_1| = -j F / |F|, F = j w P_1.
     const std::complex<double> j(0.0, 1.0);
     locked_.push_back(
         {order, j * (order * kRadPerSPerHz * frequency_hz_) * mean * std::pow(-j, order)});
   }
+  constexpr double kBeyond = 0.5;  // of the last, in a flame whose odd orders fall to a quarter each
+  harmonic_slope_variance_ += kBeyond * kBeyond * tail * tail;
 }
 
 std::complex<double> FlameRegressor::Fundamental(int sample) const {

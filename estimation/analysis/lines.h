@@ -27,6 +27,7 @@ struct SpectralLine {
   double width_hz = 0.0;       // full width at half maximum, the window's taken out
   double resolution_hz = 0.0;  // widths below this are not told from zero
   double coherence = 0.0;      // of p and q at the peak; zero without q
+  Estimate phase_deg;          // of p behind q at the peak, as G's; no number without q
   bool narrow = true;          // a line; else a resonance or noise band
 };
 

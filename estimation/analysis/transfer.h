@@ -91,7 +91,13 @@ struct TransferFitPoint {
 // The model's acoustics fitted to the transfer: one mode or two, with the model's ratio. Where the
 // noise alone cannot explain what is left (chi_square_per_dof above one and a half), a relative
 // model error common to all points is added to their variance until it does: then no few sharp
-// points carry the fit, and the intervals are those of a model that is only so good.
+// points carry the fit, and the intervals are those of a model that is only so good. What a model
+// misses is much the same at neighbouring frequencies, so that many points count as few: with rho_k
+// the correlation of the misfits of points k apart,
+//
+//   points_per_error = 1 + 2 (rho_1 + rho_2 + ...), up to the first that is not positive,
+//
+// by which the covariance is larger than for errors that differ from point to point.
 struct TransferFit {
   bool available = false;  // at least four points, and the solver converged
   Acoustics<double> acoustics{0, 0, 0, 0, kSeedHarmonicRatio};
@@ -100,6 +106,7 @@ struct TransferFit {
   Eigen::Matrix4d log_covariance = Eigen::Matrix4d::Zero();
   double chi_square_per_dof = 0.0;  // by the points' own variance, before model_error
   double model_error = 0.0;         // relative to |H|; zero where the noise explains the misfit
+  double points_per_error = 1.0;    // one where model_error is zero
   double explained_power = 0.0;     // 1 - sum S_qq |G - H|^2 / sum S_qq |H|^2 over all points
   double noise_power = 0.0;         // the share that the points' own variance leaves unexplained
   double points_within_95 = 0.0;    // share of points whose misfit the noise explains

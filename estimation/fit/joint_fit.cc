@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "estimation/parallel.h"
 
@@ -78,7 +80,13 @@ Eigen::MatrixXd WithoutNuisances(Eigen::MatrixXd jacobian, int nuisances) {
   return jacobian;
 }
 
-Eigen::MatrixXd Jacobian(const JointProblem& problem, std::vector<double> logs) {
+// Weights and losses applied.
+struct Linearised {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;  // over the free parameters that are no nuisance
+};
+
+Linearised Linearise(const JointProblem& problem, std::vector<double> logs) {
   const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(logs.data());
   ceres::Problem::EvaluateOptions options;
   const FreeParameters free(problem);
@@ -86,7 +94,8 @@ Eigen::MatrixXd Jacobian(const JointProblem& problem, std::vector<double> logs) 
     options.parameter_blocks.push_back(&logs[static_cast<std::size_t>(i)]);
   }
   ceres::CRSMatrix sparse;
-  CHECK(ceres_problem->Evaluate(options, nullptr, nullptr, nullptr, &sparse));
+  std::vector<double> residuals;
+  CHECK(ceres_problem->Evaluate(options, nullptr, &residuals, nullptr, &sparse));
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
   for (int row = 0; row < sparse.num_rows; ++row) {
     for (int k = sparse.rows[static_cast<std::size_t>(row)];
@@ -95,7 +104,8 @@ Eigen::MatrixXd Jacobian(const JointProblem& problem, std::vector<double> logs) 
           sparse.values[static_cast<std::size_t>(k)];
     }
   }
-  return WithoutNuisances(std::move(dense), free.nuisances);
+  return {Eigen::Map<const Eigen::VectorXd>(residuals.data(), sparse.num_rows),
+          WithoutNuisances(std::move(dense), free.nuisances)};
 }
 
 // A bound that no one set (FitParameter).
@@ -157,17 +167,43 @@ void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
 }
 
 // Where model and data miss each other by more than the stated standard deviations, these are too
-// small for what model and data are: all intervals widen by the misfit, as those of a transfer's
-// fit do. What is fitted as well as stated keeps its own.
-void WidenByMisfit(JointFit& fit) {
-  std::size_t residuals = 0;
-  for (const FitResidual& residual : fit.residuals) residuals += residual.values.size();
-  const auto determined = static_cast<std::size_t>(fit.identifiability.rank);
-  if (residuals <= determined) return;
-  const double per_dof = 2.0 * fit.cost / static_cast<double>(residuals - determined);
-  if (!(per_dof > 1.0)) return;
-  fit.identifiability.covariance *= per_dof;
-  for (double& log_std : fit.identifiability.log_std) log_std *= std::sqrt(per_dof);
+// small for what model and data are. Each kind of residual has a factor of its own,
+//
+//   s_k^2 = max(1, sum r_i^2 / sum (1 - h_i)), h = diag(J C J^T), over the rows i of kind k,
+//
+// so that many points of a transfer that are fitted well do not hide a few gains that are missed;
+// and the covariance is that of parameters whose data scatter so: C (sum s_i^2 J_i^T J_i) C. What
+// is fitted as well as stated keeps C.
+void WidenByMisfit(const JointProblem& problem, JointFit& fit) {
+  const Linearised at = Linearise(problem, fit.logs);
+  const Eigen::MatrixXd& covariance = fit.identifiability.covariance;
+  const Eigen::VectorXd leverage =
+      (at.jacobian * covariance).cwiseProduct(at.jacobian).rowwise().sum();
+  std::map<ResidualKind, std::pair<double, double>> misfit_and_freedom;
+  std::vector<ResidualKind> kind_of_row;
+  for (const ResidualBlock& block : problem.residuals()) {
+    kind_of_row.insert(kind_of_row.end(), static_cast<std::size_t>(block.cost->num_residuals()),
+                       block.kind);
+  }
+  CHECK_EQ(static_cast<Eigen::Index>(kind_of_row.size()), at.residuals.size());
+  for (Eigen::Index i = 0; i < at.residuals.size(); ++i) {
+    auto& [misfit, freedom] = misfit_and_freedom[kind_of_row[static_cast<std::size_t>(i)]];
+    misfit += at.residuals(i) * at.residuals(i);
+    freedom += 1.0 - leverage(i);
+  }
+  Eigen::MatrixXd scattered = at.jacobian;
+  for (Eigen::Index i = 0; i < at.residuals.size(); ++i) {
+    const auto& [misfit, freedom] = misfit_and_freedom[kind_of_row[static_cast<std::size_t>(i)]];
+    scattered.row(i) *= std::sqrt(std::max(1.0, misfit / std::max(freedom, 1.0)));
+  }
+  const Eigen::MatrixXd shifts = scattered * covariance;
+  const Eigen::VectorXd before = covariance.diagonal();
+  fit.identifiability.covariance = shifts.transpose() * shifts;
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
+    if (!(before(i) > 0.0)) continue;  // nothing determines it
+    fit.identifiability.log_std[static_cast<std::size_t>(i)] *=
+        std::sqrt(fit.identifiability.covariance(i, i) / before(i));
+  }
 }
 
 // The first start that reaches the lowest cost; one that converged beats one that did not. None
@@ -221,7 +257,7 @@ Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector
   for (const ParameterBlock& block : problem.parameters()) {
     if (!block.fixed && !block.is_q_noise) names.push_back(block.name);
   }
-  return ComputeIdentifiability(Jacobian(problem, logs), names);
+  return ComputeIdentifiability(Linearise(problem, logs).jacobian, names);
 }
 
 double JointCost(const JointProblem& problem, std::vector<double> logs) {
@@ -270,7 +306,7 @@ JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
   fit.models = problem.Models(fit.logs);
   fit.identifiability = IdentifiabilityAt(problem, fit.logs);
   DescribeResiduals(problem, fit);
-  WidenByMisfit(fit);
+  WidenByMisfit(problem, fit);
   DescribeParameters(problem, fit);
   RefuseGuardRails(fit);
   return fit;

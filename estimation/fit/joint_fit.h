@@ -16,8 +16,9 @@ namespace howl {
 struct FitParameter {
   std::string name;
   double value = 0.0;  // natural units
-  // Standard deviation of the logarithm, widened where the fit misses the data by more than the
-  // stated standard deviations: by the root of chi-square per degree of freedom. Infinite: not
+  // Standard deviation of the logarithm, widened where the fit misses a kind of residual by more
+  // than the stated standard deviations: by how much, in the covariance C (sum s_i^2 J_i^T J_i) C
+  // with s_i^2 the kind's chi-square per degree of freedom where that exceeds one. Infinite: not
   // determined.
   double std_relative = 0.0;
   bool at_bound = false;

@@ -35,6 +35,8 @@ Json LineJson(const SpectralLine& line) {
           {"width_hz", NumberOrNull(line.width_hz)},
           {"resolution_hz", NumberOrNull(line.resolution_hz)},
           {"coherence", NumberOrNull(line.coherence)},
+          {"phase_deg", NumberOrNull(line.phase_deg.value)},
+          {"phase_std_deg", NumberOrNull(line.phase_deg.std)},
           {"narrow", line.narrow}};
 }
 
@@ -143,7 +145,7 @@ std::string LinesCsv(const AnalysisSet& set, std::string_view operating_paramete
   const OwnNameColumn own(operating_parameter);
   CsvWriter csv(
       "name,phi,frequency_hz,frequency_std_hz,harmonic,p_amplitude,q_amplitude,p_over_floor,"
-      "q_over_floor,p_log10_p_value,q_log10_p_value,width_hz,resolution_hz,coherence,narrow" +
+      "q_over_floor,p_log10_p_value,q_log10_p_value,width_hz,resolution_hz,coherence,phase_deg,phase_std_deg,narrow" +
       own.Header());
   for (const Analysis& analysis : set.analyses) {
     for (const SpectralLine& line : analysis.lines) {
@@ -152,7 +154,7 @@ std::string LinesCsv(const AnalysisSet& set, std::string_view operating_paramete
       csv.Cell(line.harmonic == 0 ? kUnknown : line.harmonic);
       for (const double value : {line.p_amplitude, line.q_amplitude, line.p_over_floor,
                                  line.q_over_floor, line.p_log10_p_value, line.q_log10_p_value,
-                                 line.width_hz, line.resolution_hz, line.coherence}) {
+                                 line.width_hz, line.resolution_hz, line.coherence, line.phase_deg.value, line.phase_deg.std}) {
         csv.Cell(value);
       }
       own.Add(csv.Cell(line.narrow ? "true" : "false"), analysis.phi).EndRow();
