@@ -63,8 +63,8 @@ void PrintCharacteristics(const AnalysisSet& set, const std::string& operating_p
 }
 
 void PrintLines(const AnalysisSet& set) {
-  TextTable table({"experiment", "line Hz", "harmonic", "p", "q", "width Hz", "coherence",
-                   "loop deg"});
+  TextTable table(
+      {"experiment", "line Hz", "harmonic", "p", "q", "width Hz", "coherence", "loop deg"});
   for (const Analysis& analysis : set.analyses) {
     std::size_t shown = 0;
     for (const SpectralLine& line : analysis.lines) {

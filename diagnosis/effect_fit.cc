@@ -17,7 +17,9 @@ namespace {
 
 constexpr int kFirstRoundIterations = 7;
 constexpr int kLaterRoundIterations = 8;
-constexpr int kRounds = 3;
+constexpr int kMostRounds = 30;
+constexpr int kMostRestarts = 3;
+constexpr double kSettled = 0.1;  // nats between two rounds
 constexpr std::size_t kStartsKept = 2;
 constexpr int kApproachIterations = 4;
 
@@ -35,6 +37,41 @@ EffectPointer BaseEffect() {
   return base;
 }
 
+namespace {
+
+// Descents at fixed noise and refits of it in turn, until neither finds anything more. Where noise
+// is a millionth of the signal, the first rounds still lower the cost by thousands.
+void Alternate(Fitter* fitter, EffectFit* fit) {
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostRounds; ++round) {
+    fitter->Descend(fit, kLaterRoundIterations);
+    fitter->RefitScatter(fit);
+    fitter->RefitNoise(fit);
+    VLOG(3) << fit->effect->id() << ", round " << round << ": cost " << fit->cost();
+    if (std::abs(before - fit->cost()) < kSettled) break;
+    before = fit->cost();
+  }
+}
+
+// To the end, from here and from further starts of the experiments' own parameters, which are
+// judged by where they end: a noise that was fitted to a bad place hides how bad it is. Again where
+// one was better: it may be the others' place too.
+void SettleLocals(Fitter* fitter, EffectFit* fit) {
+  Alternate(fitter, fit);
+  for (int restart = 0; restart < kMostRestarts; ++restart) {
+    EffectFit other = *fit;
+    fitter->SetNoise(other);
+    if (!fitter->RestartLocals(&other)) break;
+    fitter->RefitNoise(&other);
+    Alternate(fitter, &other);
+    if (!(other.cost() < fit->cost() - kSettled)) break;
+    *fit = std::move(other);
+  }
+  fitter->SetNoise(*fit);
+}
+
+}  // namespace
+
 EffectFit FitBase(const std::vector<CutRecord>& records) {
   EffectFit fit;
   fit.effect = BaseEffect();
@@ -49,13 +86,9 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
   }
   Fitter fitter(records, *fit.effect, &columns);
   fitter.SetNoise(fit);
-  for (int round = 0; round <= kRounds; ++round) {
-    fitter.Descend(&fit, kLaterRoundIterations);
-    if (round > 0) fitter.RefitScatter(&fit);
-    fitter.RefitNoise(&fit);
-    // Again where one found a better place: it may be the others' too.
-    if (round == 1 && fitter.RestartLocals(&fit)) fitter.RestartLocals(&fit);
-  }
+  fitter.Descend(&fit, kLaterRoundIterations);
+  fitter.RefitNoise(&fit);
+  SettleLocals(&fitter, &fit);
   fitter.Finish(&fit, nullptr);
   return fit;
 }
@@ -95,12 +128,7 @@ void KeepBest(std::size_t count, EffectFits* fits) {
 EffectFit SettleBest(EffectFits fits, const EffectFit& base, Fitter* fitter) {
   for (EffectFit& fit : fits) {
     fitter->SetNoise(fit);
-    if (fitter->RestartLocals(&fit)) fitter->RefitNoise(&fit);
-    for (int round = 1; round < kRounds; ++round) {
-      fitter->Descend(&fit, kLaterRoundIterations);
-      fitter->RefitScatter(&fit);
-      fitter->RefitNoise(&fit);
-    }
+    SettleLocals(fitter, &fit);
   }
   EffectFit best = *std::min_element(fits.begin(), fits.end(), Cheaper);
   fitter->SetNoise(best);

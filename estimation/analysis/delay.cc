@@ -33,13 +33,12 @@ std::vector<DelayBranch> CompareDelayBranches(std::span<const DelayInput> inputs
     const double variance = std::max(squares / n - mean * mean, 0.0) * n / (n - 1.0);
     if (positive) branches.push_back({k, mean, std::sqrt(variance) / mean, 0.0});
   }
-  std::stable_sort(
-      branches.begin(), branches.end(),
-      [](const DelayBranch& a, const DelayBranch& b) { return a.spread < b.spread; });
+  std::stable_sort(branches.begin(), branches.end(),
+                   [](const DelayBranch& a, const DelayBranch& b) { return a.spread < b.spread; });
   double total = 0.0;
   for (DelayBranch& branch : branches) {
-    const double relative = std::max(branches.front().spread, kLeastSpread) /
-                            std::max(branch.spread, kLeastSpread);
+    const double relative =
+        std::max(branches.front().spread, kLeastSpread) / std::max(branch.spread, kLeastSpread);
     branch.probability = std::pow(relative, n - 1.0);
     total += branch.probability;
   }

@@ -3,6 +3,8 @@
 #ifndef HOWL_ESTIMATION_ANALYSIS_EXPERIMENT_H_
 #define HOWL_ESTIMATION_ANALYSIS_EXPERIMENT_H_
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +44,15 @@ struct Experiment {
 
   bool reliable = true;
   std::vector<ObservedLine> lines;
+
+  // |Phi'(0)| that the data allow: as many standard deviations about the estimate as the family's
+  // test allows a transfer. A published slope without an error stands as it is.
+  double SteepestSlope() const { return std::abs(*flame_slope) + SlopeDoubt(); }
+  double FlattestSlope() const { return std::max(std::abs(*flame_slope) - SlopeDoubt(), 0.0); }
+
+ private:
+  static constexpr double kSlopeStds = 4.0;
+  double SlopeDoubt() const { return kSlopeStds * flame_slope_std.value_or(0.0); }
 };
 
 }  // namespace howl

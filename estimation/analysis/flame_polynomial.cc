@@ -8,7 +8,7 @@ namespace howl {
 namespace {
 
 constexpr int kStretches = 48;
-constexpr double kClearStep = 1.0;  // standard errors by which a higher degree moves the slope
+constexpr double kClearStep = 2.0;  // standard errors by which a higher degree moves the slope
 
 double ErrorOf(const std::vector<double>& scores) {
   const MeanError error = ErrorOfMean(scores, 0.0);

@@ -6,8 +6,9 @@
 //
 // An estimate linear in q, c_k = sum_t a_k(t) q(t), has the error sum_t a_k(t) e(t); its variance
 // comes from sums over 48 stretches of the record, whose slow part ErrorOfMean takes up
-// (statistics.h). The degree rises from 5 to 9 as long as that moves the slope by more than twice
-// the error of the move; half of what the next degree would still change enters the std.
+// (statistics.h). The degree rises from 5 to 13 as long as that moves the slope by more than twice
+// the error of the move; what the next degree would still change enters the std: a hyperbolic
+// tangent is smoother than any polynomial, and each degree misses the slope to the same side.
 #ifndef HOWL_ESTIMATION_ANALYSIS_FLAME_POLYNOMIAL_H_
 #define HOWL_ESTIMATION_ANALYSIS_FLAME_POLYNOMIAL_H_
 

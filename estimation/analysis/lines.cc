@@ -161,8 +161,9 @@ std::vector<SpectralLine> FindLines(const Record& record, const CrossSpectrum& s
       line.q_over_floor = spectrum.qq[i] / q_floor[i];
       line.q_log10_p_value = Log10PValue(nu, line.q_over_floor);
       line.coherence = std::norm(spectrum.qp[i]) / (spectrum.pp[i] * spectrum.qq[i]);
-      line.phase_deg = {std::arg(spectrum.qp[i]) * kDegPerRad,
-                        std::sqrt((1.0 - line.coherence) / (2.0 * nu * line.coherence)) * kDegPerRad};
+      line.phase_deg = {
+          std::arg(spectrum.qp[i]) * kDegPerRad,
+          std::sqrt((1.0 - line.coherence) / (2.0 * nu * line.coherence)) * kDegPerRad};
     }
     const bool by_p = line.p_over_floor >= line.q_over_floor;
     const std::vector<double>& s = by_p ? spectrum.pp : spectrum.qq;

@@ -23,8 +23,8 @@ Estimate LoopPhaseErrorAt(const Analysis& analysis, const SpectralLine& line);
 Estimate LoopGainAt(const Analysis& analysis, const SpectralLine& line);
 
 // The strongest line of p that is no multiple of the cycle and lies above it (below lie differences
-// of the two), if it is narrow and the loop closes there with a gain above one; else null. Weaker lines are sums and
-// differences of the stronger, and one in six of them closes the loop by chance.
+// of the two), if it is narrow and the loop closes there with a gain above one; else null. Weaker
+// lines are sums and differences of the stronger, and one in six of them closes the loop by chance.
 const SpectralLine* FindSecondCrossing(const Analysis& analysis);
 
 }  // namespace howl

@@ -169,17 +169,23 @@ void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
 // Where model and data miss each other by more than the stated standard deviations, these are too
 // small for what model and data are. Each kind of residual has a factor of its own,
 //
-//   s_k^2 = max(1, sum r_i^2 / sum (1 - h_i)), h = diag(J C J^T), over the rows i of kind k,
+//   s_k^2 = max(1, s^2, sum r_i^2 / sum (1 - h_i)), h = diag(J C J^T), over the rows i of kind k,
 //
-// so that many points of a transfer that are fitted well do not hide a few gains that are missed;
-// and the covariance is that of parameters whose data scatter so: C (sum s_i^2 J_i^T J_i) C. What
-// is fitted as well as stated keeps C.
+// and s^2 is the same of all rows: two kinds that contradict each other say that either may be
+// wrong, and many points of a transfer that are fitted well do not hide a few gains that are
+// missed. The covariance is that of parameters whose data scatter so: C (sum s_i^2 J_i^T J_i) C.
+// What is fitted as well as stated keeps C.
 void WidenByMisfit(const JointProblem& problem, JointFit& fit) {
   const Linearised at = Linearise(problem, fit.logs);
   const Eigen::MatrixXd& covariance = fit.identifiability.covariance;
   const Eigen::VectorXd leverage =
       (at.jacobian * covariance).cwiseProduct(at.jacobian).rowwise().sum();
-  std::map<ResidualKind, std::pair<double, double>> misfit_and_freedom;
+  struct Misfit {
+    double squares = 0.0, freedom = 0.0;
+    double Factor() const { return squares / std::max(freedom, 1.0); }
+  };
+  std::map<ResidualKind, Misfit> misfits;
+  Misfit all;
   std::vector<ResidualKind> kind_of_row;
   for (const ResidualBlock& block : problem.residuals()) {
     kind_of_row.insert(kind_of_row.end(), static_cast<std::size_t>(block.cost->num_residuals()),
@@ -187,14 +193,15 @@ void WidenByMisfit(const JointProblem& problem, JointFit& fit) {
   }
   CHECK_EQ(static_cast<Eigen::Index>(kind_of_row.size()), at.residuals.size());
   for (Eigen::Index i = 0; i < at.residuals.size(); ++i) {
-    auto& [misfit, freedom] = misfit_and_freedom[kind_of_row[static_cast<std::size_t>(i)]];
-    misfit += at.residuals(i) * at.residuals(i);
-    freedom += 1.0 - leverage(i);
+    for (Misfit* misfit : {&misfits[kind_of_row[static_cast<std::size_t>(i)]], &all}) {
+      misfit->squares += at.residuals(i) * at.residuals(i);
+      misfit->freedom += 1.0 - leverage(i);
+    }
   }
   Eigen::MatrixXd scattered = at.jacobian;
   for (Eigen::Index i = 0; i < at.residuals.size(); ++i) {
-    const auto& [misfit, freedom] = misfit_and_freedom[kind_of_row[static_cast<std::size_t>(i)]];
-    scattered.row(i) *= std::sqrt(std::max(1.0, misfit / std::max(freedom, 1.0)));
+    const Misfit& kind = misfits[kind_of_row[static_cast<std::size_t>(i)]];
+    scattered.row(i) *= std::sqrt(std::max({1.0, all.Factor(), kind.Factor()}));
   }
   const Eigen::MatrixXd shifts = scattered * covariance;
   const Eigen::VectorXd before = covariance.diagonal();

@@ -18,8 +18,8 @@ struct FitParameter {
   double value = 0.0;  // natural units
   // Standard deviation of the logarithm, widened where the fit misses a kind of residual by more
   // than the stated standard deviations: by how much, in the covariance C (sum s_i^2 J_i^T J_i) C
-  // with s_i^2 the kind's chi-square per degree of freedom where that exceeds one. Infinite: not
-  // determined.
+  // with s_i^2 the kind's, or all residuals', chi-square per degree of freedom where that exceeds
+  // one. Infinite: not determined.
   double std_relative = 0.0;
   bool at_bound = false;
   // At a bound that no one set: a default that only keeps the search among numbers. Where a fit

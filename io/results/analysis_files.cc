@@ -145,16 +145,18 @@ std::string LinesCsv(const AnalysisSet& set, std::string_view operating_paramete
   const OwnNameColumn own(operating_parameter);
   CsvWriter csv(
       "name,phi,frequency_hz,frequency_std_hz,harmonic,p_amplitude,q_amplitude,p_over_floor,"
-      "q_over_floor,p_log10_p_value,q_log10_p_value,width_hz,resolution_hz,coherence,phase_deg,phase_std_deg,narrow" +
+      "q_over_floor,p_log10_p_value,q_log10_p_value,width_hz,resolution_hz,coherence,phase_deg,"
+      "phase_std_deg,narrow" +
       own.Header());
   for (const Analysis& analysis : set.analyses) {
     for (const SpectralLine& line : analysis.lines) {
       csv.Cell(analysis.name).Cell(analysis.phi);
       csv.Cell(line.frequency_hz.value).Cell(line.frequency_hz.std);
       csv.Cell(line.harmonic == 0 ? kUnknown : line.harmonic);
-      for (const double value : {line.p_amplitude, line.q_amplitude, line.p_over_floor,
-                                 line.q_over_floor, line.p_log10_p_value, line.q_log10_p_value,
-                                 line.width_hz, line.resolution_hz, line.coherence, line.phase_deg.value, line.phase_deg.std}) {
+      for (const double value :
+           {line.p_amplitude, line.q_amplitude, line.p_over_floor, line.q_over_floor,
+            line.p_log10_p_value, line.q_log10_p_value, line.width_hz, line.resolution_hz,
+            line.coherence, line.phase_deg.value, line.phase_deg.std}) {
         csv.Cell(value);
       }
       own.Add(csv.Cell(line.narrow ? "true" : "false"), analysis.phi).EndRow();

@@ -11,7 +11,10 @@
 #include "diagnosis/acoustic_cut.h"
 #include "diagnosis/band_signal.h"
 #include "diagnosis/effect_fit.h"
+#include "model/crossings.h"
 #include "model/effects/catalogue.h"
+#include "model/harmonic_balance.h"
+#include "model/units.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {
@@ -42,6 +45,49 @@ TEST(Starts, AStrongModeIsFoundWhateverTheNoise) {
     EXPECT_NEAR(fit.values[1], 0.3, 0.03) << seed;
     EXPECT_NEAR(fit.values[2], 0.05, 0.005) << seed;
   }
+}
+
+// A weakly damped mode and sensors at a thousandth of the cycle.
+std::vector<DiagnosisExperiment> QuietRig() {
+  constexpr double kOmegaHz[] = {128.82, 128.70, 127.20};
+  constexpr double kXi[] = {0.0315, 0.0331, 0.0358};
+  constexpr double kN[] = {371.0, 486.0, 437.0};
+  constexpr double kLoopGain[] = {1.38, 1.31, 1.37};
+  std::vector<SimulationCase> cases;
+  for (std::size_t e = 0; e < 3; ++e) {
+    const LoopParameters<double> loop{{kOmegaHz[e], kXi[e], kN[e], 0.0, 3.0}, 0.005677};
+    RigParameters rig;
+    rig.model = {loop, {FlameShape::kTanh, -1.0, 1.0, 0.0}};
+    const std::vector<PhaseCrossing> crossings = PhaseCrossings(loop, -1.0, 200.0);
+    const auto cycle_at = std::ranges::max_element(crossings, {}, &PhaseCrossing::gain);
+    rig.model.flame.slope = -kLoopGain[e] / cycle_at->gain;
+    const LimitCycle cycle = LimitCycles(rig.model, 200.0).front();
+    rig.noise.combustion_corner_hz = 500.0;
+    rig.noise.combustion_density = 2.0 * 1e-4 / (std::numbers::pi * 500.0);
+    rig.noise.pressure_sensor_std = 1e-3 * cycle.pressure_amplitude();
+    rig.noise.heat_release_sensor_std = 1e-3 * cycle.heat_release_amplitude();
+    rig.past = PastOnCycle(cycle);
+    cases.push_back({rig, 37 + e});
+  }
+  std::vector<DiagnosisExperiment> experiments;
+  for (const SimulatedRecord& one :
+       SimulateBatch(cases, {.duration_s = 3.2, .sampling_hz = 5000.0, .settle_s = 0.5})) {
+    experiments.push_back({"exp" + std::to_string(experiments.size() + 1),
+                           0.5 + 0.02 * static_cast<double>(experiments.size()),
+                           {one.sampling_hz, one.pressure, one.heat_release}});
+  }
+  return experiments;
+}
+
+// The noise that is fitted beside the base has far to fall: a base that stops on the way gives
+// every effect thousands of nats for nothing.
+TEST(Starts, TheBaseIsFollowedToTheEndWhereSensorsAreQuiet) {
+  const std::vector<CutRecord> records =
+      MakeCutRecords(QuietRig(), {.modes = 1, .harmonic_ratio = 3.0, .own_delays = false});
+  const EffectFit base = FitBase(records);
+  EXPECT_LT(base.cost() - Settle(records, base, base).cost(), 1.0);
+  EXPECT_NEAR(std::exp(base.experiments[0].acoustics[1]), 0.0315, 0.02 * 0.0315);
+  EXPECT_NEAR(base.experiments[0].acoustics[2], 371.0, 0.02 * 371.0);
 }
 
 // One point's cycle is the extra mode's own: its omega lies far below the cycle, at the ratio.

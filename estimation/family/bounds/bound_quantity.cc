@@ -29,9 +29,13 @@ CellVariable VariableOf(FamilyParameter parameter) {
 double ValueOf(const BoundQuantity& quantity, const FamilyProblem& problem,
                std::span<const LoopModel> models) {
   const std::size_t i = quantity.experiment;
-  return quantity.expression
-             ? quantity.expression->Evaluate(problem.experiments, models, i)
-             : ParameterValue(problem.experiments[i], models[i], quantity.parameter);
+  if (quantity.expression) return quantity.expression->Evaluate(problem.experiments, models, i);
+  const Experiment& experiment = problem.experiments[i];
+  const double value = ParameterValue(experiment, models[i], quantity.parameter);
+  if (quantity.parameter != FamilyParameter::kLoopGain || value == 0.0) return value;
+  const double slope =
+      quantity.sign > 0.0 ? experiment.SteepestSlope() : experiment.FlattestSlope();
+  return value * slope / std::abs(*experiment.flame_slope);
 }
 
 double ReachOf(const BoundQuantity& quantity, const FamilyProblem& problem,
@@ -45,8 +49,9 @@ double ReachOf(const BoundQuantity& quantity, const FamilyProblem& problem,
   Interval value = cell.boxes[quantity.experiment][VariableOf(quantity.parameter)];
   if (quantity.parameter == FamilyParameter::kLoopGain) {
     const RoundingGuard guard;
-    const double slope = std::abs(*problem.experiments[quantity.experiment].flame_slope);
-    value = value * contractor.Targets()[quantity.experiment].w_rad_s * Interval(slope);
+    const Experiment& experiment = problem.experiments[quantity.experiment];
+    value = value * contractor.Targets()[quantity.experiment].w_rad_s *
+            Interval(experiment.FlattestSlope(), experiment.SteepestSlope());
   }
   return quantity.sign > 0.0 ? value.upper() : -value.lower();
 }

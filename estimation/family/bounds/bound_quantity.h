@@ -30,7 +30,8 @@ struct BoundQuantity {
   }
 };
 
-// Without the sign.
+// Without the sign. A loop gain is that with the slope at rest, of all that the data allow, at
+// which it reaches farthest.
 double ValueOf(const BoundQuantity& quantity, const FamilyProblem& problem,
                std::span<const LoopModel> models);
 

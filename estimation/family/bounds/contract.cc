@@ -238,7 +238,7 @@ void AskOfSecondMode(const Experiment& experiment, const MembershipTest& test,
   for (const Interval& line : target.lines_hz) {
     const Interval w = target.w_rad_s / target.frequency_hz * line;
     target.line_response_min.push_back(Interval(test.second_crossing_gain_min * (1.0 - kSlack)) /
-                                       (w * Interval(std::abs(*experiment.flame_slope))));
+                                       (w * Interval(experiment.SteepestSlope())));
   }
 }
 

@@ -74,9 +74,9 @@ void TestExperiment(const Experiment& experiment, const ModelBox& box, double ha
   };
   TestAngle(minus_loop(z, experiment.frequency_hz), test.loop_phase_tolerance_deg, verdict);
   if (experiment.reliable && experiment.flame_slope) {
-    verdict.At(gain * two_pi * Interval(experiment.frequency_hz) *
-                   Interval(std::abs(*experiment.flame_slope)),
-               test.loop_gain_min, kUnbounded);
+    verdict.At(
+        gain * two_pi * Interval(experiment.frequency_hz) * Interval(experiment.SteepestSlope()),
+        test.loop_gain_min, kUnbounded);
   }
   if (box.M.hi > 0.0) {
     for (const ObservedLine& line : experiment.lines) {
@@ -85,7 +85,7 @@ void TestExperiment(const Experiment& experiment, const ModelBox& box, double ha
       if (!TestsLineGain(experiment, test)) continue;
       const Complex<Interval> at_line = response(line.frequency_hz);
       verdict.At(sqrt(square(at_line.re) + square(at_line.im)) * two_pi *
-                     Interval(line.frequency_hz) * Interval(std::abs(*experiment.flame_slope)),
+                     Interval(line.frequency_hz) * Interval(experiment.SteepestSlope()),
                  test.second_crossing_gain_min, kUnbounded);
     }
     verdict.At(SecondModeShareOf(Of(box.omega_hz), Of(box.xi), Of(box.M) / Of(box.N),

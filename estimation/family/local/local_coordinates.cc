@@ -82,8 +82,8 @@ bool HasRoom(const LocalScale& scale) {
          scale.loop_phase > 0.0 && scale.box[kLocalDelay].lo < scale.box[kLocalDelay].hi;
 }
 
-// One coordinate for all experiments: from where the first of their loop phase errors is half a turn
-// to where the last is. Its unit moves the loop phase by about its tolerance.
+// One coordinate for all experiments: from where the first of their loop phase errors is half a
+// turn to where the last is. Its unit moves the loop phase by about its tolerance.
 void ShareTheDelay(LocalCoordinates& c) {
   constexpr double kPi = std::numbers::pi;
   const double n = static_cast<double>(c.targets.size());

@@ -4,9 +4,9 @@
 //   loop phase error / loop phase scale,
 //
 // where a scale is the condition's tolerance, so that the condition is |u| <= 1. Where the
-// experiments share the delay, (tau - tau_0) / tau scale stands once for all of them in the place of
-// their loop phase errors, which follow from it. With two modes there is also
-// ln omega of the experiment's own, or once for all experiments the shared ln M or ln (M / N).
+// experiments share the delay, (tau - tau_0) / tau scale stands once for all of them in the place
+// of their loop phase errors, which follow from it. With two modes there is also ln omega of the
+// experiment's own, or once for all experiments the shared ln M or ln (M / N).
 //
 // Every coordinate lives in an open box. What may be soft is not in the box: the conditions are
 // rows (estimation/family/local/local_conditions.h). Units: Hz, rad, N and M as in
@@ -51,7 +51,7 @@ struct LocalCoordinates {
   bool shared_second = false;  // all experiments have the same
   bool shared_tau = false;
   double tau_0_s = 0.0, tau_scale_s = 0.0;  // of a shared delay
-  bool supported = true;       // else nothing below is of use
+  bool supported = true;                    // else nothing below is of use
   double ratio = 0.0;
   double ln_spread = 0.0;
   std::vector<LocalScale> scales;

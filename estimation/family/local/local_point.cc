@@ -153,7 +153,7 @@ void SecondModeAsked(const LocalCoordinates& c, std::size_t experiment, LocalPoi
       point.line_rad.push_back(LoopPhaseError(loop, f));
     }
     if (TestsLineGain(e, test)) {
-      point.ln_line_gain.push_back(log(LoopGain(loop, f, T(*e.flame_slope))));
+      point.ln_line_gain.push_back(log(LoopGain(loop, f, T(e.SteepestSlope()))));
     }
   }
 }

@@ -26,9 +26,8 @@ bool StateOf(const LocalCoordinates& c, const Member& member, LocalState& state)
     u[kLocalXi] = std::log(model.xi);
     u[kLocalPhase] = errors.phase_error_deg * kRadPerDeg / scale.phase;
     u[kLocalGain] = errors.gain_error * experiment.gain / scale.gain;
-    u[kLocalDelay] = c.shared_tau
-                         ? (member[0].tau_s - c.tau_0_s) / c.tau_scale_s
-                         : errors.loop_phase_error_deg * kRadPerDeg / scale.loop_phase;
+    u[kLocalDelay] = c.shared_tau ? (member[0].tau_s - c.tau_0_s) / c.tau_scale_s
+                                  : errors.loop_phase_error_deg * kRadPerDeg / scale.loop_phase;
     u[kLocalSecond] = 0.0;
     if (c.two_modes) {
       u[kLocalSecond] = c.shared_second

@@ -20,7 +20,7 @@ ExperimentErrors ComputeErrors(const Experiment& experiment, const LoopModel& mo
   errors.phase_error_deg = Angle(response / measured) * kDegPerRad;
   errors.loop_phase_error_deg = LoopPhaseError(loop, experiment.frequency_hz) * kDegPerRad;
   errors.loop_gain = experiment.flame_slope
-                         ? LoopGain(loop, experiment.frequency_hz, *experiment.flame_slope)
+                         ? LoopGain(loop, experiment.frequency_hz, experiment.SteepestSlope())
                          : std::numeric_limits<double>::quiet_NaN();
   for (const ObservedLine& line : experiment.lines) {
     const double error_deg = LoopPhaseError(loop, line.frequency_hz) * kDegPerRad;
@@ -47,7 +47,7 @@ double SecondCrossingGain(const Experiment& experiment, const LoopParameters<dou
   }
   double least = std::numeric_limits<double>::infinity();
   for (const ObservedLine& line : experiment.lines) {
-    least = std::min(least, LoopGain(loop, line.frequency_hz, *experiment.flame_slope));
+    least = std::min(least, LoopGain(loop, line.frequency_hz, experiment.SteepestSlope()));
   }
   return least;
 }

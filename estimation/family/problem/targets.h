@@ -45,9 +45,8 @@ inline std::vector<ExperimentTarget> MakeTargets(const FamilyProblem& problem,
     target.gain = {experiment.gain * std::max(1.0 - gain_tolerance, 1.0 / kGainCap),
                    experiment.gain * std::min(1.0 + gain_tolerance, kGainCap)};
     if (experiment.reliable && experiment.flame_slope) {
-      target.gain.lo =
-          std::max(target.gain.lo, test.loop_gain_min * (1.0 + margin) /
-                                       (target.w_rad_s * std::abs(*experiment.flame_slope)));
+      target.gain.lo = std::max(target.gain.lo, test.loop_gain_min * (1.0 + margin) /
+                                                    (target.w_rad_s * experiment.SteepestSlope()));
     }
     const double loop_tolerance =
         std::min(test.loop_phase_tolerance_deg, 180.0) * kRadPerDeg * (1.0 - margin);

@@ -57,8 +57,8 @@ TEST(EstimateDelays, KeepsTheSeedsBranchWhereNoneIsConsistent) {
   EXPECT_EQ(choice.branch, 0);
 }
 
-// P(k) = S_k^-(n - 1) / sum: with one phase at all frequencies every tau_k is a multiple of 1 / f, all
-// spreads are equal, and nothing can be told.
+// P(k) = S_k^-(n - 1) / sum: with one phase at all frequencies every tau_k is a multiple of 1 / f,
+// all spreads are equal, and nothing can be told.
 TEST(EstimateDelays, OnePhaseAtAllFrequenciesTellsNothing) {
   std::vector<DelayInput> inputs;
   for (const double f : {100.0, 101.0, 102.0}) inputs.push_back({{f, 0.0}, {20.0, 0.0}});

@@ -157,10 +157,7 @@ std::vector<NamedRecord> CombustorRecords(const std::string& folder) {
   return records;
 }
 
-// Not reached yet: 34 of 47. Each half takes another line for the second crossing, and no model
-// fits these: without the residuals second_crossing and second_crossing_gain 42 agree. The test
-// runs behind the label long.
-TEST(Halves, DISABLED_FitsOfTheCombustorsRecordsAgreeWithinTheirIntervals) {
+TEST(Halves, FitsOfTheCombustorsRecordsAgreeWithinTheirIntervals) {
   const auto folder = testing::DataFolder("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   const Agreement agreement = FitsOfHalvesAgree(CombustorRecords(*folder));

@@ -107,7 +107,9 @@ TEST_F(TurbulentCombustor, NonHarmonicLine) {
     EXPECT_TRUE(found) << point;
     const std::optional<Experiment> experiment = ToExperiment(analysis);
     ASSERT_TRUE(experiment.has_value());
-    ASSERT_EQ(experiment->lines.size(), 1u) << point;
+    // It is no second crossing: it comes with lines below the cycle and about its harmonics, as far
+    // from them as from the cycle, and the loop's phase there misses by a quarter turn and more.
+    EXPECT_EQ(experiment->lines.size(), 0u) << point;
   }
 }
 

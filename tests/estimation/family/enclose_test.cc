@@ -263,6 +263,25 @@ TEST(EncloseTest, OneExperimentAgainstTheClosedForm) {
               1e-4);
 }
 
+// A slope at rest that is known to a percent: the loop gain reaches four of its standard deviations
+// farther, and a least loop gain asks what the steepest of these slopes gives.
+TEST(EncloseTest, TheLoopGainIsThatOfEverySlopeThatTheDataAllow) {
+  FamilyProblem problem = Problem(1, 1);
+  Experiment& e = problem.experiments[0];
+  e.flame_slope_std = 0.01 * std::abs(*e.flame_slope);
+  const double loop_gain = e.gain * 2 * M_PI * e.frequency_hz * std::abs(*e.flame_slope);
+  Enclosure enclosure(problem, {.width = 1e-4});
+  ASSERT_TRUE(enclosure.Run());
+  const EnclosedBound bound = enclosure.Bound(0, FamilyParameter::kLoopGain);
+  EXPECT_NEAR(bound.outer.hi, 1.01 * 1.04 * loop_gain, 1e-4);
+  EXPECT_NEAR(bound.outer.lo, 0.99 * 0.96 * loop_gain, 1e-4);
+  EXPECT_NEAR(bound.inner.hi, 1.01 * 1.04 * loop_gain, 1e-3);
+  problem.test.loop_gain_min = 1.03 * loop_gain;
+  EXPECT_FALSE(EnumerateMembers(problem, 1, 1, 1).members.empty());
+  problem.test.loop_gain_min = 1.06 * loop_gain;
+  EXPECT_TRUE(EnumerateMembers(problem, 1, 1, 1).members.empty());
+}
+
 TEST(EncloseTest, EmptyFamilyIsProvedEmpty) {
   FamilyProblem problem = Problem(6, 1);
   problem.test.omega_spread_max = 0.15;
