@@ -21,9 +21,8 @@ bool DelayIsOpen(const DelayChoice& choice) {
 std::string DelayText(const DelayChoice& choice) {
   if (choice.branches.empty() || choice.given) return "";
   if (choice.by_consistency) {
-    return "the delay is " + PeriodsText(choice.branch) + " longer than the shortest (" +
-           Fixed(kPerCent * choice.branches.front().probability, 1) +
-           " %: the experiments' delays agree best so)\n";
+    return "the delay exceeds the shortest by " + PeriodsText(choice.branch) + " (probability " +
+           Fixed(choice.branches.front().probability, 2) + ")\n";
   }
   std::string odds;
   for (const DelayBranch& branch : choice.branches) {
@@ -31,9 +30,11 @@ std::string DelayText(const DelayChoice& choice) {
     odds += (odds.empty() ? "" : ", ") + std::to_string(branch.branch) + ": " +
             Fixed(kPerCent * branch.probability, 0) + " %";
   }
-  return "how many whole periods longer than the shortest the delay is, the data cannot tell (" +
-         odds + "); " + std::to_string(choice.branch) +
-         " is taken, `analysis: {delay_branch: K}` states another\n";
+  return Wrapped("the data cannot tell by how many whole periods the delay exceeds the shortest (" +
+                     odds + "): " + std::to_string(choice.branch) +
+                     " is taken; `analysis: {delay_branch: K}` states another",
+                 2) +
+         "\n";
 }
 
 }  // namespace howl

@@ -20,7 +20,7 @@ double LimitPassedByOne(const Experiment& experiment, const LoopModel& model, Co
     case Condition::kLoopPhase:
       return std::abs(errors.loop_phase_error_deg);
     case Condition::kLoopGain:
-      return experiment.reliable && experiment.flame_slope ? errors.loop_gain : kInfinity;
+      return experiment.reliable && experiment.flame_slope ? errors.largest_loop_gain : kInfinity;
     case Condition::kSecondCrossing:
       return std::abs(errors.second_crossing_error_deg);
     case Condition::kXiMax:

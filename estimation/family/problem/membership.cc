@@ -19,9 +19,10 @@ ExperimentErrors ComputeErrors(const Experiment& experiment, const LoopModel& mo
   errors.gain_error = Magnitude(response) / experiment.gain - 1.0;
   errors.phase_error_deg = Angle(response / measured) * kDegPerRad;
   errors.loop_phase_error_deg = LoopPhaseError(loop, experiment.frequency_hz) * kDegPerRad;
-  errors.loop_gain = experiment.flame_slope
-                         ? LoopGain(loop, experiment.frequency_hz, experiment.SteepestSlope())
-                         : std::numeric_limits<double>::quiet_NaN();
+  if (experiment.flame_slope) {
+    errors.loop_gain = LoopGain(loop, experiment.frequency_hz, *experiment.flame_slope);
+    errors.largest_loop_gain = LoopGain(loop, experiment.frequency_hz, experiment.SteepestSlope());
+  }
   for (const ObservedLine& line : experiment.lines) {
     const double error_deg = LoopPhaseError(loop, line.frequency_hz) * kDegPerRad;
     if (std::abs(error_deg) > std::abs(errors.second_crossing_error_deg)) {
@@ -75,7 +76,8 @@ void FalsifyOne(const Experiment& experiment, const LoopModel& model, const Memb
   if (!(std::abs(errors.loop_phase_error_deg) <= test.loop_phase_tolerance_deg)) {
     failed.Insert(Condition::kLoopPhase);
   }
-  if (experiment.reliable && experiment.flame_slope && !(errors.loop_gain >= test.loop_gain_min)) {
+  if (experiment.reliable && experiment.flame_slope &&
+      !(errors.largest_loop_gain >= test.loop_gain_min)) {
     failed.Insert(Condition::kLoopGain);
   }
   if (model.M > 0.0 &&

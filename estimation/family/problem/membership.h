@@ -5,7 +5,9 @@
 //   gain_tolerance             | |z| / gain - 1 |        <= tolerance      (5a), (5c)
 //   phase_tolerance_deg        | arg z - phase |         <= tolerance      (5a), (5c)
 //   loop_phase_tolerance_deg   | arg L - 180 degrees |   <= tolerance      (1a)
-//   loop_gain_min              |L Phi'(0)|               >= minimum        (1b), reliable ones only
+//   loop_gain_min              |L Phi'(0)|               >= minimum        (1b), reliable ones
+//   only,
+//                              with the steepest slope that the data allow
 //   second_crossing_tolerance_deg  the same as (1a) at every observed line
 //   omega_spread_max           max omega / min omega - 1 <= maximum        over experiments
 //   xi_max                     xi                        <= maximum
@@ -95,10 +97,13 @@ struct MembershipTest {
 
 // How far one experiment's model is from the data; zero is a perfect fit.
 struct ExperimentErrors {
-  double gain_error = 0.0;                 // |z| / gain - 1
-  double phase_error_deg = 0.0;            // arg z - phase, wrapped
-  double loop_phase_error_deg = 0.0;       // arg L - 180 degrees, wrapped
-  double loop_gain = 0.0;                  // |L Phi'(0)|; NaN where the slope is not known
+  double gain_error = 0.0;            // |z| / gain - 1
+  double phase_error_deg = 0.0;       // arg z - phase, wrapped
+  double loop_phase_error_deg = 0.0;  // arg L - 180 degrees, wrapped
+  // |L Phi'(0)| with the slope's estimate, and with the steepest that the data allow; NaN where no
+  // slope is known.
+  double loop_gain = std::numeric_limits<double>::quiet_NaN();
+  double largest_loop_gain = std::numeric_limits<double>::quiet_NaN();
   double second_crossing_error_deg = 0.0;  // largest over the lines; zero without lines
   double transfer_distance = 0.0;          // zero without a transfer
   double second_mode_share = 0.0;          // |M U_r| / |N U_1| at the limit cycle
