@@ -55,6 +55,7 @@ std::optional<Figure> FlameCurvesFigure(const ReportInput& input) {
   figure.csv = csv.Text();
   Script script;
   script.Line("set xlabel 'delayed derivative of p (units of p per second)'")
+      .Line("set format x '%.1s%c'")
       .Line("set ylabel 'q (units of the record)'")
       .Line("set key outside right top");
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -62,6 +62,7 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
   figure.csv = csv.Text();
   Script script;
   script.Line("set xlabel 'delayed derivative of p (units of p per second)'")
+      .Line("set format x '%.1s%c'")
       .Line("set ylabel 'q (units of the record)'")
       .Line("set key top right")
       .Plot(
