@@ -13,12 +13,13 @@
 
 namespace howl {
 
+InstrumentResponse ResponseOf(const ResponseSpec& known) {
+  return known.formula ? *known.formula : ReadResponseTable(known.table);
+}
+
 void TakeOutInstruments(const RecordSpec& spec, const std::string& config_file, Record& record) {
-  const auto response =
-      [](const std::optional<ResponseSpec>& known) -> std::optional<InstrumentResponse> {
-    if (!known) return std::nullopt;
-    if (known->formula) return known->formula;
-    return ReadResponseTable(known->table);
+  const auto response = [](const std::optional<ResponseSpec>& known) {
+    return known ? std::optional(ResponseOf(*known)) : std::nullopt;
   };
   const Instruments instruments = {response(spec.pressure_response),
                                    response(spec.heat_release_response), spec.delay_s};

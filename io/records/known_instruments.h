@@ -9,6 +9,9 @@
 
 namespace howl {
 
+// The formula, or the table, whose file is read. Throws UserError for a bad table.
+InstrumentResponse ResponseOf(const ResponseSpec& known);
+
 // By remove_instruments.h; no bit changes where the spec knows of none. Throws UserError for a bad
 // table, with its file and line, and with the config's for a response without a finite value, one
 // that is zero at every frequency or leaves a signal out of range, and a delay_s beyond a fiftieth

@@ -131,6 +131,31 @@ TEST(KnownInstruments, EveryCommandReadsTheRecordWithoutThem) {
   EXPECT_NEAR(gain(ConfigText("made.csv", kKnown)) / ideal, 1.0, 0.01);
 }
 
+TEST(KnownInstruments, AnalyseSaysWhatATableHoldsAndWhereTheDivisionIsLimited) {
+  const TemporaryFolder folder;
+  folder.Write("made.csv", Csv(true, 9));
+  folder.Write("lens.csv", "frequency_hz,magnitude,phase_deg\n10,1,0\n100,1,0\n200,1e-3,0\n");
+  const auto printed = [&](const std::string& more) {
+    const ProgramResult run =
+        RunHowl("analyse " + folder.Write("c.yaml", ConfigText("made.csv", more)).string() +
+                " --out " + (folder.path() / "out").string());
+    EXPECT_EQ(run.status, 0) << run.err;
+    std::string text = run.out;
+    for (std::size_t at = text.find("\n  "); at != std::string::npos; at = text.find("\n  ")) {
+      text.replace(at, 3, " ");
+    }
+    return text;
+  };
+  const std::string limited = printed(", heat_release_response: lens.csv");
+  EXPECT_THAT(limited,
+              HasSubstr("exp1: heat_release_response is a table from 10 to 200 Hz: beyond, "
+                        "from 0 to 2500 Hz, its ends are held"));
+  EXPECT_THAT(limited, HasSubstr("|heat_release_response| is 0.001 of its largest: the division is "
+                                 "limited below 0.01, and heat_release comes back 10 times too "
+                                 "small"));
+  EXPECT_THAT(printed(kKnown), Not(HasSubstr("_response")));
+}
+
 // What simulate writes is recorded by ideal instruments.
 TEST(KnownInstruments, SimulateCarriesNoneOver) {
   const TemporaryFolder folder;
