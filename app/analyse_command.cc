@@ -5,6 +5,7 @@
 #include "app/command.h"
 #include "app/delay_text.h"
 #include "app/health_text.h"
+#include "app/instrument_text.h"
 #include "app/loop_gain_text.h"
 #include "app/record_input.h"
 #include "app/text_table.h"
@@ -149,6 +150,7 @@ int Run(const Options& options) {
   if (!AnyHeatRelease(set)) {
     std::printf("phase, gain, delay, flame curve and transfer need heat release: not available\n");
   }
+  std::printf("%s", InstrumentText(config, set).c_str());
   std::printf("%s", LowLoopGainText(set).c_str());
   std::printf("%s", DelayText(set.delay).c_str());
   std::printf("%s", VanishingText(set.vanishing_phi, config.operating_parameter).c_str());

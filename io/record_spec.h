@@ -6,11 +6,21 @@
 #include <optional>
 #include <string>
 
+#include "estimation/analysis/instrument_response.h"
+
 namespace howl {
 
 // A column by its name in a header (or a variable or data set name in .mat and .h5 files), or by
 // its number from 1 ("2").
 using ColumnName = std::string;
+
+// A response of an instrument: a formula, or the file of a table with the columns frequency_hz,
+// magnitude and phase_deg.
+struct ResponseSpec {
+  std::optional<InstrumentResponse> formula;
+  std::filesystem::path table;  // without a formula; relative to the working directory
+  int line = 0;                 // in the config
+};
 
 struct RecordSpec {
   std::filesystem::path file;  // already relative to the working directory
@@ -22,6 +32,11 @@ struct RecordSpec {
   double heat_release_scale = 1.0;
   double start_s = 0.0;              // from the first sample
   std::optional<double> duration_s;  // absent: to the end
+  // Known of the instruments, and taken out of the record (remove_instruments.h).
+  std::optional<ResponseSpec> pressure_response;
+  std::optional<ResponseSpec> heat_release_response;
+  double delay_s = 0.0;  // by how much heat release is recorded later than pressure
+  int delay_line = 0;    // in the config
 };
 
 }  // namespace howl

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "model/formula_products.h"
+
 namespace howl {
 namespace {
 
@@ -17,9 +19,13 @@ class FormulaParser {
  public:
   using Operation = FormulaOperation;
 
-  FormulaParser(std::string_view text, const FormulaNames& names, std::vector<FormulaToken>& tokens,
-                FormulaError& error)
-      : text_(text), names_(names), tokens_(tokens), error_(error) {}
+  FormulaParser(std::string_view text, const FormulaNames& names, bool unsigned_products,
+                std::vector<FormulaToken>& tokens, FormulaError& error)
+      : text_(text),
+        names_(names),
+        unsigned_products_(unsigned_products),
+        tokens_(tokens),
+        error_(error) {}
 
   bool Parse() {
     if (!Sum()) return false;
@@ -63,15 +69,32 @@ class FormulaParser {
 
   bool Product() {
     if (!Signed()) return false;
+    bool divided = false;
     for (;;) {
       if (Take('*')) {
         if (!Signed() || !Emit(Operation::kMultiply)) return false;
+        divided = false;
       } else if (Take('/')) {
         if (!Signed() || !Emit(Operation::kDivide)) return false;
+        divided = true;
+      } else if (unsigned_products_ && AtFactor()) {
+        if (divided) {
+          return Fail("a product without * after / can be read in two ways, expected * or ( )");
+        }
+        if (!Factor() || !Emit(Operation::kMultiply)) return false;
       } else {
         return true;
       }
     }
+  }
+
+  // What stands next can only be one more factor.
+  bool AtFactor() {
+    Skip();
+    if (position_ >= text_.size()) return false;
+    const bool number = std::isdigit(Byte(position_)) || text_[position_] == '.';
+    if (number) return !after_number_;
+    return std::isalpha(Byte(position_)) || text_[position_] == '_' || text_[position_] == '(';
   }
 
   bool Signed() {
@@ -96,7 +119,9 @@ class FormulaParser {
     Skip();
     if (position_ >= text_.size()) return Fail("ends too early, expected a number, a name or '('");
     if (Take('(')) {
-      return Sum() && (Take(')') || Fail("expected ')'"));
+      if (!Sum() || !(Take(')') || Fail("expected ')'"))) return false;
+      after_number_ = false;
+      return true;
     }
     if (std::isdigit(Byte(position_)) || text_[position_] == '.') return Number();
     if (std::isalpha(Byte(position_)) || text_[position_] == '_') return Word();
@@ -111,6 +136,7 @@ class FormulaParser {
     if (end == rest.c_str() || !std::isfinite(value)) return Fail("expected a number");
     position_ += static_cast<std::size_t>(end - rest.c_str());
     tokens_.push_back({.operation = Operation::kNumber, .number = value});
+    after_number_ = true;
     return true;
   }
 
@@ -135,8 +161,11 @@ class FormulaParser {
     for (const auto& [name, operation] : kFunctions) {
       if (word != name) continue;
       if (!Take('(')) return Fail("expected '(' after " + word);
-      return Sum() && (Take(')') || Fail("expected ')'")) && Emit(operation);
+      if (!Sum() || !(Take(')') || Fail("expected ')'"))) return false;
+      after_number_ = false;
+      return Emit(operation);
     }
+    after_number_ = false;
     if (word == "pi") {
       tokens_.push_back({.operation = Operation::kNumber, .number = std::numbers::pi});
       return true;
@@ -159,10 +188,12 @@ class FormulaParser {
 
   std::string_view text_;
   const FormulaNames& names_;
+  bool unsigned_products_;
   std::vector<FormulaToken>& tokens_;
   FormulaError& error_;
   std::size_t position_ = 0;
   int depth_ = 0;
+  bool after_number_ = false;  // what was read last ends in digits
 };
 
 }  // namespace
@@ -171,7 +202,16 @@ std::optional<std::vector<FormulaToken>> ParseFormula(std::string_view text,
                                                       const FormulaNames& names,
                                                       FormulaError& error) {
   std::vector<FormulaToken> tokens;
-  FormulaParser parser(text, names, tokens, error);
+  FormulaParser parser(text, names, false, tokens, error);
+  if (!parser.Parse()) return std::nullopt;
+  return tokens;
+}
+
+std::optional<std::vector<FormulaToken>> ParseFormulaWithProducts(std::string_view text,
+                                                                  const FormulaNames& names,
+                                                                  FormulaError& error) {
+  std::vector<FormulaToken> tokens;
+  FormulaParser parser(text, names, true, tokens, error);
   if (!parser.Parse()) return std::nullopt;
   return tokens;
 }

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iterator>
+#include <string_view>
 #include <system_error>
 
 #include "io/config/absent_record.h"
@@ -28,6 +31,65 @@ bool IsVariableName(const std::string& name) {
 std::string ShownPath(const ConfigCursor& file, const std::filesystem::path& path) {
   const std::string& text = file.Node().text;
   return text.find("${") == std::string::npos ? path.string() : text;
+}
+
+// A formula has no name with an owner, and so never ends like this.
+bool IsTableName(const std::string& text) {
+  constexpr std::string_view kEndings[] = {".csv", ".tsv", ".txt", ".dat",
+                                           ".gz",  ".mat", ".h5",  ".hdf5"};
+  return std::any_of(std::begin(kEndings), std::end(kEndings),
+                     [&](std::string_view ending) { return text.ends_with(ending); });
+}
+
+std::filesystem::path FilePath(const ConfigCursor& file, const std::filesystem::path& config_file,
+                               const char* content) {
+  const std::filesystem::path path =
+      (config_file.parent_path() / ExpandEnvironment(file)).lexically_normal();
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    FailAbsent(file, "there is no file \"" + ShownPath(file, path) +
+                         "\", expected a path relative to the config's folder");
+  }
+  if (std::filesystem::is_directory(status)) {
+    file.Fail("\"" + ShownPath(file, path) + "\" is a folder, expected a file of " + content);
+  }
+  return path;
+}
+
+std::optional<ResponseSpec> ReadResponse(const ConfigCursor& record, const char* key,
+                                         const std::filesystem::path& config_file) {
+  const auto cursor = record.Find(key);
+  if (!cursor) return std::nullopt;
+  ResponseSpec spec;
+  spec.line = cursor->Line();
+  const std::string& text = cursor->Node().text;
+  if (IsTableName(text)) {
+    spec.table = FilePath(*cursor, config_file, "frequency_hz, magnitude, phase_deg");
+    return spec;
+  }
+  FormulaError error;
+  spec.formula = InstrumentResponse::Parse(text, error);
+  if (!spec.formula) {
+    cursor->Fail("at character " + std::to_string(error.position + 1) + ": " + error.message +
+                 "; expected a formula in s, or a table's file (.csv, .txt, .dat, .mat, .h5)");
+  }
+  return spec;
+}
+
+void ReadInstruments(const ConfigCursor& record, const std::filesystem::path& config_file,
+                     RecordSpec& spec) {
+  spec.pressure_response = ReadResponse(record, "pressure_response", config_file);
+  spec.heat_release_response = ReadResponse(record, "heat_release_response", config_file);
+  if (const auto delay = record.Find("delay_s")) {
+    record.Read("delay_s", spec.delay_s);
+    spec.delay_line = delay->Line();
+  }
+  for (const char* const key : {"heat_release_response", "delay_s"}) {
+    if (record.Find(key) && !spec.heat_release) {
+      record.FailAt(key, "has no heat_release to act on, expected the column of it too");
+    }
+  }
 }
 
 }  // namespace
@@ -65,16 +127,7 @@ std::string ExpandEnvironment(const ConfigCursor& file) {
 RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file) {
   const ConfigCursor file = *record.Find("file");
   RecordSpec spec;
-  spec.file = (config_file.parent_path() / ExpandEnvironment(file)).lexically_normal();
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(spec.file, error);
-  if (!std::filesystem::exists(status)) {
-    FailAbsent(file, "there is no file \"" + ShownPath(file, spec.file) +
-                         "\", expected a path relative to the config's folder");
-  }
-  if (std::filesystem::is_directory(status)) {
-    file.Fail("\"" + ShownPath(file, spec.file) + "\" is a folder, expected a file of samples");
-  }
+  spec.file = FilePath(file, config_file, "samples");
   record.Read("pressure", spec.pressure);
   record.Read("heat_release", spec.heat_release);
   record.Read("time", spec.time);
@@ -96,6 +149,7 @@ RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::pat
       scale->Fail("0 leaves nothing of the signal, expected a number other than 0");
     }
   }
+  ReadInstruments(record, config_file, spec);
   return spec;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/number_range.h"
+#include "io/records/known_instruments.h"
 #include "io/records/number_text.h"
 #include "io/records/table_source.h"
 #include "io/records/time_column.h"
@@ -225,6 +226,7 @@ Record Loader::Load() {
     Take(columns[1], *spec_.heat_release, part, spec_.heat_release_scale);
     record.heat_release = std::move(columns[1]);
   }
+  TakeOutInstruments(spec_, config_file_, record);
   return record;
 }
 

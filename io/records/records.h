@@ -21,6 +21,8 @@ inline constexpr std::size_t kFewestSamples = 16;
 // The part [start_s, start_s + duration_s) of the record, scaled. Throws UserError: a mistake in
 // the data names the data's file and line (`data.csv:9000: p: nan, expected a finite number`), one
 // in what was asked for names the config's. Samples and times outside of the part are not judged.
+// What is known of the instruments is taken out last (remove_instruments.h), so that the record is
+// then shorter than the part.
 Record LoadRecord(const RecordSpec& spec, const std::string& config_file, int config_line);
 
 // Columns p and q (p alone for a pressure-only record), each number the shortest text that reads

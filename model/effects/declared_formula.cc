@@ -1,57 +1,13 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "model/effects/declared_effect.h"
+#include "model/formula_complex.h"
 
 namespace howl {
 namespace {
 
 constexpr std::size_t kDeepestFormula = 64;
-constexpr double kLargestWholePower = 64.0;
-
-// Real operands stay real: an infinite null value then gives zero or one, never NaN.
-struct ComplexMath {
-  static bool IsReal(Response a) { return a.imag() == 0.0; }
-  static Response Scaled(double a, Response b) {
-    return {a * b.real(), IsReal(b) ? 0.0 : a * b.imag()};
-  }
-  static Response Multiply(Response a, Response b) {
-    if (IsReal(a)) return Scaled(a.real(), b);
-    if (IsReal(b)) return Scaled(b.real(), a);
-    return a * b;
-  }
-  static Response Divide(Response a, Response b) {
-    if (IsReal(b)) return {a.real() / b.real(), IsReal(a) ? 0.0 : a.imag() / b.real()};
-    return a / b;
-  }
-  static Response Power(Response a, Response b) {
-    if (IsReal(b) && b.real() == std::round(b.real()) && std::abs(b.real()) <= kLargestWholePower) {
-      Response product = 1.0;
-      for (int i = 0; i < std::abs(static_cast<int>(b.real())); ++i) product = Multiply(product, a);
-      return b.real() < 0.0 ? Divide(1.0, product) : product;
-    }
-    if (IsReal(a) && IsReal(b) && a.real() >= 0.0) return std::pow(a.real(), b.real());
-    return std::pow(a, b);
-  }
-  static Response Root(Response a) {
-    return IsReal(a) && a.real() >= 0.0 ? Response(std::sqrt(a.real())) : std::sqrt(a);
-  }
-  static Response Exponential(Response a) {
-    return IsReal(a) ? Response(std::exp(a.real())) : std::exp(a);
-  }
-  static Response Logarithm(Response a) {
-    return IsReal(a) && a.real() >= 0.0 ? Response(std::log(a.real())) : std::log(a);
-  }
-  static Response Sine(Response a) {
-    return IsReal(a) ? Response(std::sin(a.real())) : std::sin(a);
-  }
-  static Response Cosine(Response a) {
-    return IsReal(a) ? Response(std::cos(a.real())) : std::cos(a);
-  }
-  static Response Absolute(Response a) { return std::abs(a); }
-};
 
 }  // namespace
 
@@ -133,7 +89,7 @@ std::optional<DeclaredFormula> DeclaredFormula::Parse(
 
 Response DeclaredFormula::Evaluate(std::span<const Response> fixed, EffectValues x) const {
   std::array<Response, kDeepestFormula> stack;
-  return EvaluateFormula<ComplexMath>(
+  return EvaluateFormula<FormulaComplex>(
       std::span<const FormulaToken>(tokens_),
       [&](std::size_t slot) {
         return slot < fixed.size() ? fixed[slot] : Response(x[slot - fixed.size()]);

@@ -41,6 +41,7 @@ Defaults StructDefaults() {
       {"experiments[].record.pressure_scale", Dump(record.pressure_scale)},
       {"experiments[].record.heat_release_scale", Dump(record.heat_release_scale)},
       {"experiments[].record.start_s", Dump(record.start_s)},
+      {"experiments[].record.delay_s", Dump(record.delay_s)},
       {"model.modes", Dump(config.model.modes)},
       {"model.harmonic_ratio", Dump(config.model.harmonic_ratio)},
       {"residuals.unreliable_weight", Dump(config.residuals.unreliable_weight)},
