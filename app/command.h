@@ -30,6 +30,7 @@ Command DiagnoseCommand();
 Command FitCommand();
 Command FamilyCommand();
 Command ListCommand();
+Command PredictCommand();
 Command RegressCommand();
 Command ReportCommand();
 Command SimulateCommand();

@@ -82,6 +82,14 @@ std::vector<std::string> SplitAtCommas(const std::string& text) {
   return parts;
 }
 
+// Behind what an option that may be given several times has already.
+std::string Joined(const OptionHelp& flag, const std::string& value) {
+  if (!flag.value.ends_with("...")) return value;
+  const std::string before =
+      gflags::GetCommandLineFlagInfoOrDie(Canonical(flag.name).c_str()).current_value;
+  return before.empty() ? value : before + "," + value;
+}
+
 std::string Expected(const OptionHelp& flag) {
   if (flag.value.empty()) return "true, false or nothing";
   if (flag.name == "--threads") return "a whole number from 1 to 1024";
@@ -225,7 +233,8 @@ void CommandLine::Set(const Place& place, const OptionHelp& flag, const std::str
     ReadEnvironment(place, value, flag.name == "--tryfromenv");
   } else if (flag.name == "--undefok") {
     for (const std::string& name : SplitAtCommas(value)) undefok_.insert(Canonical(name));
-  } else if (gflags::SetCommandLineOption(Canonical(flag.name).c_str(), value.c_str()).empty()) {
+  } else if (gflags::SetCommandLineOption(Canonical(flag.name).c_str(), Joined(flag, value).c_str())
+                 .empty()) {
     place.Fail(flag.name, value + ", expected " + Expected(flag));
   }
 }

@@ -4,8 +4,8 @@ namespace howl {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {
-      AnalyseCommand(),  DiagnoseCommand(), FitCommand(),    FamilyCommand(), ListCommand(),
-      SimulateCommand(), RegressCommand(),  ReportCommand(), TrialCommand()};
+      AnalyseCommand(), DiagnoseCommand(), FitCommand(),     FamilyCommand(), ListCommand(),
+      PredictCommand(), SimulateCommand(), RegressCommand(), ReportCommand(), TrialCommand()};
   return commands;
 }
 

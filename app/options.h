@@ -18,8 +18,10 @@ class UsageError : public std::runtime_error {
 };
 
 struct OptionHelp {
-  std::string name;   // "--sort"
-  std::string value;  // "COLUMN"; empty for a switch
+  std::string name;  // "--sort"
+  // "COLUMN"; empty for a switch. "PHI..." may be given several times: its values are joined by
+  // commas.
+  std::string value;
   std::string text;
 };
 

@@ -6,6 +6,7 @@
 
 #include "app/command.h"
 #include "app/config_fit.h"
+#include "app/measured_flame.h"
 #include "app/problem_input.h"
 #include "app/simulate_rig.h"
 #include "app/simulate_sweep.h"
@@ -54,17 +55,6 @@ std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& opt
                       .harmonic_ratio = config.model.harmonic_ratio});
   }
   return models;
-}
-
-// Of an experiment that a record gave.
-std::optional<FlameShapeFit> MeasuredFlame(const ProblemInput& input,
-                                           const Experiment& experiment) {
-  if (!input.analysis || !experiment.flame_slope) return std::nullopt;
-  for (const Analysis& analysis : input.analysis->analyses) {
-    if (analysis.name != experiment.name || !analysis.flame_curve) continue;
-    return FitFlameShape(*analysis.flame_curve, *experiment.flame_slope);
-  }
-  return std::nullopt;
 }
 
 std::string LoopsText(const Options& options, const std::vector<Experiment>& experiments,

@@ -1,0 +1,15 @@
+// What `howl predict` found, on the terminal.
+#ifndef HOWL_APP_PREDICT_TEXT_H_
+#define HOWL_APP_PREDICT_TEXT_H_
+
+#include <string>
+
+#include "io/results/predict_files.h"
+
+namespace howl {
+
+std::string PredictText(const PredictReport& report);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_PREDICT_TEXT_H_
