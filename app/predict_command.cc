@@ -105,11 +105,11 @@ int Run(const Options& options) {
     return kNegativeAnswer;
   }
   const PredictReport report = Predict(config, options, run, FlameOf(config, input), asked);
-  WriteWholeFile(options.out / "predict.csv", PredictCsv(report));
-  WriteWholeFile(options.out / "predict.json", PredictJson(report).dump(2) + "\n");
+  WriteWholeFile(options.out / "prediction.csv", PredictCsv(report));
+  WriteWholeFile(options.out / "prediction.json", PredictJson(report).dump(2) + "\n");
   if (!options.quiet) {
-    std::printf("%swritten: predict.csv and predict.json in %s\n", PredictText(report).c_str(),
-                options.out.c_str());
+    std::printf("%swritten: prediction.csv and prediction.json in %s\n",
+                PredictText(report).c_str(), options.out.c_str());
   }
   const bool any = std::ranges::any_of(
       report.points, [](const PointPrediction& point) { return point.members > 0; });
@@ -127,7 +127,8 @@ Command PredictCommand() {
       "amplitude of the limit cycle, the share of members that is unstable, each with the\n"
       "interval that holds 95 % of the members; and where the cycle begins and ends. Only at\n"
       "a measured point is any of it guaranteed. A point further away than the measured range\n"
-      "is wide has no prediction. Writes predict.csv and predict.json. Exits with 1 when the\n"
+      "is wide has no prediction. Writes prediction.csv and prediction.json. Exits with 1 when "
+      "the\n"
       "family is empty, or no point asked for can be predicted.",
       {{"--at", "PHI...",
         "operating points: 0.6 or 0.5:0.7:0.01 (from, to, step), joined by commas"}},

@@ -111,11 +111,12 @@ std::string PredictText(const PredictReport& report) {
         "say\n";
   }
   if (Any(report, [](const auto& point) { return 10 * point.without > point.members; })) {
-    text += Wrapped(
-                "at some points more than a tenth of the draws have no loop (predict.json counts "
-                "them): the interval is that of the others",
-                2) +
-            "\n";
+    text +=
+        Wrapped(
+            "at some points more than a tenth of the draws have no loop (prediction.json counts "
+            "them): the interval is that of the others",
+            2) +
+        "\n";
   }
   if (!report.scatter_known) {
     text += Wrapped(

@@ -100,7 +100,7 @@ Json PredictJson(const PredictReport& report) {
              {"begins", EndJson(report.cycle->below)},
              {"ends", EndJson(report.cycle->above)}};
   }
-  return {{"schema", "howl.predict/1"},
+  return {{"schema", "howl.prediction/1"},
           {"operating_parameter", report.operating_parameter},
           {"members", report.members},
           {"paths", report.paths},

@@ -1,6 +1,6 @@
 // What `howl predict` writes.
 //
-// predict.csv, one row for each operating point and quantity:
+// prediction.csv, one row for each operating point and quantity:
 //
 //   phi,quantity,value,lo,hi,guaranteed_lo,guaranteed_hi
 //
@@ -10,7 +10,7 @@
 // Cells are empty where there is no value. A parameter of another name than phi stands under its
 // own name too, in the last column.
 //
-// predict.json, schema howl.predict/1: the same, and where the cycle begins and ends.
+// prediction.json, schema howl.prediction/1: the same, and where the cycle begins and ends.
 #ifndef HOWL_IO_RESULTS_PREDICT_FILES_H_
 #define HOWL_IO_RESULTS_PREDICT_FILES_H_
 

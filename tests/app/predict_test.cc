@@ -20,7 +20,7 @@ ProgramResult Predict(const std::string& config, const TemporaryFolder& folder,
 }
 
 Json Predicted(const TemporaryFolder& folder) {
-  return Json::parse(ReadFile(folder.path() / "out" / "predict.json"));
+  return Json::parse(ReadFile(folder.path() / "out" / "prediction.json"));
 }
 
 TEST(Predict, PublishedTableBetweenAndBeyond) {
@@ -32,7 +32,7 @@ TEST(Predict, PublishedTableBetweenAndBeyond) {
   EXPECT_THAT(run.out, HasSubstr("outside of what the data can say"));
   EXPECT_THAT(run.out, HasSubstr("guaranteed: every member of the family closes its loop at exp1"));
   const Json json = Predicted(folder);
-  EXPECT_EQ(json["schema"], "howl.predict/1");
+  EXPECT_EQ(json["schema"], "howl.prediction/1");
   EXPECT_EQ(json["members"], 1000);
   ASSERT_EQ(json["points"].size(), 4u);
   const Json& between = json["points"][0];
@@ -57,7 +57,7 @@ TEST(Predict, PublishedTableBetweenAndBeyond) {
 TEST(Predict, CsvHasARowForEachPointAndQuantity) {
   const TemporaryFolder folder;
   ASSERT_EQ(Predict(Config("r228_reliable"), folder, "--at 0.50:0.52:0.01 --quiet").status, 0);
-  std::istringstream csv(ReadFile(folder.path() / "out" / "predict.csv"));
+  std::istringstream csv(ReadFile(folder.path() / "out" / "prediction.csv"));
   std::string line;
   std::getline(csv, line);
   EXPECT_EQ(line, "phi,quantity,value,lo,hi,guaranteed_lo,guaranteed_hi");
@@ -77,7 +77,7 @@ TEST(Predict, SameSeedSameAnswerOnAnyNumberOfThreads) {
   ASSERT_EQ(Predict(Config("r228"), one, at + "--threads 1").status, 0);
   ASSERT_EQ(Predict(Config("r228"), two, at + "--threads 2").status, 0);
   ASSERT_EQ(Predict(Config("r228"), other, at + "--seed 2").status, 0);
-  for (const char* const name : {"predict.csv", "predict.json"}) {
+  for (const char* const name : {"prediction.csv", "prediction.json"}) {
     EXPECT_EQ(ReadFile(one.path() / "out" / name), ReadFile(two.path() / "out" / name));
     EXPECT_NE(ReadFile(one.path() / "out" / name), ReadFile(other.path() / "out" / name));
   }
@@ -101,7 +101,7 @@ TEST(Predict, MistakesAreTheUsers) {
   fails("--at 0.7:0.5:0.01", "expected FROM below TO");
   fails("--at 0.5:0.7:0.00001", "more than 10000 points");
   fails("--at 0.5:0.6:0.00002 --at 0.5:0.6:0.00002", "more than 10000 points");
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "predict.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "prediction.json"));
 }
 
 constexpr const char* kOne =
@@ -120,7 +120,7 @@ TEST(Predict, OneExperimentPredictsItselfAlone) {
   EXPECT_THAT(other.err, HasSubstr("what is possible is --at 80"));
   ASSERT_EQ(Predict(config, folder, "--at 80").status, 0);
   EXPECT_EQ(Predicted(folder)["points"][0]["status"], "measured");
-  EXPECT_THAT(ReadFile(folder.path() / "out" / "predict.csv"), HasSubstr(",air_slpm\n"));
+  EXPECT_THAT(ReadFile(folder.path() / "out" / "prediction.csv"), HasSubstr(",air_slpm\n"));
 }
 
 TEST(Predict, TwoExperimentsSayThatTheyKnowNoScatter) {
@@ -149,7 +149,7 @@ TEST(Predict, NegativeAnswers) {
   text.replace(text.find(from), from.size(), "omega_spread_max: 0.15");
   const std::string empty = folder.Write("empty.yaml", text).string();
   EXPECT_EQ(Predict(empty, folder, "--at 0.52 --quiet").status, 1);
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "predict.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "prediction.json"));
   const ProgramResult outside = Predict(Config("r228"), folder, "--at 0.9");
   EXPECT_EQ(outside.status, 1);
   EXPECT_THAT(outside.out, HasSubstr("outside of what the data can say"));
