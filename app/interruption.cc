@@ -1,24 +1,46 @@
 #include "app/interruption.h"
 
+#include <signal.h>
+#include <time.h>
+
 #include <atomic>
-#include <csignal>
 
 namespace howl {
 namespace {
 
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch it");
+std::atomic<long long> first_ns{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<long long>::is_always_lock_free,
+              "a signal handler may touch them");
 
+constexpr long long kAgainNs = 500'000'000;
+
+// The first asks for an end in order. A later one ends the program at once; one that follows at
+// once is the same request, since timeout(1) and a terminal tell a process and its group.
 void OnSignal(int signal) {
-  interrupted = true;
-  std::signal(signal, SIG_DFL);
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const long long ns = static_cast<long long>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
+  if (!interrupted.exchange(true)) {
+    first_ns = ns;
+  } else if (ns - first_ns > kAgainNs) {
+    ::signal(signal, SIG_DFL);
+    raise(signal);
+  }
+}
+
+void Watch(int signal) {
+  struct sigaction action {};
+  action.sa_handler = OnSignal;
+  action.sa_flags = SA_RESTART;
+  sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
 
 void WatchForInterruption() {
-  std::signal(SIGINT, OnSignal);
-  std::signal(SIGTERM, OnSignal);
+  Watch(SIGINT);
+  Watch(SIGTERM);
 }
 
 bool IsInterrupted() { return interrupted; }

@@ -10,7 +10,8 @@ namespace howl {
 // As a shell reports a program that Ctrl-C ended.
 inline constexpr int kInterrupted = 130;
 
-// Catches SIGINT and SIGTERM from now on; a second one ends the program at once.
+// Catches SIGINT and SIGTERM from now on; a second one, half a second later or more, ends the
+// program at once.
 void WatchForInterruption();
 bool IsInterrupted();
 

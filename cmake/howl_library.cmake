@@ -14,7 +14,7 @@ endif()
 # The headers that most files of a target include, parsed once for the target; every file still names
 # what it uses. Saves a quarter of the compiling. Not for tools that read the compile commands, such as
 # clang-tidy, nor where a file's options differ from its target's (SKIP_PRECOMPILE_HEADERS).
-option(HOWL_PRECOMPILE "Precompile the headers that most files include" ON)
+option(HOWL_PRECOMPILE "Precompile the headers that most files include" OFF)
 if(HOWL_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # Writes past the end of a std::string, seen where there are none.
   target_compile_options(howl_warnings INTERFACE -Wno-stringop-overflow)
