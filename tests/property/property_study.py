@@ -103,8 +103,7 @@ def check_characteristics(tally, folder, truths, note):
         true = {"phase": (math.degrees(problems.cmath.phase(response)), "phase_deg",
                           "phase_std_deg"),
                 "gain": (abs(response), "gain", "gain_std"),
-                "frequency": (loop.frequency_hz, "frequency_hz", "frequency_std_hz"),
-                "loop gain": (loop.loop_gain, "loop_gain", "loop_gain_std")}
+                "frequency": (loop.frequency_hz, "frequency_hz", "frequency_std_hz")}
         for name, (value, column, std_column) in true.items():
             if not row.get(column) or not row.get(std_column):
                 continue
@@ -113,6 +112,13 @@ def check_characteristics(tally, folder, truths, note):
             tally.add(f"analyse interval of {name}", abs(error) <= Z95 * std,
                       f"{note} {loop.name} {float(row[column]):.6g} for {value:.6g},"
                       f" {error / std if std else math.inf:.1f} std")
+        if row["loop_gain"] and row["flame_slope_std"]:
+            measured = float(row["loop_gain"])
+            std = measured * math.hypot(float(row["flame_slope_std"]) / float(row["flame_slope"]),
+                                        float(row["gain_std"]) / float(row["gain"]))
+            tally.add("analyse interval of loop gain", abs(measured - loop.loop_gain) <= Z95 * std,
+                      f"{note} {loop.name} {measured:.6g} for {loop.loop_gain:.6g},"
+                      f" {(measured - loop.loop_gain) / std:.1f} std")
 
 
 def at_the_cycle(drawn):
