@@ -20,9 +20,6 @@ fi
 cd "$root"
 find . -path './build*' -prune -o \( -name '*.h' -o -name '*.cc' \) -print0 |
   xargs -0 clang-format --dry-run -Werror
-if [ "${1:-}" = --tidy ]; then
-  howl_cmake_options=(-DHOWL_PRECOMPILE=OFF)  # clang does not read g++'s
-fi
 howl_build "$root" all
 if [ "${1:-}" = --tidy ]; then
   find . \( -path './build*' -o -path ./tests -o -path ./bench \) -prune -o -name '*.cc' -print0 |

@@ -127,9 +127,8 @@ Command PredictCommand() {
       "amplitude of the limit cycle, the share of members that is unstable, each with the\n"
       "interval that holds 95 % of the members; and where the cycle begins and ends. Only at\n"
       "a measured point is any of it guaranteed. A point further away than the measured range\n"
-      "is wide has no prediction. Writes prediction.csv and prediction.json. Exits with 1 when "
-      "the\n"
-      "family is empty, or no point asked for can be predicted.",
+      "is wide has no prediction. Writes prediction.csv and prediction.json. Exits with 1\n"
+      "when the family is empty, or no point asked for can be predicted.",
       {{"--at", "PHI...",
         "operating points: 0.6 or 0.5:0.7:0.01 (from, to, step), joined by commas"}},
       Run};

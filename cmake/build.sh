@@ -33,9 +33,6 @@ howl_install_packages() {
   rm -f "$log"
 }
 
-# Further options of cmake.
-howl_cmake_options=()
-
 # howl_build ROOT TARGET: configures ROOT/build and builds TARGET. Says on standard error what it does;
 # on a terminal the compiler's count runs along, elsewhere it is silent unless something is wrong.
 howl_build() {
@@ -46,7 +43,7 @@ howl_build() {
   [ -f "$root/build/build.ninja" ] ||
     echo "compiling to build/: on two cores some 5 minutes the first time, 10 with the tests" >&2
   if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-       -DHOWL_BUILD_TESTS=$tests -DHOWL_BUILD_BENCH=$tests "${howl_cmake_options[@]}" >"$log" 2>&1; then
+       -DHOWL_BUILD_TESTS=$tests -DHOWL_BUILD_BENCH=$tests >"$log" 2>&1; then
     cat "$log" >&2
     return 1
   fi

@@ -60,7 +60,6 @@ void SettleLocals(Fitter* fitter, EffectFit* fit) {
   Alternate(fitter, fit);
   for (int restart = 0; restart < kMostRestarts; ++restart) {
     EffectFit other = *fit;
-    fitter->SetNoise(other);
     if (!fitter->RestartLocals(&other)) break;
     fitter->RefitNoise(&other);
     Alternate(fitter, &other);

@@ -151,7 +151,7 @@ FlameCurve EstimateFlameCurve(const Record& record, const CrossSpectrum& spectru
                                              limit, options.fit_range);
     const FlamePolynomial fit(samples, limit, options.fit_range);
     const FlamePolynomial full_fit(full, limit, options.fit_range);
-    // Of the highest degree: what a low one misses of the curve is no scatter.
+    // Of a high degree: what a low one misses of the curve is no scatter.
     constexpr int kDegree = 9;
     const double preference =
         ScatterPreference(samples, FlamePolynomial(samples, limit, options.fit_range, kDegree),

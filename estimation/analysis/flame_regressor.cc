@@ -73,8 +73,8 @@ FlameRegressor::FlameRegressor(const Record& record, const Characteristics& cycl
     locked_.push_back(
         {order, j * (order * kRadPerSPerHz * frequency_hz_) * mean * std::pow(-j, order)});
   }
-  constexpr double kBeyond =
-      0.5;  // of the last, in a flame whose odd orders fall to a quarter each
+  // Of the last, in a flame whose odd orders fall to a quarter each.
+  constexpr double kBeyond = 0.5;
   harmonic_slope_variance_ += kBeyond * kBeyond * tail * tail;
 }
 

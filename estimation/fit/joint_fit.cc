@@ -175,8 +175,7 @@ void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
 // wrong, and many points of a transfer that are fitted well do not hide a few gains that are
 // missed. The covariance is that of parameters whose data scatter so: C (sum s_i^2 J_i^T J_i) C.
 // What is fitted as well as stated keeps C.
-void WidenByMisfit(const JointProblem& problem, JointFit& fit) {
-  const Linearised at = Linearise(problem, fit.logs);
+void WidenByMisfit(const JointProblem& problem, const Linearised& at, JointFit& fit) {
   const Eigen::MatrixXd& covariance = fit.identifiability.covariance;
   const Eigen::VectorXd leverage =
       (at.jacobian * covariance).cwiseProduct(at.jacobian).rowwise().sum();
@@ -259,12 +258,20 @@ JointFit FailedFit(const JointProblem& problem, const std::vector<StartResult>& 
 
 }  // namespace
 
-Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector<double>& logs) {
+namespace {
+
+Identifiability IdentifiabilityOf(const JointProblem& problem, const Linearised& at) {
   std::vector<std::string> names;
   for (const ParameterBlock& block : problem.parameters()) {
     if (!block.fixed && !block.is_q_noise) names.push_back(block.name);
   }
-  return ComputeIdentifiability(Linearise(problem, logs).jacobian, names);
+  return ComputeIdentifiability(at.jacobian, names);
+}
+
+}  // namespace
+
+Identifiability IdentifiabilityAt(const JointProblem& problem, const std::vector<double>& logs) {
+  return IdentifiabilityOf(problem, Linearise(problem, logs));
 }
 
 double JointCost(const JointProblem& problem, std::vector<double> logs) {
@@ -311,9 +318,10 @@ JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
           << fit.starts_at_best << " of " << fit.starts << " starts; " << fit.termination;
   fit.logs = best->logs;
   fit.models = problem.Models(fit.logs);
-  fit.identifiability = IdentifiabilityAt(problem, fit.logs);
+  const Linearised at = Linearise(problem, fit.logs);
+  fit.identifiability = IdentifiabilityOf(problem, at);
   DescribeResiduals(problem, fit);
-  WidenByMisfit(problem, fit);
+  WidenByMisfit(problem, at, fit);
   DescribeParameters(problem, fit);
   RefuseGuardRails(fit);
   return fit;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/family/answers/predict.h"
 #include "estimation/family/answers/predict_points.h"
 #include "estimation/parallel.h"
 
@@ -48,11 +49,7 @@ CycleEnd EndOf(std::vector<double> crossings, double away) {
     }
   }
   std::ranges::sort(crossings);
-  const auto quantile = [&](double share) {
-    return crossings[static_cast<std::size_t>(
-        std::lround(share * static_cast<double>(crossings.size() - 1)))];
-  };
-  end = {quantile(0.5), quantile(0.025), quantile(0.975),
+  end = {NearestRank(crossings, 0.5), NearestRank(crossings, 0.025), NearestRank(crossings, 0.975),
          static_cast<double>(crossing) / static_cast<double>(crossings.size())};
   return end;
 }

@@ -48,11 +48,7 @@ Prediction PredictSampled(std::string name, std::span<const Member> members,
   if (values.empty()) return prediction;
   std::sort(values.begin(), values.end());
   prediction.interval = {values.front(), values.back()};
-  const auto quantile = [&](double share) {
-    return values[static_cast<std::size_t>(
-        std::lround(share * static_cast<double>(values.size() - 1)))];
-  };
-  prediction.central_90 = {quantile(0.05), quantile(0.95)};
+  prediction.central_90 = {NearestRank(values, 0.05), NearestRank(values, 0.95)};
   return prediction;
 }
 
@@ -134,6 +130,11 @@ std::optional<double> InterpolatedFrequency(std::span<const Experiment> experime
       experiments[at->below].frequency_hz +
       at->share * (experiments[at->above].frequency_hz - experiments[at->below].frequency_hz);
   return CrossingNear(*model, {f * (1.0 - reach), f * (1.0 + reach)});
+}
+
+double NearestRank(std::span<const double> ascending, double share) {
+  return ascending[static_cast<std::size_t>(
+      std::lround(share * static_cast<double>(ascending.size() - 1)))];
 }
 
 }  // namespace howl

@@ -63,6 +63,10 @@ std::optional<double> InterpolatedFrequency(std::span<const Experiment> experime
                                             std::span<const LoopModel> models, double phi,
                                             double reach = 0.2);
 
+// The value that stands nearest to `share` of the way through them; infinite ones have their place.
+// At least one, in ascending order.
+double NearestRank(std::span<const double> ascending, double share);
+
 }  // namespace howl
 
 #endif  // HOWL_ESTIMATION_FAMILY_ANSWERS_PREDICT_H_

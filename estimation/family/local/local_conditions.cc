@@ -20,12 +20,10 @@ class RowMaker {
 
   void AddTolerances(std::size_t i) {
     const LocalScale& scale = c_.scales[i];
-    if (scale.has_phase) AddBoth(i, kLocalPhase, Condition::kPhase);
-    if (scale.has_gain) AddBoth(i, kLocalGain, Condition::kGain);
+    if (scale.has_phase) AddBoth(Coordinate(i, kLocalPhase), i, Condition::kPhase);
+    if (scale.has_gain) AddBoth(Coordinate(i, kLocalGain), i, Condition::kGain);
     if (scale.has_loop_phase) {
-      const LocalJet error = points_[i].loop_phase_rad / scale.loop_phase;
-      Add(error, i, IsSoft(Condition::kLoopPhase));
-      Add(-error, i, IsSoft(Condition::kLoopPhase));
+      AddBoth(points_[i].loop_phase_rad / scale.loop_phase, i, Condition::kLoopPhase);
     }
     const double xi_max = c_.problem.test.xi_max;
     if (std::isfinite(xi_max)) {
@@ -39,8 +37,7 @@ class RowMaker {
     const double tolerance =
         c_.problem.test.second_crossing_tolerance_deg * kRadPerDeg * (1.0 - kLocalMargin);
     for (const LocalJet& error : p.line_rad) {
-      Add(error / tolerance, i, IsSoft(Condition::kSecondCrossing));
-      Add(-error / tolerance, i, IsSoft(Condition::kSecondCrossing));
+      AddBoth(error / tolerance, i, Condition::kSecondCrossing);
     }
     const MembershipTest& test = c_.problem.test;
     for (const LocalJet& ln_gain : p.ln_line_gain) {
@@ -135,10 +132,14 @@ class RowMaker {
     }
   }
 
-  void AddBoth(std::size_t i, int k, Condition condition) {
-    const LocalJet coordinate(state_.local[i][static_cast<std::size_t>(k)], k);
-    Add(coordinate, i, IsSoft(condition));
-    Add(-coordinate, i, IsSoft(condition));
+  LocalJet Coordinate(std::size_t i, int k) const {
+    return LocalJet(state_.local[i][static_cast<std::size_t>(k)], k);
+  }
+
+  // |error| at most one.
+  void AddBoth(const LocalJet& error, std::size_t i, Condition condition) {
+    Add(error, i, IsSoft(condition));
+    Add(-error, i, IsSoft(condition));
   }
 
   void AddRange(std::size_t i, ParameterKind kind, const LocalJet& ln) {

@@ -5,9 +5,9 @@
 //   gain_tolerance             | |z| / gain - 1 |        <= tolerance      (5a), (5c)
 //   phase_tolerance_deg        | arg z - phase |         <= tolerance      (5a), (5c)
 //   loop_phase_tolerance_deg   | arg L - 180 degrees |   <= tolerance      (1a)
-//   loop_gain_min              |L Phi'(0)|               >= minimum        (1b), reliable ones
-//   only,
-//                              with the steepest slope that the data allow
+//   loop_gain_min              |L Phi'(0)|               >= minimum        (1b), reliable ones:
+//                              of the steepest slope that the data allow (Experiment's
+//                              SteepestSlope)
 //   second_crossing_tolerance_deg  the same as (1a) at every observed line
 //   omega_spread_max           max omega / min omega - 1 <= maximum        over experiments
 //   xi_max                     xi                        <= maximum
