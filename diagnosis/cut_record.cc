@@ -21,6 +21,7 @@ constexpr double kHighestOfCycleFlame = 6.4;
 constexpr double kHighestOfSamplingAcoustic = 0.33;
 constexpr double kHighestOfSamplingFlame = 0.26;
 constexpr double kTaper = 0.3;  // of cut B's band
+constexpr double kFilterOverBand = 1.05;
 constexpr double kLowestSearched_hz = 20.0;
 constexpr double kLeastSampling_hz = 5.0 * kLowestSearched_hz;
 constexpr std::size_t kFewestSamples = 4096;
@@ -64,6 +65,10 @@ Eigen::VectorXcd DerivativeFilter(const CutRecord& record, double edge_hz) {
   return filter;
 }
 
+double HighestOfFlame(double cycle_hz, double sampling_hz) {
+  return std::min(kHighestOfCycleFlame * cycle_hz, kHighestOfSamplingFlame * sampling_hz);
+}
+
 // Half a cosine over the band's last part.
 Eigen::VectorXd UpperTaper(Eigen::Index count) {
   Eigen::VectorXd taper(count);
@@ -99,8 +104,7 @@ CutRecord Spectra(const DiagnosisExperiment& experiment) {
 void SetBand(double cycle_hz, CutRecord* record) {
   const double high_a = std::min(kHighestOfCycleAcoustic * cycle_hz,
                                  kHighestOfSamplingAcoustic * record->sampling_hz);
-  const double high_b =
-      std::min(kHighestOfCycleFlame * cycle_hz, kHighestOfSamplingFlame * record->sampling_hz);
+  const double high_b = HighestOfFlame(cycle_hz, record->sampling_hz);
   record->first = static_cast<Eigen::Index>(std::ceil(kLowestOfCycle * cycle_hz / record->bin_hz));
   CHECK_GE(record->first, kTapReach);
   record->acoustic_count =
@@ -113,7 +117,7 @@ void SetBand(double cycle_hz, CutRecord* record) {
       record->pressure_spectrum.segment(start, record->extended()), record->acoustic_count);
   record->windowed_heat_release = ApplyWindow(
       record->heat_release_spectrum.segment(start, record->extended()), record->acoustic_count);
-  record->derivative_filter = DerivativeFilter(*record, 1.05 * high_b);
+  record->derivative_filter = DerivativeFilter(*record, kFilterOverBand * high_b);
   record->flame_share = UpperTaper(record->flame_count);
   record->masked.assign(static_cast<std::size_t>(record->acoustic_count), 0);
   const SensorNoise noise = EstimateSensorNoise(*record);
@@ -237,6 +241,11 @@ std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& ex
     record.at.heat_release_over_pressure = mean_ratio;
   }
   return records;
+}
+
+Eigen::VectorXcd BareDerivativeFilter(const CutRecord& record) {
+  const auto bins = static_cast<double>(record.first + record.flame_count);
+  return DerivativeFilter(record, kFilterOverBand * bins * record.bin_hz);
 }
 
 void DriveAsRecorded(CutRecord* record) {

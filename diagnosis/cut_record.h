@@ -113,6 +113,9 @@ std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& ex
 // Cut A's input without the shrinkage.
 void DriveAsRecorded(CutRecord* record);
 
+// The same of the flame's: s times the low-pass alone.
+Eigen::VectorXcd BareDerivativeFilter(const CutRecord& record);
+
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_CUT_RECORD_H_

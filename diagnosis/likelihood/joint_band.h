@@ -1,0 +1,46 @@
+// A record made ready for the joint likelihood (joint_likelihood.h): both signals on one band of
+// bins, under the sine taper sin(pi n / N), which is zero at the record's ends. In the frequency
+// domain it is the difference of neighbouring bins, taken of a residual, so that no filter's
+// transient at the ends is left in it.
+//
+// Bin i stands at the middle of two bins of the record's transform. Under this taper neighbouring
+// bins are correlated by -1/2, so that a bin counts for 1 / 1.5 of an independent one: two thirds
+// of all that the record holds, whatever its length.
+#ifndef HOWL_DIAGNOSIS_LIKELIHOOD_JOINT_BAND_H_
+#define HOWL_DIAGNOSIS_LIKELIHOOD_JOINT_BAND_H_
+
+#include <Eigen/Core>
+
+#include "diagnosis/cut_record.h"
+
+namespace howl {
+
+inline constexpr double kSineTaperShare = 1.0 / 1.5;
+
+struct JointBand {
+  CutRecord record;  // with the flame driven by p as it was recorded
+  Eigen::Index count = 0;
+  Eigen::VectorXd frequency_hz;
+  Eigen::VectorXcd pressure;  // tapered
+  Eigen::VectorXcd heat_release;
+  Eigen::VectorXd log_frequency;  // -1 .. 1 over the band
+
+  // The root of |P|^2 over |Q|^2, smooth over a tenth of the cycle's frequency:
+  // what an error of the transfer from q to p
+  // is relative to; of the transfer from p to q, its inverse.
+  Eigen::VectorXd pressure_over_heat_release;
+  // |P|^2 and |Q|^2, smooth over a few bins: an error that is a part of one bin's own power would
+  // take what noise makes large for error.
+  Eigen::VectorXd pressure_power;
+  Eigen::VectorXd heat_release_power;
+};
+
+JointBand MakeJointBand(const CutRecord& record);
+
+// What the taper makes of a spectrum on the record's extended band: `count` bins.
+Eigen::VectorXcd SineTapered(const Eigen::Ref<const Eigen::VectorXcd>& extended,
+                             Eigen::Index count);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LIKELIHOOD_JOINT_BAND_H_

@@ -1,0 +1,49 @@
+// Where a record's noise comes from. Each source has a smooth spectrum S_j(f) and a direction
+// u_j(f) in the two residuals E_A = P - R Q and E_B = Q - F P (joint_likelihood.h):
+//
+//   combustion  (0, 1)      sensor of p  (1, -F)      sensor of q  (-R, 1)
+//   duct        (R, 0): a source beside the flame, which q does not show
+//
+//   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
+//
+// One coefficient: white noise. Spectra are in units of |P|^2 or |Q|^2 under the taper.
+#ifndef HOWL_DIAGNOSIS_LIKELIHOOD_NOISE_SOURCES_H_
+#define HOWL_DIAGNOSIS_LIKELIHOOD_NOISE_SOURCES_H_
+
+#include <Eigen/Core>
+#include <complex>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace howl {
+
+enum class NoiseSource : std::uint8_t { kCombustion, kPressureSensor, kHeatReleaseSensor, kDuct };
+
+std::string_view NoiseSourceName(NoiseSource source);
+
+struct NoiseTerm {
+  NoiseSource source = NoiseSource::kCombustion;
+  Eigen::Index coefficients = 1;
+};
+
+// u_j at one bin.
+struct NoiseDirection {
+  std::complex<double> acoustic;
+  std::complex<double> flame;
+};
+NoiseDirection DirectionOf(NoiseSource source, std::complex<double> r, std::complex<double> f);
+
+// How u_j moves: d u_j = (by_r dR, by_f dF).
+struct NoiseTurn {
+  double by_r = 0.0;
+  double by_f = 0.0;
+};
+NoiseTurn TurnOf(NoiseSource source);
+
+// T_0 .. T_(terms - 1) at each x: rows are bins.
+Eigen::MatrixXd ChebyshevColumns(const Eigen::VectorXd& x, Eigen::Index terms);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LIKELIHOOD_NOISE_SOURCES_H_

@@ -1,0 +1,30 @@
+// What a rig is taken to be: the base loop with a set of effects and of noise sources, and one
+// delay for all operating points or each its own, scattered about one by as much as the records
+// say.
+#ifndef HOWL_DIAGNOSIS_STRUCTURE_STRUCTURE_H_
+#define HOWL_DIAGNOSIS_STRUCTURE_STRUCTURE_H_
+
+#include <vector>
+
+#include "diagnosis/effect_fit.h"
+#include "diagnosis/likelihood/noise_sources.h"
+#include "model/effects/combined.h"
+
+namespace howl {
+
+struct LoopStructure {
+  std::vector<EffectPointer> effects;  // of transfer kind
+  std::vector<NoiseTerm> noise;
+  bool own_delays = false;
+
+  // All effects at once; their parameters one effect's after the other's.
+  EffectPointer Joined() const {
+    EffectPointer joined = effects.empty() ? BaseEffect() : effects[0];
+    for (std::size_t i = 1; i < effects.size(); ++i) joined = Combine(joined, effects[i]);
+    return joined;
+  }
+};
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_STRUCTURE_STRUCTURE_H_

@@ -1,0 +1,96 @@
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/structure/structure_fit.h"
+
+namespace howl {
+namespace {
+
+constexpr double kEulerGamma = 0.57721566490153286;
+// The quietest of a spectrum is where a white sensor's noise may be all there is.
+constexpr double kQuiet = 0.05;
+constexpr double kFirstError = 0.02;
+
+double Quantile(Eigen::VectorXd x, double share) {
+  const auto at = static_cast<Eigen::Index>(share * static_cast<double>(x.size() - 1));
+  std::nth_element(x.data(), x.data() + at, x.data() + x.size());
+  return x[at];
+}
+
+// Coefficients of the logarithm of a smooth spectrum, from one exponential draw a bin: the mean of
+// its logarithm lies Euler's constant too low. Lines are left out by a second pass.
+Eigen::VectorXd LogSpectrum(const JointBand& band, const Eigen::VectorXd& power,
+                            Eigen::Index coefficients) {
+  const Eigen::MatrixXd basis = ChebyshevColumns(band.log_frequency, coefficients);
+  const Eigen::VectorXd logs = power.array().max(1e-300).log() + kEulerGamma;
+  Eigen::VectorXd out = basis.colPivHouseholderQr().solve(logs);
+  for (int pass = 0; pass < 4; ++pass) {
+    const Eigen::VectorXd level = basis * out;
+    const Eigen::VectorXd capped = logs.cwiseMin((level.array() + 2.0).matrix());
+    out = basis.colPivHouseholderQr().solve(capped);
+  }
+  return out;
+}
+
+constexpr Eigen::Index kCombustionCoefficients = 6;
+
+}  // namespace
+
+std::vector<NoiseTerm> BaseNoise() {
+  return {{NoiseSource::kCombustion, kCombustionCoefficients},
+          {NoiseSource::kPressureSensor, 1},
+          {NoiseSource::kHeatReleaseSensor, 1}};
+}
+
+StructureFit StartOf(const std::vector<JointBand>& bands, const EffectFit& base,
+                     const std::vector<NoiseTerm>& noise) {
+  StructureFit out;
+  out.structure.noise = noise;
+  out.structure.own_delays = base.delay_scatter > 0.0;
+  out.shared.tau_s = base.tau_s;
+  out.shared.values = base.values;
+  out.shared.eps_a = kFirstError;
+  out.shared.eps_b = kFirstError;
+  out.shared.delay_scatter = base.delay_scatter;
+  for (std::size_t e = 0; e < bands.size(); ++e) {
+    const JointBand& band = bands[e];
+    PointLoop point;
+    point.acoustics = base.experiments[e].acoustics;
+    point.log_delay = base.experiments[e].log_delay;
+    const JointResiduals residuals = MakeJointResiduals(band, *base.effect, out.shared, point);
+    point.flame = (residuals.flame->columns.adjoint() * residuals.flame->columns)
+                      .real()
+                      .ldlt()
+                      .solve((residuals.flame->columns.adjoint() * residuals.flame->target).real());
+    const Eigen::VectorXd flame_power =
+        (residuals.flame->target - residuals.flame->columns * point.flame).cwiseAbs2();
+    const Eigen::VectorXd acoustic_power = residuals.acoustic->residual.cwiseAbs2();
+    const Eigen::VectorXd duct_power =
+        acoustic_power.array() / residuals.acoustic->r.array().abs2();
+    for (const NoiseTerm& term : noise) {
+      Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(term.coefficients);
+      switch (term.source) {
+        case NoiseSource::kCombustion:
+          coefficients = LogSpectrum(band, flame_power, term.coefficients);
+          break;
+        case NoiseSource::kDuct:
+          coefficients = LogSpectrum(band, duct_power, term.coefficients);
+          break;
+        case NoiseSource::kPressureSensor:
+          coefficients[0] = std::log(Quantile(acoustic_power, kQuiet) / kQuiet);
+          break;
+        case NoiseSource::kHeatReleaseSensor:
+          coefficients[0] = std::log(Quantile(flame_power, kQuiet) / kQuiet);
+          break;
+      }
+      point.noise.push_back(coefficients);
+    }
+    out.points.push_back(std::move(point));
+  }
+  out.centres = out.points;
+  return out;
+}
+
+}  // namespace howl
