@@ -53,6 +53,7 @@ struct MemberDrawer::Impl {
   Range window_support, second_support, N_support;
   bool supported = false;
   std::optional<ChainFronts> fronts;  // where draws can be previewed
+  Range preview_support;              // windows outside have no member
 
   explicit Impl(const FamilyProblem& p)
       : problem(p),
@@ -84,7 +85,12 @@ struct MemberDrawer::Impl {
     const bool any_shared = shared_omega || shared_xi || shared_N || shared_tau;
     if (supported && !two_modes && !any_shared && p.model.own.empty() &&
         std::isfinite(window.factor)) {
-      fronts.emplace(window, chain, window_support);
+      // xi is drawn from a floor on, which the windows do not know.
+      WindowProblem drawn = window;
+      drawn.xi = xi;
+      const std::optional<Range> windows = FeasibleWindows(drawn);
+      if (windows) fronts.emplace(window, chain, *windows);
+      preview_support = windows.value_or(Range{});
     }
   }
 
@@ -495,10 +501,10 @@ struct MemberDrawer::Impl {
     DrawGlobals globals;
     globals.window_hz = random.Uniform(IsEmpty(focus.window_hz) ? window_support : focus.window_hz);
     const double v = globals.window_hz;
-    if (v < window_support.lo * (1.0 - kEdge) || v > window_support.hi * (1.0 + kEdge)) {
+    if (v < preview_support.lo * (1.0 - kEdge) || v > preview_support.hi * (1.0 + kEdge)) {
       return Preview{std::nullopt, random.State()};
     }
-    if (!window_support.Contains(v)) return std::nullopt;
+    if (!preview_support.Contains(v)) return std::nullopt;
     const Range window_hz = Intersection(omega, {v, v * window.factor});
     if (IsEmpty(window_hz)) return std::nullopt;
     const std::size_t i = focus.experiment;
