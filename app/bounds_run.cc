@@ -21,6 +21,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kSecondsBetweenSaves = 2.0;
+constexpr int kLeastBetweenSaves = 30;  // times what the last one took
+// About what saving takes over the square of the number of experiments (bench/scaling_study), for
+// the first one.
+constexpr double kSecondsToSaveOne = 2e-5;
 
 std::filesystem::path StatePath(const Options& options) { return options.out / "bounds.state"; }
 
@@ -84,11 +88,18 @@ void RunBounds(const Config& config, const Options& options, Enclosure& enclosur
       std::chrono::duration<double>(std::min(seconds, 3600.0)));
   bool was_shown = false;
   bool was_saved = false;
+  // The state of many experiments is long, a member for each end of each parameter: saving takes no
+  // more than a share of the time.
+  const auto experiments = static_cast<double>(config.experiments.size());
+  auto saving = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(kSecondsToSaveOne * experiments * experiments));
   while (true) {
-    const Clock::time_point until = Clock::now() + between;
+    const Clock::time_point until = Clock::now() + std::max(between, kLeastBetweenSaves * saving);
     const bool complete = enclosure.Run([&] { return IsInterrupted() || Clock::now() >= until; });
     if (complete) break;
+    const Clock::time_point before = Clock::now();
     SaveState(path, key, enclosure);
+    saving = Clock::now() - before;
     was_saved = true;
     StopIfInterrupted(options);
     if (shown) ShowProgress(enclosure, start);

@@ -2,13 +2,16 @@
 
 #include <glog/logging.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <functional>
 #include <limits>
-#include <map>
-#include <numeric>
+#include <utility>
+
+#include "estimation/fit/connected_columns.h"
+#include "estimation/fit/substructure.h"
 
 namespace howl {
 namespace {
@@ -21,34 +24,6 @@ constexpr double kNegligible = 1e-3;
 constexpr double kWorthNaming = 0.003;
 constexpr double kWorthNamingWhenMany = 0.1;
 constexpr std::size_t kMany = 6;
-
-// Columns of J that no chain of residuals connects belong to different blocks.
-std::vector<std::vector<int>> ConnectedColumns(const Eigen::MatrixXd& jacobian) {
-  const int n = static_cast<int>(jacobian.cols());
-  std::vector<int> parent(static_cast<std::size_t>(n));
-  std::iota(parent.begin(), parent.end(), 0);
-  const std::function<int(int)> root = [&](int i) {
-    int& p = parent[static_cast<std::size_t>(i)];
-    return p == i ? i : p = root(p);
-  };
-  for (int row = 0; row < jacobian.rows(); ++row) {
-    int first = -1;
-    for (int column = 0; column < n; ++column) {
-      if (jacobian(row, column) == 0.0) continue;
-      if (first < 0) {
-        first = column;
-      } else {
-        parent[static_cast<std::size_t>(root(column))] = root(first);
-      }
-    }
-  }
-  std::map<int, std::vector<int>> groups;
-  for (int column = 0; column < n; ++column) groups[root(column)].push_back(column);
-  std::vector<std::vector<int>> result;
-  for (auto& [key, columns] : groups) result.push_back(std::move(columns));
-  std::ranges::sort(result);
-  return result;
-}
 
 // Another basis of the same space, each vector of which involves few parameters: reduced row
 // echelon form with the largest pivot, then unit length.
@@ -68,8 +43,12 @@ void MakeSparse(Eigen::MatrixXd& basis_rows) {
   for (Eigen::Index k = 0; k < basis_rows.rows(); ++k) basis_rows.row(k).normalize();
 }
 
-std::string Describe(const Eigen::VectorXd& direction, const std::vector<std::string>& names,
-                     double log_std) {
+// `direction` in the parameters `columns`.
+std::string Describe(const Eigen::VectorXd& direction, const std::vector<int>& columns,
+                     const std::vector<std::string>& names, double log_std) {
+  const auto name_of = [&](int i) -> const std::string& {
+    return names[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])];
+  };
   const double largest = direction.cwiseAbs().maxCoeff();
   const auto larger_than = [&](double share) {
     std::vector<int> indices;
@@ -82,7 +61,7 @@ std::string Describe(const Eigen::VectorXd& direction, const std::vector<std::st
   const std::vector<int> involved = larger_than(all > kMany ? kWorthNamingWhenMany : kWorthNaming);
   // "exp1." in front of every name is said once, behind them.
   const auto prefix = [&](int i) {
-    const std::string& name = names[static_cast<std::size_t>(i)];
+    const std::string& name = name_of(i);
     const std::size_t dot = name.rfind('.');
     return dot == std::string::npos ? std::string() : name.substr(0, dot);
   };
@@ -92,7 +71,7 @@ std::string Describe(const Eigen::VectorXd& direction, const std::vector<std::st
   std::string subjects;
   std::string components;
   for (std::size_t k = 0; k < involved.size(); ++k) {
-    std::string name = names[static_cast<std::size_t>(involved[k])];
+    std::string name = name_of(involved[k]);
     if (same_owner) name = name.substr(prefix(involved[k]).size() + 1);
     if (k > 0) {
       subjects += k + 1 == involved.size() ? " and " : ", ";
@@ -117,61 +96,111 @@ std::string Describe(const Eigen::VectorXd& direction, const std::vector<std::st
   return text;
 }
 
-}  // namespace
+class Analysis {
+ public:
+  Analysis(const std::vector<JacobianBlock>& jacobian, const std::vector<std::string>& names,
+           const std::vector<bool>& shared)
+      : jacobian_(jacobian), names_(names), shared_(shared) {
+    result_.covariance = LogCovariance(static_cast<int>(names.size()));
+    result_.log_std.assign(names.size(), 0.0);
+    double squares = 0.0;
+    for (const JacobianBlock& block : jacobian) squares += block.values.squaredNorm();
+    least_ = kRankTolerance * std::sqrt(squares);
+  }
 
-Identifiability ComputeIdentifiability(const Eigen::MatrixXd& jacobian,
-                                       const std::vector<std::string>& names) {
-  const Eigen::Index n = jacobian.cols();
-  CHECK_EQ(static_cast<std::size_t>(n), names.size());
-  Identifiability result;
-  result.covariance = Eigen::MatrixXd::Zero(n, n);
-  result.log_std.assign(static_cast<std::size_t>(n), 0.0);
-  if (n == 0) return result;
-  const double scale = jacobian.norm();
-  std::vector<double> singular_values;
-  const auto report = [&](const Eigen::VectorXd& local, const std::vector<int>& columns,
-                          double log_std) {
-    Eigen::VectorXd direction = Eigen::VectorXd::Zero(n);
-    direction(columns) = local;
-    result.undetermined.push_back({direction, log_std, Describe(direction, names, log_std)});
-  };
-  for (const std::vector<int>& columns : ConnectedColumns(jacobian)) {
-    const Eigen::MatrixXd block = jacobian(Eigen::all, columns);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(block, Eigen::ComputeFullV);
-    const Eigen::Index width = block.cols();
+  // By a singular value decomposition of the whole set.
+  void Decompose(const ConnectedSet& set) {
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(DenseRows(jacobian_, set.rows, set.columns),
+                                                Eigen::ComputeFullV);
+    const auto width = static_cast<Eigen::Index>(set.columns.size());
     Eigen::VectorXd values = Eigen::VectorXd::Zero(width);
     values.head(svd.singularValues().size()) = svd.singularValues();
     Eigen::Index rank = 0;
-    while (rank < width && values(rank) > kRankTolerance * scale) ++rank;
-    result.rank += static_cast<int>(rank);
-    singular_values.insert(singular_values.end(), values.begin(), values.end());
-
+    while (rank < width && values(rank) > least_) ++rank;
+    result_.rank += static_cast<int>(rank);
     const Eigen::MatrixXd determined = svd.matrixV().leftCols(rank);
     const Eigen::MatrixXd scaled = determined * values.head(rank).cwiseInverse().asDiagonal();
-    result.covariance(columns, columns) = scaled * scaled.transpose();
+    result_.covariance.Add({.blocks = {set.columns},
+                            .diagonal = {scaled * scaled.transpose()},
+                            .factor = Eigen::MatrixXd(width, 0),
+                            .middle = Eigen::MatrixXd(0, 0)});
     for (Eigen::Index k = 0; k < rank; ++k) {
-      if (values(k) < 1.0) report(determined.col(k), columns, 1.0 / values(k));
+      if (values(k) < 1.0) Report(determined.col(k), set.columns, 1.0 / values(k));
     }
-    if (rank == width) continue;
-    Eigen::MatrixXd free_rows = svd.matrixV().rightCols(width - rank).transpose();
-    MakeSparse(free_rows);
-    for (Eigen::Index k = 0; k < free_rows.rows(); ++k) {
-      report(free_rows.row(k), columns, std::numeric_limits<double>::infinity());
+    if (rank < width) Free(svd.matrixV().rightCols(width - rank).transpose(), set.columns);
+  }
+
+  // By elimination of what belongs to one experiment.
+  void Eliminate(const ConnectedSet& set) {
+    Substructure parts = AnalyseSubstructure(jacobian_, set, shared_, least_);
+    result_.rank += parts.rank;
+    result_.covariance.Add(parts.covariance);
+    for (const std::vector<int>& columns : parts.covariance.blocks) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(result_.covariance.Of(columns));
+      for (Eigen::Index k = eigen.eigenvalues().size(); k-- > 0;) {
+        const double variance = eigen.eigenvalues()(k);
+        if (variance > 1.0) Report(eigen.eigenvectors().col(k), columns, std::sqrt(variance));
+      }
     }
-    for (Eigen::Index i = 0; i < width; ++i) {
-      if (free_rows.col(i).cwiseAbs().maxCoeff() > kNegligible) {
-        result.log_std[static_cast<std::size_t>(columns[static_cast<std::size_t>(i)])] =
-            std::numeric_limits<double>::infinity();
+    for (FreeSpace& space : parts.free) Free(std::move(space.rows), space.columns);
+  }
+
+  Identifiability Result() {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const int column = static_cast<int>(i);
+      double& log_std = result_.log_std[i];
+      if (log_std == 0.0) log_std = std::sqrt(result_.covariance(column, column));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void Report(const Eigen::VectorXd& local, const std::vector<int>& columns, double log_std) {
+    Eigen::SparseVector<double> direction(static_cast<Eigen::Index>(names_.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      direction.coeffRef(columns[k]) = local(static_cast<Eigen::Index>(k));
+    }
+    result_.undetermined.push_back(
+        {std::move(direction), log_std, Describe(local, columns, names_, log_std)});
+  }
+
+  // `rows`: a basis of directions that no residual notices.
+  void Free(Eigen::MatrixXd rows, const std::vector<int>& columns) {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    MakeSparse(rows);
+    for (Eigen::Index k = 0; k < rows.rows(); ++k) Report(rows.row(k), columns, kInfinite);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (rows.col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff() > kNegligible) {
+        result_.log_std[static_cast<std::size_t>(columns[i])] = kInfinite;
       }
     }
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double& log_std = result.log_std[static_cast<std::size_t>(i)];
-    if (log_std == 0.0) log_std = std::sqrt(result.covariance(i, i));
+
+  const std::vector<JacobianBlock>& jacobian_;
+  const std::vector<std::string>& names_;
+  const std::vector<bool>& shared_;
+  double least_ = 0.0;  // singular values up to this are zero
+  Identifiability result_;
+};
+
+}  // namespace
+
+Identifiability ComputeIdentifiability(const std::vector<JacobianBlock>& jacobian,
+                                       const std::vector<std::string>& names,
+                                       const std::vector<bool>& shared, int widest) {
+  CHECK_EQ(names.size(), shared.size());
+  Analysis analysis(jacobian, names, shared);
+  for (const ConnectedSet& set :
+       ConnectedColumns(jacobian, static_cast<int>(names.size()), [](int) { return true; })) {
+    const bool has_shared = std::ranges::any_of(
+        set.columns, [&](int column) { return shared[static_cast<std::size_t>(column)]; });
+    if (has_shared && static_cast<int>(set.columns.size()) > widest) {
+      analysis.Eliminate(set);
+    } else {
+      analysis.Decompose(set);
+    }
   }
-  std::ranges::sort(singular_values, std::greater<>());
-  result.singular_values = Eigen::Map<Eigen::VectorXd>(singular_values.data(), n);
-  return result;
+  return analysis.Result();
 }
 
 }  // namespace howl

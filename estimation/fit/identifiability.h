@@ -4,36 +4,50 @@
 // singular vector with a singular value that vanishes is a direction along which parameters can be
 // traded without any residual noticing. One whose standard deviation 1 / s is more than a factor e
 // is undetermined for practical purposes; it is reported too.
+//
+// Works on each set of parameters that residuals connect by itself, so that directions of
+// experiments that share nothing are not mixed. Where parameters that experiments share connect
+// more than kWidestSet of them, what belongs to one experiment is eliminated first
+// (estimation/fit/substructure.h): the rank, the free directions and the covariance are the same,
+// and the work grows as the number of experiments does; the directions that are held, but to more
+// than a factor e, are then those of each experiment's own covariance, what others do being left
+// open, instead of singular vectors over all of them.
 #ifndef HOWL_ESTIMATION_FIT_IDENTIFIABILITY_H_
 #define HOWL_ESTIMATION_FIT_IDENTIFIABILITY_H_
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <string>
 #include <vector>
 
+#include "estimation/fit/jacobian_block.h"
+#include "estimation/fit/log_covariance.h"
+
 namespace howl {
 
+inline constexpr int kWidestSet = 100;  // parameters; a singular value decomposition of 0.1 s
+
 struct UndeterminedDirection {
-  Eigen::VectorXd direction;  // unit length, in logarithms of the parameters
-  double log_std = 0.0;       // along the direction; infinite when no residual notices it at all
-  std::string text;           // "omega_hz, xi and N of exp1 trade off along (...)"
+  Eigen::SparseVector<double> direction;  // unit length, in logarithms of the parameters
+  double log_std = 0.0;  // along the direction; infinite when no residual notices it at all
+  std::string text;      // "omega_hz, xi and N of exp1 trade off along (...)"
 };
 
 struct Identifiability {
-  Eigen::VectorXd singular_values;  // descending
   int rank = 0;
   // Of the logarithms, over the determined directions: the pseudo-inverse of J^T J.
-  Eigen::MatrixXd covariance;
+  LogCovariance covariance;
   // Of each logarithm: the relative standard deviation of the parameter; infinite when it takes
   // part in a direction that no residual notices.
   std::vector<double> log_std;
   std::vector<UndeterminedDirection> undetermined;
 };
 
-// `names` are the parameters', one a column of J. Fixed parameters have no column. Works block by
-// block, so that directions of experiments that share nothing are not mixed.
-Identifiability ComputeIdentifiability(const Eigen::MatrixXd& jacobian,
-                                       const std::vector<std::string>& names);
+// `names` are the parameters', one a column of J, and `shared` tells which of them more than one
+// experiment may have. Fixed parameters have no column. `widest`: kWidestSet, but for tests.
+Identifiability ComputeIdentifiability(const std::vector<JacobianBlock>& jacobian,
+                                       const std::vector<std::string>& names,
+                                       const std::vector<bool>& shared, int widest = kWidestSet);
 
 }  // namespace howl
 

@@ -1,7 +1,6 @@
 #include "estimation/fit/joint_fit.h"
 
 #include <ceres/cost_function.h>
-#include <ceres/crs_matrix.h>
 #include <ceres/solver.h>
 #include <glog/logging.h>
 
@@ -11,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "estimation/fit/linearise.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -20,6 +20,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSameCost = 1e-6;
 constexpr double kZeroCost = 1e-12;
 constexpr double kAtBound = 1e-6;
+// Parameters up to which the dense solver is the faster one (bench/scaling_study).
+constexpr std::size_t kMostDense = 40;
 // Nothing is learned from how near to the end of the search a parameter came.
 constexpr double kAtGuardRail = 1e-3;
 
@@ -37,7 +39,10 @@ StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver,
   result.logs = start;
   const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(result.logs.data());
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
+  // A step costs the cube of the number of parameters with the dense solver, which keeps J as it
+  // is; with the sparse one about their number, as each residual knows one experiment.
+  options.linear_solver_type =
+      start.size() > kMostDense ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
   options.max_num_iterations = solver.max_iterations;
   options.function_tolerance = 1e-18;
   options.gradient_tolerance = 1e-12;
@@ -52,60 +57,6 @@ StartResult SolveStart(const JointProblem& problem, const SolverSpec& solver,
   result.termination = std::string(ceres::TerminationTypeToString(summary.termination_type)) +
                        ": " + summary.message;
   return result;
-}
-
-// The last `nuisances` of them are no parameters of a model.
-struct FreeParameters {
-  explicit FreeParameters(const JointProblem& problem) {
-    for (std::size_t i = 0; i < problem.parameters().size(); ++i) {
-      if (problem.parameters()[i].fixed) continue;
-      indices.push_back(static_cast<int>(i));
-      nuisances += problem.parameters()[i].is_q_noise ? 1 : 0;
-    }
-  }
-  std::vector<int> indices;
-  int nuisances = 0;
-};
-
-// The Jacobian over the other columns when the last ones are free: what a nuisance can explain is
-// taken out of each, so that J^T J becomes its Schur complement.
-Eigen::MatrixXd WithoutNuisances(Eigen::MatrixXd jacobian, int nuisances) {
-  for (; nuisances > 0; --nuisances) {
-    const Eigen::Index last = jacobian.cols() - 1;
-    const Eigen::VectorXd column = jacobian.col(last);
-    jacobian.conservativeResize(Eigen::NoChange, last);
-    const double size = column.squaredNorm();
-    if (size > 0.0) jacobian -= column * (column.transpose() * jacobian) / size;
-  }
-  return jacobian;
-}
-
-// Weights and losses applied.
-struct Linearised {
-  Eigen::VectorXd residuals;
-  Eigen::MatrixXd jacobian;  // over the free parameters that are no nuisance
-};
-
-Linearised Linearise(const JointProblem& problem, std::vector<double> logs) {
-  const std::unique_ptr<ceres::Problem> ceres_problem = problem.Build(logs.data());
-  ceres::Problem::EvaluateOptions options;
-  const FreeParameters free(problem);
-  for (const int i : free.indices) {
-    options.parameter_blocks.push_back(&logs[static_cast<std::size_t>(i)]);
-  }
-  ceres::CRSMatrix sparse;
-  std::vector<double> residuals;
-  CHECK(ceres_problem->Evaluate(options, nullptr, &residuals, nullptr, &sparse));
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-  for (int row = 0; row < sparse.num_rows; ++row) {
-    for (int k = sparse.rows[static_cast<std::size_t>(row)];
-         k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k) {
-      dense(row, sparse.cols[static_cast<std::size_t>(k)]) =
-          sparse.values[static_cast<std::size_t>(k)];
-    }
-  }
-  return {Eigen::Map<const Eigen::VectorXd>(residuals.data(), sparse.num_rows),
-          WithoutNuisances(std::move(dense), free.nuisances)};
 }
 
 // A bound that no one set (FitParameter).
@@ -175,41 +126,38 @@ void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
 // wrong, and many points of a transfer that are fitted well do not hide a few gains that are
 // missed. The covariance is that of parameters whose data scatter so: C (sum s_i^2 J_i^T J_i) C.
 // What is fitted as well as stated keeps C.
-void WidenByMisfit(const JointProblem& problem, const Linearised& at, JointFit& fit) {
-  const Eigen::MatrixXd& covariance = fit.identifiability.covariance;
-  const Eigen::VectorXd leverage =
-      (at.jacobian * covariance).cwiseProduct(at.jacobian).rowwise().sum();
+void WidenByMisfit(std::vector<JacobianBlock> jacobian, JointFit& fit) {
   struct Misfit {
     double squares = 0.0, freedom = 0.0;
     double Factor() const { return squares / std::max(freedom, 1.0); }
   };
   std::map<ResidualKind, Misfit> misfits;
   Misfit all;
-  std::vector<ResidualKind> kind_of_row;
-  for (const ResidualBlock& block : problem.residuals()) {
-    kind_of_row.insert(kind_of_row.end(), static_cast<std::size_t>(block.cost->num_residuals()),
-                       block.kind);
-  }
-  CHECK_EQ(static_cast<Eigen::Index>(kind_of_row.size()), at.residuals.size());
-  for (Eigen::Index i = 0; i < at.residuals.size(); ++i) {
-    for (Misfit* misfit : {&misfits[kind_of_row[static_cast<std::size_t>(i)]], &all}) {
-      misfit->squares += at.residuals(i) * at.residuals(i);
-      misfit->freedom += 1.0 - leverage(i);
+  for (const JacobianBlock& block : jacobian) {
+    const Eigen::MatrixXd covariance = fit.identifiability.covariance.Of(block.columns);
+    const Eigen::VectorXd leverage =
+        (block.values * covariance).cwiseProduct(block.values).rowwise().sum();
+    for (Eigen::Index i = 0; i < block.residuals.size(); ++i) {
+      for (Misfit* misfit : {&misfits[block.kinds[static_cast<std::size_t>(i)]], &all}) {
+        misfit->squares += block.residuals(i) * block.residuals(i);
+        misfit->freedom += 1.0 - leverage(i);
+      }
     }
   }
-  Eigen::MatrixXd scattered = at.jacobian;
-  for (Eigen::Index i = 0; i < at.residuals.size(); ++i) {
-    const Misfit& kind = misfits[kind_of_row[static_cast<std::size_t>(i)]];
-    scattered.row(i) *= std::sqrt(std::max({1.0, all.Factor(), kind.Factor()}));
+  for (JacobianBlock& block : jacobian) {
+    for (Eigen::Index i = 0; i < block.residuals.size(); ++i) {
+      const Misfit& kind = misfits[block.kinds[static_cast<std::size_t>(i)]];
+      block.values.row(i) *= std::sqrt(std::max({1.0, all.Factor(), kind.Factor()}));
+    }
   }
-  const Eigen::MatrixXd shifts = scattered * covariance;
-  const Eigen::VectorXd before = covariance.diagonal();
-  fit.identifiability.covariance = shifts.transpose() * shifts;
-  for (Eigen::Index i = 0; i < before.size(); ++i) {
-    if (!(before(i) > 0.0)) continue;  // nothing determines it
-    fit.identifiability.log_std[static_cast<std::size_t>(i)] *=
-        std::sqrt(fit.identifiability.covariance(i, i) / before(i));
+  LogCovariance& covariance = fit.identifiability.covariance;
+  LogCovariance scattered = covariance.Scattered(jacobian);
+  for (int i = 0; i < covariance.size(); ++i) {
+    const double before = covariance(i, i);
+    if (!(before > 0.0)) continue;  // nothing determines it
+    fit.identifiability.log_std[static_cast<std::size_t>(i)] *= std::sqrt(scattered(i, i) / before);
   }
+  covariance = std::move(scattered);
 }
 
 // The first start that reaches the lowest cost; one that converged beats one that did not. None
@@ -256,16 +204,16 @@ JointFit FailedFit(const JointProblem& problem, const std::vector<StartResult>& 
   return fit;
 }
 
-}  // namespace
-
-namespace {
-
-Identifiability IdentifiabilityOf(const JointProblem& problem, const Linearised& at) {
+Identifiability IdentifiabilityOf(const JointProblem& problem,
+                                  const std::vector<JacobianBlock>& jacobian) {
   std::vector<std::string> names;
+  std::vector<bool> shared;
   for (const ParameterBlock& block : problem.parameters()) {
-    if (!block.fixed && !block.is_q_noise) names.push_back(block.name);
+    if (block.fixed || block.is_q_noise) continue;
+    names.push_back(block.name);
+    shared.push_back(block.experiment == kShared);
   }
-  return ComputeIdentifiability(at.jacobian, names);
+  return ComputeIdentifiability(jacobian, names, shared);
 }
 
 }  // namespace
@@ -318,10 +266,10 @@ JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
           << fit.starts_at_best << " of " << fit.starts << " starts; " << fit.termination;
   fit.logs = best->logs;
   fit.models = problem.Models(fit.logs);
-  const Linearised at = Linearise(problem, fit.logs);
-  fit.identifiability = IdentifiabilityOf(problem, at);
+  std::vector<JacobianBlock> jacobian = Linearise(problem, fit.logs);
+  fit.identifiability = IdentifiabilityOf(problem, jacobian);
   DescribeResiduals(problem, fit);
-  WidenByMisfit(problem, at, fit);
+  WidenByMisfit(std::move(jacobian), fit);
   DescribeParameters(problem, fit);
   RefuseGuardRails(fit);
   return fit;

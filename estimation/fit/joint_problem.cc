@@ -133,12 +133,13 @@ void JointProblem::AddParameters() {
   const int num_experiments = static_cast<int>(experiments_.size());
   std::vector<LoopModel> starts;
   for (const Experiment& experiment : experiments_) starts.push_back(StartModel(experiment));
+  const SearchRails rails(experiments_);
   const auto add = [&](ParameterKind kind, int experiment, double start) {
     const ParameterSpec& spec =
         experiment == kShared
             ? model_[kind]
             : model_.Of(kind, experiments_[static_cast<std::size_t>(experiment)].name);
-    const SearchRange range = MakeSearchRange(kind, spec, experiments_);
+    const SearchRange range = rails.RangeOf(kind, spec);
     CHECK(range.min > 0.0 && range.min < range.max) << ParameterName(kind);
     ParameterBlock block;
     block.name = std::string(ParameterName(kind));
@@ -155,11 +156,15 @@ void JointProblem::AddParameters() {
   };
   for (const ParameterKind kind : kParameterKinds) {
     if (!model_.Uses(kind)) continue;
+    const int first = static_cast<int>(parameters_.size());
+    std::vector<int>& index = index_[static_cast<std::size_t>(kind)];
+    index.resize(experiments_.size(), first);
     if (model_[kind].scope == ParameterScope::kShared) {
       double log_sum = 0.0;
       for (const LoopModel& start : starts) log_sum += std::log(StartValue(kind, start));
       add(kind, kShared, std::exp(log_sum / num_experiments));
     } else {
+      std::iota(index.begin(), index.end(), first);
       for (int i = 0; i < num_experiments; ++i) {
         add(kind, i, StartValue(kind, starts[static_cast<std::size_t>(i)]));
       }
@@ -168,14 +173,9 @@ void JointProblem::AddParameters() {
 }
 
 int JointProblem::ParameterIndex(ParameterKind kind, int experiment) const {
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const ParameterBlock& block = parameters_[i];
-    if (block.kind == kind && !block.is_mean && !block.is_q_noise &&
-        (block.experiment == kShared || block.experiment == experiment)) {
-      return static_cast<int>(i);
-    }
-  }
-  LOG(FATAL) << "no parameter " << ParameterName(kind) << " for experiment " << experiment;
+  const std::vector<int>& index = index_[static_cast<std::size_t>(kind)];
+  CHECK(!index.empty()) << "no parameter " << ParameterName(kind);
+  return index[experiment == kShared ? 0 : static_cast<std::size_t>(experiment)];
 }
 
 std::vector<int> JointProblem::AcousticBlocks(int experiment, bool full) const {
@@ -367,7 +367,7 @@ void JointProblem::AddMean(ResidualKind prior, ParameterKind kind, const Residua
   mean.name = std::string(ParameterName(kind)) + "_mean";
   mean.kind = kind;
   mean.is_mean = true;
-  const SearchRange range = MakeSearchRange(kind, model_[kind], experiments_);
+  const SearchRange range = SearchRails(experiments_).RangeOf(kind, model_[kind]);
   mean.min_log = std::log(range.min);
   mean.max_log = std::log(range.max);
   mean.initial_log = log_sum / static_cast<double>(members.size());

@@ -14,6 +14,7 @@
 #include <ceres/cost_function.h>
 #include <ceres/problem.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -99,6 +100,8 @@ class JointProblem {
   std::vector<Experiment> experiments_;
   ModelSpec model_;
   std::vector<ParameterBlock> parameters_;
+  // For each kind, where the block of each experiment is; empty for a kind that no model uses.
+  std::array<std::vector<int>, kNumParameterKinds> index_;
   std::vector<ResidualBlock> residuals_;
 };
 

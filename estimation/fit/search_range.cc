@@ -16,39 +16,36 @@ constexpr double kFarTauLow = 1e-4;
 constexpr double kFarTauHigh = 1e3;
 constexpr double kFarCoefficient = 1e9;
 
-SearchRange Rails(ParameterKind kind, const Experiment& experiment) {
-  const double f = experiment.frequency_hz;
-  const double coefficient = kRadPerSPerHz * f * experiment.gain;
-  switch (kind) {
-    case ParameterKind::kOmega:
-      return {f / kFarOmega, kFarOmega * f};
-    case ParameterKind::kTau:
-      return {kFarTauLow / f, kFarTauHigh / f};
-    case ParameterKind::kN:
-    case ParameterKind::kM:
-      return {coefficient / kFarCoefficient, kFarCoefficient * coefficient};
-    case ParameterKind::kXi:
-    case ParameterKind::kMOverN:
-      break;
-  }
-  LOG(FATAL) << ParameterName(kind) << " has no dimension, expected bounds of the model's own";
+void Widen(SearchRange& range, const SearchRange& other) {
+  range = {std::min(range.min, other.min), std::max(range.max, other.max)};
 }
 
 }  // namespace
 
-SearchRange MakeSearchRange(ParameterKind kind, const ParameterSpec& spec,
-                            std::span<const Experiment> experiments) {
+SearchRails::SearchRails(std::span<const Experiment> experiments) {
   CHECK(!experiments.empty());
+  constexpr SearchRange kNone{std::numeric_limits<double>::infinity(), 0.0};
+  omega_ = tau_ = coefficient_ = kNone;
+  for (const Experiment& experiment : experiments) {
+    const double f = experiment.frequency_hz;
+    const double coefficient = kRadPerSPerHz * f * experiment.gain;
+    Widen(omega_, {f / kFarOmega, kFarOmega * f});
+    Widen(tau_, {kFarTauLow / f, kFarTauHigh / f});
+    Widen(coefficient_, {coefficient / kFarCoefficient, kFarCoefficient * coefficient});
+  }
+}
+
+SearchRange SearchRails::RangeOf(ParameterKind kind, const ParameterSpec& spec) const {
   const bool has_min = spec.min > 0.0;
   const bool has_max = std::isfinite(spec.max);
   if (has_min && has_max) return {spec.min, spec.max};
-  SearchRange range{std::numeric_limits<double>::infinity(), 0.0};
-  const auto widen = [&](const SearchRange& other) {
-    range = {std::min(range.min, other.min), std::max(range.max, other.max)};
-  };
-  for (const Experiment& experiment : experiments) widen(Rails(kind, experiment));
+  CHECK(kind != ParameterKind::kXi && kind != ParameterKind::kMOverN)
+      << ParameterName(kind) << " has no dimension, expected bounds of the model's own";
+  SearchRange range = coefficient_;
+  if (kind == ParameterKind::kOmega) range = omega_;
+  if (kind == ParameterKind::kTau) range = tau_;
   constexpr double kBeside = 10.0;  // a value of the spec's own does not stand at a rail
-  const auto include = [&](double own) { widen({own / kBeside, own * kBeside}); };
+  const auto include = [&](double own) { Widen(range, {own / kBeside, own * kBeside}); };
   if (spec.initial) include(*spec.initial);
   if (has_min) include(spec.min);
   if (has_max) include(spec.max);

@@ -20,9 +20,17 @@ struct SearchRange {
   double max = 0.0;
 };
 
-// What `spec` has of its own comes first; an initial value of its own lies within.
-SearchRange MakeSearchRange(ParameterKind kind, const ParameterSpec& spec,
-                            std::span<const Experiment> experiments);
+class SearchRails {
+ public:
+  // CHECKs that there is an experiment.
+  explicit SearchRails(std::span<const Experiment> experiments);
+
+  // What `spec` has of its own comes first; an initial value of its own lies within.
+  SearchRange RangeOf(ParameterKind kind, const ParameterSpec& spec) const;
+
+ private:
+  SearchRange omega_, tau_, coefficient_;
+};
 
 }  // namespace howl
 

@@ -1,6 +1,7 @@
 #include "io/results/solution_json.h"
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "estimation/family/problem/membership.h"
@@ -92,31 +93,65 @@ Json ParametersJson(const JointFit& fit) {
   return parameters;
 }
 
-Json IdentifiabilityJson(const JointFit& fit) {
+// The whole matrix grows as the square of the number of experiments: where it would be longer than
+// all else, that of each experiment's parameters with the shared ones takes its place.
+constexpr int kLargestMatrix = 512;
+
+Json MatrixJson(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    Json values = Json::array();
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k) values.push_back(NumberOrNull(matrix(row, k)));
+    rows.push_back(std::move(values));
+  }
+  return rows;
+}
+
+Json CovarianceJson(const JointProblem& problem, const JointFit& fit) {
+  const LogCovariance& covariance = fit.identifiability.covariance;
+  std::vector<int> columns(static_cast<std::size_t>(covariance.size()));  // none of a failed fit
+  std::iota(columns.begin(), columns.end(), 0);
+  if (covariance.size() <= kLargestMatrix) {
+    return {{"names", fit.free_names}, {"matrix", MatrixJson(covariance.Of(columns))}};
+  }
+  std::vector<std::vector<int>> own(problem.experiments().size());
+  std::vector<int> shared;
+  int column = 0;
+  for (const ParameterBlock& block : problem.parameters()) {
+    if (block.fixed || block.is_q_noise) continue;
+    (block.experiment == kShared ? shared : own[static_cast<std::size_t>(block.experiment)])
+        .push_back(column++);
+  }
+  Json blocks = Json::array();
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    own[i].insert(own[i].end(), shared.begin(), shared.end());
+    Json names = Json::array();
+    for (const int k : own[i]) names.push_back(fit.free_names[static_cast<std::size_t>(k)]);
+    blocks.push_back({{"experiment", problem.experiments()[i].name},
+                      {"names", std::move(names)},
+                      {"matrix", MatrixJson(covariance.Of(own[i]))}});
+  }
+  return {{"names", fit.free_names}, {"matrix", nullptr}, {"blocks", std::move(blocks)}};
+}
+
+Json IdentifiabilityJson(const JointProblem& problem, const JointFit& fit) {
   const Identifiability& what = fit.identifiability;
   Json undetermined = Json::array();
   for (const UndeterminedDirection& direction : what.undetermined) {
     Json components = Json::object();
-    for (std::size_t i = 0; i < fit.free_names.size(); ++i) {
-      const double component = direction.direction(static_cast<Eigen::Index>(i));
-      if (component != 0.0) components[fit.free_names[i]] = component;
+    for (Eigen::SparseVector<double>::InnerIterator at(direction.direction); at; ++at) {
+      if (at.value() != 0.0) {
+        components[fit.free_names[static_cast<std::size_t>(at.index())]] = at.value();
+      }
     }
     undetermined.push_back({{"text", direction.text},
                             {"log_std", NumberOrNull(direction.log_std)},
                             {"direction", components}});
   }
-  Json covariance = Json::array();
-  for (Eigen::Index row = 0; row < what.covariance.rows(); ++row) {
-    Json values = Json::array();
-    for (Eigen::Index k = 0; k < what.covariance.cols(); ++k) {
-      values.push_back(NumberOrNull(what.covariance(row, k)));
-    }
-    covariance.push_back(std::move(values));
-  }
   return {{"parameters", fit.free_names.size()},
           {"rank", what.rank},
           {"undetermined", undetermined},
-          {"log_covariance", {{"names", fit.free_names}, {"matrix", covariance}}}};
+          {"log_covariance", CovarianceJson(problem, fit)}};
 }
 
 }  // namespace
@@ -161,7 +196,7 @@ Json SolutionJson(const JointProblem& problem, const JointFit& fit,
                  {"converged", fit.starts_converged},
                  {"at_best_cost", fit.starts_at_best}}},
                {"parameters", ParametersJson(fit)},
-               {"identifiability", IdentifiabilityJson(fit)},
+               {"identifiability", IdentifiabilityJson(problem, fit)},
                {"residuals", residuals}};
   if (branches) json["branches"] = BranchesJson(*branches);
   return json;

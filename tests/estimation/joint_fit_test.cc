@@ -118,9 +118,9 @@ TEST(JointFit, WithoutPriorsOneDirectionAnExperimentIsFree) {
                              std::log(ahead.N / behind.N));
     expected.normalize();
     // Parameters are ordered by kind, then experiment.
-    const Eigen::Vector3d found(free.direction(static_cast<Eigen::Index>(i)),
-                                free.direction(static_cast<Eigen::Index>(6 + i)),
-                                free.direction(static_cast<Eigen::Index>(12 + i)));
+    const Eigen::Vector3d found(free.direction.coeff(static_cast<Eigen::Index>(i)),
+                                free.direction.coeff(static_cast<Eigen::Index>(6 + i)),
+                                free.direction.coeff(static_cast<Eigen::Index>(12 + i)));
     EXPECT_NEAR(std::abs(found.dot(expected)), 1.0, 1e-7);
   }
 }

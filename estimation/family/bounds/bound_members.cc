@@ -30,13 +30,28 @@ DrawFocus Mutated(BoundSearch& search) {
   return focus;
 }
 
+// False where the experiment that is asked for comes out no better than the best so far, whatever
+// the others do: the random numbers of the draw are then used up.
+bool IsWorthDrawing(const BoundSetting& setting, BoundSearch& search, const DrawFocus& focus,
+                    Member& models) {
+  if (search.quantity.expression != nullptr) return true;  // of other experiments too
+  const std::optional<Preview> preview = setting.drawer->PreviewFocused(search.random, focus);
+  if (!preview) return true;
+  if (preview->model) {
+    models.resize(setting.problem.experiments.size());
+    models[search.quantity.experiment] = *preview->model;
+    if (search.quantity.sign * setting.Value(search.quantity, models) > search.inner) return true;
+  }
+  search.random.SetState(preview->state);
+  return false;
+}
+
 // One draw; true where it is the best so far.
 bool TryFocus(const BoundSetting& setting, BoundSearch& search, const DrawFocus& focus,
               Member& models, DrawGlobals& globals) {
-  if (!setting.drawer || !setting.drawer->HasSupport() ||
-      !setting.drawer->DrawFocused(search.random, focus, models, globals)) {
-    return false;
-  }
+  if (!setting.drawer || !setting.drawer->HasSupport()) return false;
+  if (!IsWorthDrawing(setting, search, focus, models)) return false;
+  if (!setting.drawer->DrawFocused(search.random, focus, models, globals)) return false;
   const double value = search.quantity.sign * setting.Value(search.quantity, models);
   if (!(value > search.inner)) return false;
   search.inner = value;

@@ -1,8 +1,9 @@
 #include "estimation/family/bounds/bound_text.h"
 
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <istream>
 #include <ostream>
@@ -20,10 +21,18 @@ namespace {
 constexpr std::size_t kMostSearches = 1000000;
 constexpr std::string_view kMagic = "howl.enclosure/2";
 
+// As "%a", without the time that a format takes.
 void Write(std::ostream& out, double value) {
   char text[40];
-  std::snprintf(text, sizeof text, "%a ", value);
-  out << text;
+  char* at = text;
+  if (std::signbit(value)) *at++ = '-';
+  if (std::isfinite(value)) {
+    *at++ = '0';
+    *at++ = 'x';
+  }
+  at = std::to_chars(at, text + sizeof text - 1, std::abs(value), std::chars_format::hex).ptr;
+  *at++ = ' ';
+  out.write(text, at - text);
 }
 
 bool Read(std::istream& in, double& value) {

@@ -1,6 +1,7 @@
 #include "estimation/family/bounds/contract.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "estimation/family/bounds/carrying_mode_bound.h"
 #include "estimation/family/bounds/centred_bound.h"
@@ -303,6 +304,9 @@ CellContractor::CellContractor(const FamilyProblem& problem) {
     box[kCellTau] = range_of(ParameterKind::kTau);
     root_.push_back(box);
   }
+  order_.resize(targets_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::ranges::stable_sort(order_, {}, [&](std::size_t i) { return targets_[i].phi; });
   const std::array<std::pair<ParameterKind, CellVariable>, 6> kinds = {
       {{ParameterKind::kOmega, kCellOmega},
        {ParameterKind::kXi, kCellXi},
@@ -371,13 +375,24 @@ bool CellContractor::ContractWindow(Cell& cell) const {
 
 bool CellContractor::ContractChain(Cell& cell) const {
   if (!increasing_) return true;
-  for (std::size_t i = 0; i < cell.boxes.size(); ++i) {
-    for (std::size_t j = 0; j < cell.boxes.size(); ++j) {
-      if (!(targets_[j].phi < targets_[i].phi)) continue;
-      Interval& small = cell.boxes[j][kCellXi];
-      Interval& large = cell.boxes[i][kCellXi];
-      if (!NarrowLower(large, small.lower()) || !NarrowUpper(small, large.upper())) return false;
-    }
+  // Up the chain with the largest of the low ends so far, and down with the smallest high end.
+  const std::size_t n = order_.size();
+  const auto box_of = [&](std::size_t k) -> Interval& { return cell.boxes[order_[k]][kCellXi]; };
+  const auto same_link = [&](std::size_t a, std::size_t b) {
+    return !(targets_[order_[a]].phi < targets_[order_[b]].phi);
+  };
+  double below = -kUnbounded, here = -kUnbounded;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k > 0 && !same_link(k - 1, k)) below = std::max(below, here);
+    if (!NarrowLower(box_of(k), below)) return false;
+    here = std::max(here, box_of(k).lower());
+  }
+  double above = kUnbounded;
+  here = kUnbounded;
+  for (std::size_t k = n; k-- > 0;) {
+    if (k + 1 < n && !same_link(k, k + 1)) above = std::min(above, here);
+    if (!NarrowUpper(box_of(k), above)) return false;
+    here = std::min(here, box_of(k).upper());
   }
   return true;
 }

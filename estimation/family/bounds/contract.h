@@ -93,6 +93,7 @@ class CellContractor {
   bool ContractShared(Cell& cell) const;
 
   std::vector<ContractTarget> targets_;
+  std::vector<std::size_t> order_;  // of the experiments, by phi
   std::vector<ExperimentBox> root_;
   std::vector<CellVariable> shared_;
   Interval factor_;

@@ -1,45 +1,53 @@
 // xi does not fall as phi grows: a chain of order relations between the experiments. On intervals
-// the chain is solved exactly by two running bounds: after PropagateChain every value that is left
-// in one interval has partners in all the others.
+// the chain is solved exactly by two running bounds: after Propagate every value that is left in
+// one interval has partners in all the others. Experiments of equal phi are not ordered among
+// themselves: they are one link.
 #ifndef HOWL_ESTIMATION_FAMILY_MEMBERS_CHAIN_H_
 #define HOWL_ESTIMATION_FAMILY_MEMBERS_CHAIN_H_
 
-#include <algorithm>
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "estimation/family/problem/problem.h"
 #include "estimation/family/problem/targets.h"
 
 namespace howl {
 
-// Experiments of equal phi are not ordered among themselves. False when the chain is empty.
-inline bool PropagateChain(std::span<const ExperimentTarget> targets, bool increasing,
-                           std::span<Range> xi) {
-  const std::size_t n = xi.size();
-  if (increasing) {
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        if (targets[j].phi < targets[i].phi) xi[i].lo = std::max(xi[i].lo, xi[j].lo);
-        if (targets[j].phi > targets[i].phi) xi[i].hi = std::min(xi[i].hi, xi[j].hi);
-      }
-    }
-  }
-  for (const Range& range : xi) {
-    if (!(range.lo <= range.hi)) return false;
-  }
-  return true;
-}
+class XiChain {
+ public:
+  // Not `increasing`: nothing is ordered.
+  XiChain(std::span<const ExperimentTarget> targets, bool increasing);
 
-// Fixes xi[index] and narrows the others accordingly.
-inline void FixInChain(std::span<const ExperimentTarget> targets, bool increasing,
-                       std::size_t index, double value, std::span<Range> xi) {
-  xi[index] = {value, value};
-  if (!increasing) return;
-  for (std::size_t j = 0; j < xi.size(); ++j) {
-    if (targets[j].phi > targets[index].phi) xi[j].lo = std::max(xi[j].lo, value);
-    if (targets[j].phi < targets[index].phi) xi[j].hi = std::min(xi[j].hi, value);
-  }
-}
+  // False when the chain is empty. The work grows as the number of experiments does.
+  bool Propagate(std::span<Range> xi) const;
+
+  bool IsIncreasing() const { return increasing_; }
+  // Links in the order of phi.
+  std::size_t Links() const { return links_.size(); }
+  std::size_t LinkOf(std::size_t experiment) const { return link_of_[experiment]; }
+  const std::vector<std::size_t>& Experiments(std::size_t link) const { return links_[link]; }
+
+ private:
+  bool increasing_;
+  std::vector<std::vector<std::size_t>> links_;
+  std::vector<std::size_t> link_of_;
+};
+
+// What values that were fixed in a chain, in any order, leave to the others: the largest of the
+// links below and the smallest of those above, from two binary indexed trees (Fenwick 1994), so
+// that each value costs the logarithm of the number of links.
+class FixedInChain {
+ public:
+  void Reset(const XiChain& chain);
+  void Fix(std::size_t experiment, double value);
+  Range Narrowed(std::size_t experiment, const Range& xi) const;
+
+ private:
+  const XiChain* chain_ = nullptr;
+  std::vector<double> largest_;   // of links up to one, as the tree has them
+  std::vector<double> smallest_;  // the same from the last link down
+};
 
 }  // namespace howl
 

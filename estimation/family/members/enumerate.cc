@@ -5,6 +5,7 @@
 
 #include "estimation/analysis/closed_form.h"
 #include "estimation/family/members/chain.h"
+#include "estimation/family/members/chain_front.h"
 #include "estimation/family/members/sample.h"
 #include "estimation/family/members/transfer_starts.h"
 #include "estimation/family/members/window.h"
@@ -43,16 +44,22 @@ struct MemberDrawer::Impl {
   FamilyProblem problem;
   WindowProblem window;
   std::vector<ExperimentTarget> targets;
-  bool two_modes, shared_omega, shared_xi, shared_N, shared_second, shared_tau, increasing;
+  XiChain chain;
+  bool two_modes, shared_omega, shared_xi, shared_N, shared_second, shared_tau;
   double ratio;
   ParameterKind second_kind;
   Range xi, omega, N, second, tau;
   std::vector<Range> own_xi;
   Range window_support, second_support, N_support;
   bool supported = false;
+  std::optional<ChainFronts> fronts;  // where draws can be previewed
+  Range preview_support;              // windows outside have no member
 
-  explicit Impl(const FamilyProblem& p) : problem(p), window(MakeWindowProblem(p)) {
-    targets = window.targets;
+  explicit Impl(const FamilyProblem& p)
+      : problem(p),
+        window(MakeWindowProblem(p)),
+        targets(window.targets),
+        chain(targets, p.test.xi_increasing) {
     two_modes = p.model.modes == 2;
     ratio = p.model.harmonic_ratio;
     second_kind = p.model.second_mode_relative ? ParameterKind::kMOverN : ParameterKind::kM;
@@ -61,7 +68,6 @@ struct MemberDrawer::Impl {
     shared_N = p.IsShared(ParameterKind::kN);
     shared_second = two_modes && p.IsShared(second_kind);
     shared_tau = p.IsShared(ParameterKind::kTau);
-    increasing = p.test.xi_increasing;
     xi = window.xi;
     xi.lo = std::max(xi.lo, kTinyXi);
     xi.hi = std::min(xi.hi, std::max(kXiCap, 10.0 * xi.lo));
@@ -76,6 +82,16 @@ struct MemberDrawer::Impl {
       if (target.IsEmpty()) return;
     }
     FindSupport();
+    const bool any_shared = shared_omega || shared_xi || shared_N || shared_tau;
+    if (supported && !two_modes && !any_shared && p.model.own.empty() &&
+        std::isfinite(window.factor)) {
+      // xi is drawn from a floor on, which the windows do not know.
+      WindowProblem drawn = window;
+      drawn.xi = xi;
+      const std::optional<Range> windows = FeasibleWindows(drawn);
+      if (windows) fronts.emplace(window, chain, *windows);
+      preview_support = windows.value_or(Range{});
+    }
   }
 
   void FindSupport() {
@@ -290,12 +306,18 @@ struct MemberDrawer::Impl {
       for (Range& range : xis) range = {value, value};
       return true;
     }
-    if (!PropagateChain(targets, increasing, xis)) return false;
+    if (!chain.Propagate(xis)) return false;
+    thread_local FixedInChain fixed;
+    fixed.Reset(chain);
+    const auto fix = [&](std::size_t i, double value) {
+      xis[i] = {value, value};
+      fixed.Fix(i, value);
+    };
     if (focus) {
       const std::size_t i = focus->experiment;
       const Range asked = IsEmpty(focus->xi) ? xis[i] : Intersection(xis[i], focus->xi);
       if (IsEmpty(asked)) return false;
-      FixInChain(targets, increasing, i, Pick(random, asked, focus->xi_end), xis);
+      fix(i, Pick(random, asked, focus->xi_end));
     }
     // Random order: every experiment is as often the one that is drawn from its full interval.
     const std::size_t start = random.Index(n);
@@ -303,7 +325,7 @@ struct MemberDrawer::Impl {
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = up ? (start + k) % n : (start + n - k) % n;
       const double end = focus && i != focus->experiment ? focus->OtherEnd(i, 0) : 0.5;
-      FixInChain(targets, increasing, i, Pick(random, xis[i], end), xis);
+      fix(i, Pick(random, fixed.Narrowed(i, xis[i]), end));
     }
     return true;
   }
@@ -471,6 +493,42 @@ struct MemberDrawer::Impl {
     return KeepsSecond(i, model) && SetTau(random, i, theta, globals, focus, model);
   }
 
+  // In the steps of Attempt.
+  std::optional<Preview> PreviewOf(UnitRandom random, const DrawFocus& focus) const {
+    constexpr double kEdge = 1e-9;
+    constexpr std::uint64_t kNumbersEach = 3;  // phase, gain, loop phase error
+    if (!fronts || focus.pattern != 0) return std::nullopt;
+    DrawGlobals globals;
+    globals.window_hz = random.Uniform(IsEmpty(focus.window_hz) ? window_support : focus.window_hz);
+    const double v = globals.window_hz;
+    if (v < preview_support.lo * (1.0 - kEdge) || v > preview_support.hi * (1.0 + kEdge)) {
+      return Preview{std::nullopt, random.State()};
+    }
+    if (!preview_support.Contains(v)) return std::nullopt;
+    const Range window_hz = Intersection(omega, {v, v * window.factor});
+    if (IsEmpty(window_hz)) return std::nullopt;
+    const std::size_t i = focus.experiment;
+    const auto interval = [&](std::size_t j) {
+      return XiInWindow(targets[j], window_hz, own_xi[j]);
+    };
+    Range here = interval(i);
+    const std::size_t link = chain.LinkOf(i);
+    for (const std::size_t j : fronts->Below(link)) here.lo = std::max(here.lo, interval(j).lo);
+    for (const std::size_t j : fronts->Above(link)) here.hi = std::min(here.hi, interval(j).hi);
+    if (IsEmpty(here)) return std::nullopt;
+    if (!IsEmpty(focus.xi)) here = Intersection(here, focus.xi);
+    if (IsEmpty(here)) return Preview{std::nullopt, random.State()};
+    const double xi_i = Pick(random, here, focus.xi_end);
+    const std::size_t n = targets.size();
+    random.Skip(2 + n + kNumbersEach * i);
+    LoopModel model;
+    if (!DrawExperiment(random, i, window_hz, targets[i].phase_rad, xi_i, globals, focus, model)) {
+      return std::nullopt;
+    }
+    random.Skip(kNumbersEach * (n - 1 - i));
+    return Preview{model, random.State()};
+  }
+
   bool InDomain(const Member& models) const {
     for (std::size_t i = 0; i < models.size(); ++i) {
       const LoopModel& model = models[i];
@@ -554,6 +612,11 @@ bool MemberDrawer::DrawFocused(UnitRandom& random, const DrawFocus& focus, Membe
   bool complete = false;
   models.resize(impl_->targets.size());
   return impl_->Attempt(random, &focus, models, globals, complete);
+}
+
+std::optional<Preview> MemberDrawer::PreviewFocused(UnitRandom random,
+                                                    const DrawFocus& focus) const {
+  return impl_->PreviewOf(random, focus);
 }
 
 namespace {

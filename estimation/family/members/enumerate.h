@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "estimation/family/problem/problem.h"
@@ -65,6 +66,13 @@ struct DrawFocus {
   }
 };
 
+// Of a draw: the model of the experiment that it is focused on, and the state of the random numbers
+// after it. No model: the draw is sure to fail.
+struct Preview {
+  std::optional<LoopModel> model;
+  std::uint64_t state = 0;
+};
+
 // Draws one candidate member at a time. Immutable after construction: one object serves all
 // threads.
 class MemberDrawer {
@@ -81,6 +89,9 @@ class MemberDrawer {
   bool Draw(UnitRandom& random, Member& models, bool& complete) const;
   bool DrawFocused(UnitRandom& random, const DrawFocus& focus, Member& models,
                    DrawGlobals& globals) const;
+  // What DrawFocused would draw for focus.experiment, with the same random numbers, without the
+  // others' models: the work does not grow with their number. Nothing where that cannot be told.
+  std::optional<Preview> PreviewFocused(UnitRandom random, const DrawFocus& focus) const;
 
  private:
   struct Impl;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "estimation/family/members/chain.h"
 #include "estimation/family/members/convergence.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/transfer_starts.h"
@@ -46,7 +47,10 @@ struct State {
 
 class Chart {
  public:
-  explicit Chart(const FamilyProblem& problem) : problem_(problem), targets_(MakeTargets(problem)) {
+  explicit Chart(const FamilyProblem& problem)
+      : problem_(problem),
+        targets_(MakeTargets(problem)),
+        chain_(targets_, problem.test.xi_increasing) {
     two_modes_ = problem.model.modes == 2;
     relative_ = problem.model.second_mode_relative;
     second_kind_ = relative_ ? ParameterKind::kMOverN : ParameterKind::kM;
@@ -69,6 +73,11 @@ class Chart {
       }
     }
     factor_ = 1.0 + problem.test.omega_spread_max * (1.0 - 1e-12);
+    const Range N = Narrowest(ParameterKind::kN);
+    free_gain_ =
+        !two_modes_ && !shared_N_ && N.lo <= 0.0 && !std::isfinite(N.hi) && !problem_.HasTransfer();
+    const Range tau = Narrowest(ParameterKind::kTau);
+    free_loop_phase_ = !has_lines_ && !shared_tau_ && tau.lo <= 0.0 && !std::isfinite(tau.hi);
   }
 
   bool IsSupported() const { return !(two_modes_ && shared_N_ && !shared_second_); }
@@ -129,34 +138,46 @@ class Chart {
 
   void Sweep(UnitRandom& random, State& state) const {
     const std::size_t n = state.places.size();
+    // omega of the places before, which are new, and of those behind, which are not yet.
+    thread_local std::vector<Range> behind;
+    behind.assign(n + 1, Others().omega_hz);
+    for (std::size_t i = n; i-- > 0;) {
+      behind[i] = behind[i + 1];
+      Widen(behind[i], state.places[i].omega_hz);
+    }
+    Range before = Others().omega_hz;
     for (std::size_t i = 0; i < n; ++i) {
+      const Others others{
+          {std::min(before.lo, behind[i + 1].lo), std::max(before.hi, behind[i + 1].hi)},
+          BetweenLinks(state, i)};
       const ExperimentTarget& target = targets_[i];
       if (!shared_xi_) {
         SlicePlace(
-            random, state, i, XiRange(state, i), [](Place& p, double v) { p.xi = v; },
+            random, state, i, others, XiRange(others, i), [](Place& p, double v) { p.xi = v; },
             state.places[i].xi);
       }
       if (!shared_omega_ || (two_modes_ && !shared_second_)) {
         SlicePlace(
-            random, state, i, target.phase_rad, [](Place& p, double v) { p.phase = v; },
+            random, state, i, others, target.phase_rad, [](Place& p, double v) { p.phase = v; },
             state.places[i].phase);
       }
       if (!shared_N_ && !FreeGain()) {
         SlicePlace(
-            random, state, i, target.gain, [](Place& p, double v) { p.gain = v; },
+            random, state, i, others, target.gain, [](Place& p, double v) { p.gain = v; },
             state.places[i].gain);
       }
       if (!shared_tau_ && !FreeLoopPhase()) {
         SlicePlace(
-            random, state, i, target.loop_phase_error_rad,
+            random, state, i, others, target.loop_phase_error_rad,
             [](Place& p, double v) { p.loop_phase = v; }, state.places[i].loop_phase);
       }
       if (two_modes_ && !shared_second_ && !shared_omega_) {
         SlicePlace(
-            random, state, i, OmegaRange(state, i), [](Place& p, double v) { p.omega_hz = v; },
-            state.places[i].omega_hz);
+            random, state, i, others, OmegaRange(state, i),
+            [](Place& p, double v) { p.omega_hz = v; }, state.places[i].omega_hz);
       }
-      if (NeedsRoot()) SwitchBranch(random, state, i);
+      if (NeedsRoot()) SwitchBranch(random, state, i, others);
+      Widen(before, state.places[i].omega_hz);
     }
     if (shared_xi_) SliceGlobal(random, state, &State::xi);
     if (shared_second_) SliceGlobal(random, state, &State::second);
@@ -189,30 +210,45 @@ class Chart {
     return range;
   }
   // Gain and loop phase error that nothing else depends on are drawn afresh for each member.
-  bool FreeGain() const {
-    const Range N = Narrowest(ParameterKind::kN);
-    return !two_modes_ && !shared_N_ && N.lo <= 0.0 && !std::isfinite(N.hi) &&
-           !problem_.HasTransfer();
-  }
-  bool FreeLoopPhase() const {
-    const Range tau = Narrowest(ParameterKind::kTau);
-    return !has_lines_ && !shared_tau_ && tau.lo <= 0.0 && !std::isfinite(tau.hi);
-  }
+  bool FreeGain() const { return free_gain_; }
+  bool FreeLoopPhase() const { return free_loop_phase_; }
   bool NeedsRoot() const { return two_modes_ && shared_second_ && !shared_omega_; }
 
   const Range& RangeOf(ParameterKind kind, std::size_t i) const {
     return ranges_[i][static_cast<std::size_t>(kind)];
   }
 
-  Range XiRange(const State& state, std::size_t i) const {
-    const Range& own = RangeOf(ParameterKind::kXi, i);
-    Range range{std::max(xi_.lo, own.lo), std::min(xi_.hi, own.hi)};
-    if (!problem_.test.xi_increasing) return range;
-    for (std::size_t j = 0; j < state.places.size(); ++j) {
-      if (targets_[j].phi < targets_[i].phi) range.lo = std::max(range.lo, state.places[j].xi);
-      if (targets_[j].phi > targets_[i].phi) range.hi = std::min(range.hi, state.places[j].xi);
+  // What the other experiments leave to one: the ends of omega over them, and the range of xi
+  // between the next links of the chain, which those beyond keep already.
+  struct Others {
+    Range omega_hz{std::numeric_limits<double>::infinity(), 0.0};
+    Range xi{kNever, -kNever};
+  };
+
+  static void Widen(Range& ends, double value) {
+    ends = {std::min(ends.lo, value), std::max(ends.hi, value)};
+  }
+
+  Range BetweenLinks(const State& state, std::size_t i) const {
+    Range range{kNever, -kNever};
+    if (!chain_.IsIncreasing()) return range;
+    const std::size_t link = chain_.LinkOf(i);
+    if (link > 0) {
+      for (const std::size_t j : chain_.Experiments(link - 1)) {
+        range.lo = std::max(range.lo, state.places[j].xi);
+      }
+    }
+    if (link + 1 < chain_.Links()) {
+      for (const std::size_t j : chain_.Experiments(link + 1)) {
+        range.hi = std::min(range.hi, state.places[j].xi);
+      }
     }
     return range;
+  }
+
+  Range XiRange(const Others& others, std::size_t i) const {
+    const Range& own = RangeOf(ParameterKind::kXi, i);
+    return {std::max({xi_.lo, own.lo, others.xi.lo}), std::min({xi_.hi, own.hi, others.xi.hi})};
   }
 
   Range OmegaRange(const State& state, std::size_t i) const {
@@ -354,25 +390,33 @@ class Chart {
     return true;
   }
 
-  // Window of omega and chain of xi.
+  bool InWindow(const Range& omega_hz) const { return omega_hz.hi <= omega_hz.lo * factor_; }
+
+  // Window of omega and chain of xi, where one place alone is new.
+  bool Couples(const Place& place, const Others& others) const {
+    Range ends = others.omega_hz;
+    Widen(ends, place.omega_hz);
+    return InWindow(ends) && !(place.xi < others.xi.lo) && !(place.xi > others.xi.hi);
+  }
+
   bool Couples(const State& state) const {
-    double lo = std::numeric_limits<double>::infinity();
-    double hi = 0.0;
-    for (std::size_t i = 0; i < state.places.size(); ++i) {
-      lo = std::min(lo, state.places[i].omega_hz);
-      hi = std::max(hi, state.places[i].omega_hz);
-      for (std::size_t j = 0; problem_.test.xi_increasing && j < i; ++j) {
-        if ((targets_[i].phi - targets_[j].phi) * (state.places[i].xi - state.places[j].xi) < 0.0) {
-          return false;
-        }
+    Range ends = Others().omega_hz;
+    for (const Place& place : state.places) Widen(ends, place.omega_hz);
+    double largest = kNever;  // xi of the links below
+    for (std::size_t link = 0; chain_.IsIncreasing() && link < chain_.Links(); ++link) {
+      double here = largest;
+      for (const std::size_t i : chain_.Experiments(link)) {
+        if (state.places[i].xi < largest) return false;
+        here = std::max(here, state.places[i].xi);
       }
+      largest = here;
     }
-    return hi <= lo * factor_;
+    return InWindow(ends);
   }
 
   template <typename Set>
-  void SlicePlace(UnitRandom& random, State& state, std::size_t i, Range range, const Set& set,
-                  double current) const {
+  void SlicePlace(UnitRandom& random, State& state, std::size_t i, const Others& others,
+                  Range range, const Set& set, double current) const {
     if (!(range.lo < range.hi)) return;
     const Place before = state.places[i];
     const double level = before.log_density - random.Exponential();
@@ -381,7 +425,7 @@ class Chart {
       Place& place = state.places[i];
       place = before;
       set(place, value);
-      if (Build(i, state, place) && place.log_density >= level && Couples(state)) return;
+      if (Build(i, state, place) && place.log_density >= level && Couples(place, others)) return;
       (value < current ? range.lo : range.hi) = value;
     }
     state.places[i] = before;
@@ -415,13 +459,13 @@ class Chart {
     state = before;
   }
 
-  void SwitchBranch(UnitRandom& random, State& state, std::size_t i) const {
+  void SwitchBranch(UnitRandom& random, State& state, std::size_t i, const Others& others) const {
     const Place before = state.places[i];
     const int branch = static_cast<int>(random.Index(kMaxRoots));
     if (branch == before.branch) return;
     Place& place = state.places[i];
     place.branch = branch;
-    if (Build(i, state, place) && Couples(state) &&
+    if (Build(i, state, place) && Couples(place, others) &&
         std::log(random.Uniform()) <= place.log_density - before.log_density) {
       return;
     }
@@ -431,9 +475,11 @@ class Chart {
   const FamilyProblem& problem_;
   std::vector<std::array<Range, kNumParameterKinds>> ranges_;  // of each experiment
   std::vector<ExperimentTarget> targets_;
+  XiChain chain_;
   ParameterKind second_kind_;
   bool two_modes_, relative_, shared_omega_, shared_xi_, shared_N_, shared_tau_, shared_second_;
   bool has_lines_;
+  bool free_gain_, free_loop_phase_;
   double ratio_;
   double factor_;
   State widths_;

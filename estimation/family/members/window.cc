@@ -13,34 +13,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // xi >= (or <=) y(sigma v) / t: times 2 v it is constant - slope v^2.
-struct Bound {
-  double constant;
-  double slope;
-  static Bound At(double frequency_hz, double sigma, double t) {
-    return {frequency_hz / (sigma * t), sigma / (frequency_hz * t)};
-  }
-};
-
-struct XiBounds {
-  std::vector<Bound> lower;
-  std::vector<Bound> upper;
-};
+XiBound BoundAt(double frequency_hz, double sigma, double t) {
+  return {frequency_hz / (sigma * t), sigma / (frequency_hz * t)};
+}
 
 double TangentLo(const ExperimentTarget& target) { return std::tan(-target.phase_rad.hi); }
 double TangentHi(const ExperimentTarget& target) { return std::tan(-target.phase_rad.lo); }
-
-XiBounds BoundsOf(const ExperimentTarget& target, double factor) {
-  XiBounds bounds;
-  const double t_lo = TangentLo(target);
-  const double t_hi = TangentHi(target);
-  if (std::isfinite(factor)) {
-    if (t_hi > 0.0) bounds.lower.push_back(Bound::At(target.frequency_hz, factor, t_hi));
-    if (t_hi < 0.0) bounds.upper.push_back(Bound::At(target.frequency_hz, factor, t_hi));
-    if (t_lo > 0.0) bounds.upper.push_back(Bound::At(target.frequency_hz, 1.0, t_lo));
-    if (t_lo < 0.0) bounds.lower.push_back(Bound::At(target.frequency_hz, 1.0, t_lo));
-  }
-  return bounds;
-}
 
 bool MustNotExceed(const WindowProblem& problem, std::size_t j, std::size_t i) {
   if (i == j || problem.relation == XiRelation::kShared) return true;
@@ -49,6 +27,19 @@ bool MustNotExceed(const WindowProblem& problem, std::size_t j, std::size_t i) {
 }
 
 }  // namespace
+
+XiBounds XiBoundsOf(const ExperimentTarget& target, double factor) {
+  XiBounds bounds;
+  const double t_lo = TangentLo(target);
+  const double t_hi = TangentHi(target);
+  if (std::isfinite(factor)) {
+    if (t_hi > 0.0) bounds.lower.push_back(BoundAt(target.frequency_hz, factor, t_hi));
+    if (t_hi < 0.0) bounds.upper.push_back(BoundAt(target.frequency_hz, factor, t_hi));
+    if (t_lo > 0.0) bounds.upper.push_back(BoundAt(target.frequency_hz, 1.0, t_lo));
+    if (t_lo < 0.0) bounds.lower.push_back(BoundAt(target.frequency_hz, 1.0, t_lo));
+  }
+  return bounds;
+}
 
 WindowProblem MakeWindowProblem(const FamilyProblem& problem, double margin) {
   WindowProblem window;
@@ -107,13 +98,15 @@ std::optional<Range> FeasibleWindows(const WindowProblem& problem) {
   }
   if (std::isfinite(factor)) {
     Range square{v.lo * v.lo, v.hi * v.hi};
+    std::vector<XiBounds> bounds;
+    for (const ExperimentTarget& target : problem.targets) {
+      bounds.push_back(XiBoundsOf(target, factor));
+    }
     for (std::size_t j = 0; j < problem.targets.size(); ++j) {
-      const XiBounds low = BoundsOf(problem.targets[j], factor);
       for (std::size_t i = 0; i < problem.targets.size(); ++i) {
         if (!MustNotExceed(problem, j, i)) continue;
-        const XiBounds high = BoundsOf(problem.targets[i], factor);
-        for (const Bound& a : low.lower) {
-          for (const Bound& b : high.upper) {
+        for (const XiBound& a : bounds[j].lower) {
+          for (const XiBound& b : bounds[i].upper) {
             // a.constant - a.slope q <= b.constant - b.slope q
             const double slope = a.slope - b.slope;
             const double constant = a.constant - b.constant;

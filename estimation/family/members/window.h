@@ -30,6 +30,20 @@ struct WindowProblem {
   XiRelation relation = XiRelation::kIncreasing;
 };
 
+// (constant - slope v^2) / (2 v) bounds xi from below or from above, v being the window's low end.
+struct XiBound {
+  double constant = 0.0;
+  double slope = 0.0;
+};
+
+struct XiBounds {
+  std::vector<XiBound> lower;
+  std::vector<XiBound> upper;
+};
+
+// Of one experiment, by a finite window; bounds of xi itself are none of them.
+XiBounds XiBoundsOf(const ExperimentTarget& target, double factor);
+
 // Reads the above from a problem; tolerances shrunk by `margin` as in MakeTargets.
 WindowProblem MakeWindowProblem(const FamilyProblem& problem, double margin = 1e-9);
 

@@ -29,6 +29,8 @@ class UnitRandom {
   double Normal() {
     return std::sqrt(2.0 * Exponential()) * std::cos(2.0 * std::numbers::pi * Uniform());
   }
+  // As if that many numbers had been drawn.
+  void Skip(std::uint64_t numbers) { state_ += numbers * kStep; }
   std::uint64_t State() const { return state_; }
   void SetState(std::uint64_t state) { state_ = state; }
 
