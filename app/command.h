@@ -21,14 +21,20 @@ struct Command {
   std::vector<OptionHelp> options;
   int (*run)(const Options&);
   bool writes_results = true;  // to the output folder, whose run.json then names the run
+  // What stands behind the command. "FILE..." is one or more, which are Options::files.
+  std::string operands = "CONFIG";
+
+  bool TakesSeveral() const { return operands.ends_with("..."); }
 };
 
 const std::vector<Command>& Commands();
 
 Command AnalyseCommand();
+Command CheckCommand();
 Command DiagnoseCommand();
 Command FitCommand();
 Command FamilyCommand();
+Command InitCommand();
 Command ListCommand();
 Command PredictCommand();
 Command RegressCommand();

@@ -285,10 +285,13 @@ void CommandLine::ReadEnvironment(const Place& place, const std::string& names,
 bool CommandLine::WantsHelp() const { return FLAGS_help; }
 bool CommandLine::WantsVersion() const { return FLAGS_version; }
 
-Options CommandLine::Finish(const std::filesystem::path& config) const {
+Options CommandLine::Finish(const std::vector<std::string>& operands) const {
   Options options;
+  options.files.assign(operands.begin(), operands.end());
+  const std::filesystem::path& config = options.files.front();
   options.config = config;
   options.out = FLAGS_out;
+  options.out_is_given = !FLAGS_out.empty();
   if (FLAGS_out.empty()) {
     const std::filesystem::path name = config.stem();
     if (command_ != nullptr && command_->writes_results && (name == ".." || name == ".")) {

@@ -41,7 +41,7 @@ class CommandLine {
   bool WantsHelp() const;
   bool WantsVersion() const;
   // After the last word.
-  Options Finish(const std::filesystem::path& config) const;
+  Options Finish(const std::vector<std::string>& operands) const;
 
  private:
   struct Place;

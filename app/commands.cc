@@ -4,8 +4,9 @@ namespace howl {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {
-      AnalyseCommand(), DiagnoseCommand(), FitCommand(),     FamilyCommand(), ListCommand(),
-      PredictCommand(), SimulateCommand(), RegressCommand(), ReportCommand(), TrialCommand()};
+      InitCommand(),     CheckCommand(), AnalyseCommand(), FitCommand(),
+      FamilyCommand(),   ListCommand(),  PredictCommand(), SimulateCommand(),
+      DiagnoseCommand(), TrialCommand(), RegressCommand(), ReportCommand()};
   return commands;
 }
 

@@ -16,9 +16,14 @@
 namespace howl {
 
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config) {
+  return MakeDiagnosisExperiments(config, LoadRecords(config));
+}
+
+std::vector<DiagnosisExperiment> MakeDiagnosisExperiments(const Config& config,
+                                                          std::vector<NamedRecord> records) {
   const std::string file = config.source.string();
   std::vector<DiagnosisExperiment> experiments;
-  for (NamedRecord& named : LoadRecords(config)) {
+  for (NamedRecord& named : records) {
     if (named.record.heat_release.empty()) {
       throw UserError(file, config.experiments.front().line, "heat_release",
                       named.name +

@@ -6,12 +6,17 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
+#include "estimation/analysis/analyse.h"
 #include "io/config/config.h"
 
 namespace howl {
 
 // Both signals of every experiment, long enough to be cut.
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
+
+// The same of records that were read already: those of `config`, in its order.
+std::vector<DiagnosisExperiment> MakeDiagnosisExperiments(const Config& config,
+                                                          std::vector<NamedRecord> records);
 
 // The loop that the config states: every command's. Delays are each experiment's own unless tau_s
 // is shared.

@@ -209,6 +209,10 @@ FamilyRun RunQuestions(const Config& config, const Options& options,
 
 }  // namespace
 
+void CheckPredictions(const Config& config, const FamilyProblem& problem) {
+  (void)ParsePredictions(config, problem);
+}
+
 FamilyRun RunFamily(const Config& config, const Options& options) {
   FamilyRun run =
       RunQuestions(config, options, LoadExperiments(config, options),

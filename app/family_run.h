@@ -39,6 +39,9 @@ struct FamilyRun {
 // and Interrupted when the user asks for a stop.
 FamilyRun RunFamily(const Config& config, const Options& options);
 
+// Throws UserError for the first expression of the config that does not parse.
+void CheckPredictions(const Config& config, const FamilyProblem& problem);
+
 // The same of experiments that were read already, without the trade-off and with nothing saved on
 // the way.
 FamilyRun RunFamilyAnew(const Config& config, const Options& options,

@@ -46,8 +46,8 @@ void PrintHelp() {
 }
 
 void PrintCommandHelp(const Command& command) {
-  std::printf("howl %s CONFIG [options]: %s\n\n%s\n", command.name.c_str(), command.summary.c_str(),
-              command.details.c_str());
+  std::printf("howl %s %s [options]: %s\n\n%s\n", command.name.c_str(), command.operands.c_str(),
+              command.summary.c_str(), command.details.c_str());
   if (!command.options.empty()) {
     std::printf("\nOptions:\n");
     PrintOptions(command.options);
@@ -94,19 +94,21 @@ int Run(const std::vector<std::string>& words) {
   }
   const Command& command = FindCommand(*word);
   line.SetCommand(command);
-  const std::optional<std::string> config = line.NextWord();
-  if (const auto second = config ? line.NextWord() : std::nullopt) {
-    throw UsageError(*second + ": a second config, expected one, after " + *config);
+  std::vector<std::string> operands;
+  while (auto operand = line.NextWord()) operands.push_back(*std::move(operand));
+  if (operands.size() > 1 && !command.TakesSeveral()) {
+    throw UsageError(operands[1] + ": a second config, expected one, after " + operands[0]);
   }
   if (line.WantsVersion()) return PrintVersion();
   if (asks || line.WantsHelp()) {
     PrintCommandHelp(command);
     return kDone;
   }
-  if (!config) {
-    throw UsageError(command.name + ": no config given, expected howl " + command.name + " CONFIG");
+  if (operands.empty()) {
+    throw UsageError(command.name + ": no " + (command.TakesSeveral() ? "file" : "config") +
+                     " given, expected howl " + command.name + " " + command.operands);
   }
-  const Options options = line.Finish(*config);
+  const Options options = line.Finish(operands);
   running = options.config.string() + ": " + command.name + ": ";
   LogAsAsked();
   ProgressLine progress(command.name, options.quiet);

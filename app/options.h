@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace howl {
 
@@ -26,9 +27,11 @@ struct OptionHelp {
 };
 
 struct Options {
-  std::filesystem::path config;
+  std::filesystem::path config;              // the first of `files`
+  std::vector<std::filesystem::path> files;  // one, but for a command that takes several
   std::filesystem::path out;  // default: out/ and the config's name without its ending
-  int threads = 0;            // at least 1
+  bool out_is_given = false;
+  int threads = 0;  // at least 1
   std::uint64_t seed = 1;
   bool quiet = false;
   std::map<std::string, std::string> own;  // the command's own options; a switch maps to ""

@@ -38,8 +38,13 @@ void CheckOwnParameters(const Config& config) {
 }  // namespace
 
 ProblemInput LoadInput(const Config& config, const Options& options) {
+  return AnalyseInput(config, options, LoadRecords(config));
+}
+
+ProblemInput AnalyseInput(const Config& config, const Options& options,
+                          std::vector<NamedRecord> records) {
   ProblemInput input;
-  input.records = LoadRecords(config);
+  input.records = std::move(records);
   const AnalysisOptions analysis_options = MakeAnalysisOptions(config, options);
   if (!input.records.empty()) {
     input.analysis = AnalyseRecords(input.records, analysis_options);

@@ -27,6 +27,10 @@ struct ProblemInput {
 // cycle or has no heat release is left out.
 ProblemInput LoadInput(const Config& config, const Options& options);
 
+// The same of records that were read already: those of `config`, in its order.
+ProblemInput AnalyseInput(const Config& config, const Options& options,
+                          std::vector<NamedRecord> records);
+
 // On standard error, unless the user wants it quiet.
 void PrintNotes(const Options& options, const ProblemInput& input);
 

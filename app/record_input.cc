@@ -20,8 +20,8 @@ std::vector<RateSource> RateSources(const Config& config) {
   for (const ExperimentConfig& each : config.experiments) {
     if (!each.record) continue;
     // A name with a unit leaves nothing to guess.
-    const bool by_times =
-        each.record->time && !each.record->sampling_hz && !TimeUnitOfName(*each.record->time);
+    const bool by_times = each.record->time && !each.record->time_unit_s &&
+                          !each.record->sampling_hz && !TimeUnitOfName(*each.record->time);
     sources.push_back(by_times ? RateSource::kTimeColumn : RateSource::kNumber);
   }
   return sources;

@@ -22,11 +22,21 @@ struct ResponseSpec {
   int line = 0;                 // in the config
 };
 
+// What a text file does not say of itself.
+struct TextDialect {
+  int skip_rows = 0;           // lines before the header or the first row
+  bool decimal_comma = false;  // 0,5 is a half; columns are then parted by ; tabs or blanks
+
+  bool operator==(const TextDialect&) const = default;
+};
+
 struct RecordSpec {
   std::filesystem::path file;  // already relative to the working directory
+  TextDialect dialect;         // of a text file; none of its keys may be given for another
   ColumnName pressure = "p";
   std::optional<ColumnName> heat_release;  // absent: pressure only
   std::optional<ColumnName> time;          // checked for gaps and jitter when present
+  std::optional<double> time_unit_s;       // absent: by the column's name, else seconds
   std::optional<double> sampling_hz;       // may be left out when `time` is given
   double pressure_scale = 1.0;             // recorded value * scale = value in units of p
   double heat_release_scale = 1.0;

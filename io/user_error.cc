@@ -30,6 +30,10 @@ std::string Format(const std::string& file, int line, const std::string& key,
 
 UserError::UserError(const std::string& file, int line, const std::string& key,
                      const std::string& what)
-    : std::runtime_error(Format(file, line, key, what)) {}
+    : std::runtime_error(Format(file, line, key, what)),
+      file_(file),
+      line_(line),
+      key_(OneLine(key)),
+      mistake_(OneLine(what)) {}
 
 }  // namespace howl

@@ -12,6 +12,17 @@ class UserError : public std::runtime_error {
   // `line` counts from 1; 0 when the mistake has no line (a missing file), and is then left out,
   // as an empty key is. Control characters are escaped and over-long texts are cut.
   UserError(const std::string& file, int line, const std::string& key, const std::string& what);
+
+  const std::string& file() const { return file_; }
+  int line() const { return line_; }
+  const std::string& key() const { return key_; }
+  const std::string& mistake() const { return mistake_; }  // what is wrong, what was expected
+
+ private:
+  std::string file_;
+  int line_ = 0;
+  std::string key_;
+  std::string mistake_;
 };
 
 }  // namespace howl

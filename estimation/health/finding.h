@@ -19,13 +19,16 @@ enum class FindingKind : std::uint8_t {
   kResidual,      // beyond three standard deviations
   kMistake,       // what the data look like, and would not without it
   kSampling,      // a sampling rate that leaves no room for a cycle
-  kState          // no limit cycle, intermittent, not stationary: by which criterion
+  kState,         // no limit cycle, intermittent, not stationary: by which criterion
+  kSamples,       // clipped, stuck, held, coarse
+  kSetup          // what stands between the experiments and a command that could be asked
 };
 
 // As in files.
 constexpr std::string_view FindingKindName(FindingKind kind) {
-  constexpr std::array<std::string_view, 7> kNames = {
-      "not_converged", "guard_rail", "bound", "residual", "mistake", "sampling", "state"};
+  constexpr std::array<std::string_view, 9> kNames = {
+      "not_converged", "guard_rail", "bound",   "residual", "mistake",
+      "sampling",      "state",      "samples", "setup"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

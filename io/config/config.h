@@ -18,6 +18,7 @@
 #include "io/config/located_node.h"
 #include "io/config/simulation_spec.h"
 #include "io/record_spec.h"
+#include "io/user_error.h"
 #include "model/effects/declared_effect.h"
 
 namespace howl {
@@ -43,6 +44,18 @@ struct Config {
   std::vector<EffectDeclaration> effects;  // of the user's own
   LocatedNode tree;                        // the file as it was written
 };
+
+// A config read on behind its mistakes.
+struct ConfigReading {
+  std::vector<UserError> mistakes;  // in the order of the file where they have lines
+  // Absent where the mistakes leave nothing to read. Experiments with a mistake are left out; of a
+  // section with one, the defaults hold.
+  std::optional<Config> config;
+  std::size_t experiments = 0;   // with those left out
+  bool points_are_known = true;  // false: operating parameters are still to be filled in
+};
+
+ConfigReading ReadConfigOn(const std::filesystem::path& path);
 
 // Throws UserError at the first mistake, in the order of the file's lines for what the schema
 // states; then come the rules that join several keys.

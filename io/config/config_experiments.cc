@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <string_view>
 
@@ -56,11 +58,7 @@ void ReadNumbers(const ConfigCursor& cursor, Experiment& experiment) {
 
 // simulate writes NAME.csv beside what the other commands write.
 void CheckName(const ConfigCursor& cursor, const std::string& name) {
-  constexpr std::string_view kTaken[] = {"characteristics", "lines",     "transfer", "flame_curve",
-                                         "family",          "tradeoff",  "profile",  "sweep",
-                                         "trial",           "prediction"};
-  for (const std::string_view taken : kTaken) {
-    if (name != taken) continue;
+  if (IsResultsName(name)) {
     cursor.FailAt("name", "\"" + name + "\" is the name of a file of results, " + name +
                               ".csv, expected another name");
   }
@@ -70,30 +68,61 @@ void CheckName(const ConfigCursor& cursor, const std::string& name) {
   }
 }
 
+using LinesOfNames = std::map<std::string, int>;
+
+void ReadExperiment(const ConfigCursor& cursor, LinesOfNames& lines_of_names, Config& config) {
+  ExperimentConfig& read = config.experiments.back();
+  read.line = cursor.Line();
+  cursor.Read("name", read.experiment.name);
+  CheckName(cursor, read.experiment.name);
+  cursor.Read(config.operating_parameter, read.experiment.phi);
+  cursor.Read("reliable", read.experiment.reliable);
+  const auto [earlier, is_new] =
+      lines_of_names.try_emplace(read.experiment.name, cursor.Find("name")->Line());
+  if (!is_new) {
+    cursor.FailAt("name", "\"" + read.experiment.name + "\" is taken by the experiment on line " +
+                              std::to_string(earlier->second) + ", expected another name");
+  }
+  if (const auto record = cursor.Find("record")) {
+    CheckRecordAlone(cursor);
+    read.record = ReadRecordSpec(*record, config.source);
+    read.record_line = record->Find("file")->Line();
+  } else {
+    CheckNumbersComplete(cursor);
+    ReadNumbers(cursor, read.experiment);
+  }
+}
+
+// Other sections may name it.
+void ReadNameAlone(const ConfigCursor& cursor, Experiment& experiment) {
+  const LocatedMember* const name = cursor.Node().Find("name");
+  if (name != nullptr) experiment.name = name->value.text;
+}
+
 }  // namespace
 
-void ReadExperiments(const ConfigCursor& root, Config& config) {
-  std::map<std::string, int> lines_of_names;
+bool IsResultsName(std::string_view name) {
+  constexpr std::string_view kTaken[] = {"characteristics", "lines",     "transfer", "flame_curve",
+                                         "family",          "tradeoff",  "profile",  "sweep",
+                                         "trial",           "prediction"};
+  return std::ranges::find(kTaken, name) != std::end(kTaken);
+}
+
+void ReadExperiments(const ConfigCursor& root, Config& config, ExperimentMistakes* mistakes) {
+  LinesOfNames lines_of_names;
   for (const ConfigCursor& cursor : root.Find("experiments")->Items()) {
-    ExperimentConfig& read = config.experiments.emplace_back();
-    read.line = cursor.Line();
-    cursor.Read("name", read.experiment.name);
-    CheckName(cursor, read.experiment.name);
-    cursor.Read(config.operating_parameter, read.experiment.phi);
-    cursor.Read("reliable", read.experiment.reliable);
-    const auto [earlier, is_new] =
-        lines_of_names.try_emplace(read.experiment.name, cursor.Find("name")->Line());
-    if (!is_new) {
-      cursor.FailAt("name", "\"" + read.experiment.name + "\" is taken by the experiment on line " +
-                                std::to_string(earlier->second) + ", expected another name");
+    const std::size_t index = config.experiments.size();
+    config.experiments.emplace_back();
+    if (mistakes != nullptr && mistakes->told.contains(index)) {
+      ReadNameAlone(cursor, config.experiments.back().experiment);
+      continue;
     }
-    if (const auto record = cursor.Find("record")) {
-      CheckRecordAlone(cursor);
-      read.record = ReadRecordSpec(*record, config.source);
-      read.record_line = record->Find("file")->Line();
-    } else {
-      CheckNumbersComplete(cursor);
-      ReadNumbers(cursor, read.experiment);
+    try {
+      ReadExperiment(cursor, lines_of_names, config);
+    } catch (const UserError& error) {
+      if (mistakes == nullptr) throw;
+      mistakes->found.push_back(error);
+      mistakes->told.insert(index);
     }
   }
 }

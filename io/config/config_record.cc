@@ -7,6 +7,7 @@
 
 #include "io/config/absent_record.h"
 #include "io/config/config_sections.h"
+#include "io/records/time_unit.h"
 
 namespace howl {
 namespace {
@@ -77,6 +78,19 @@ std::optional<ResponseSpec> ReadResponse(const ConfigCursor& record, const char*
   return spec;
 }
 
+void ReadFormat(const ConfigCursor& record, RecordSpec& spec) {
+  record.Read("skip_rows", spec.dialect.skip_rows);
+  std::string decimal;
+  record.Read("decimal", decimal);
+  spec.dialect.decimal_comma = decimal == ",";
+  const auto unit = record.Find("time_unit");
+  if (!unit) return;
+  spec.time_unit_s = SecondsOfUnit(unit->Node().text);
+  if (!spec.time) {
+    record.FailAt("time_unit", "has no time to belong to, expected the column of it too");
+  }
+}
+
 void ReadInstruments(const ConfigCursor& record, const std::filesystem::path& config_file,
                      RecordSpec& spec) {
   spec.pressure_response = ReadResponse(record, "pressure_response", config_file);
@@ -131,6 +145,7 @@ RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::pat
   record.Read("pressure", spec.pressure);
   record.Read("heat_release", spec.heat_release);
   record.Read("time", spec.time);
+  ReadFormat(record, spec);
   record.Read("sampling_hz", spec.sampling_hz);
   record.Read("pressure_scale", spec.pressure_scale);
   record.Read("heat_release_scale", spec.heat_release_scale);

@@ -3,13 +3,28 @@
 #ifndef HOWL_IO_CONFIG_CONFIG_SECTIONS_H_
 #define HOWL_IO_CONFIG_CONFIG_SECTIONS_H_
 
+#include <cstddef>
+#include <set>
+#include <string_view>
+#include <vector>
+
 #include "io/config/config.h"
 #include "io/config/config_cursor.h"
+#include "io/user_error.h"
 
 namespace howl {
 
-// The readers take the config's root and fill their part of `config`.
-void ReadExperiments(const ConfigCursor& root, Config& config);
+// Reads on behind a mistake in an experiment, for who wants to know all of them.
+struct ExperimentMistakes {
+  std::set<std::size_t>
+      told;  // experiments of which a mistake is known: their names alone are read
+  std::vector<UserError> found;
+};
+
+// The readers take the config's root and fill their part of `config`. With `mistakes` those of
+// experiments are collected, and `told` holds all that have one; else the first is thrown.
+void ReadExperiments(const ConfigCursor& root, Config& config,
+                     ExperimentMistakes* mistakes = nullptr);
 void ReadModel(const ConfigCursor& root, Config& config);      // `model`, `parameters`
 void ReadResiduals(const ConfigCursor& root, Config& config);  // after the experiments
 void ReadFamily(const ConfigCursor& root, Config& config);
@@ -19,6 +34,9 @@ void ReadSimulation(const ConfigCursor& root, Config& config);
 void ReadEffects(const ConfigCursor& root, Config& config);
 
 RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file);
+
+// Whether simulate's NAME.csv would take the place of a file of results: "family".
+bool IsResultsName(std::string_view name);
 
 // A path with ${NAME} replaced from the environment. Throws UserError at `file` for a name that is
 // not set.

@@ -4,10 +4,15 @@
 #define HOWL_IO_CONFIG_SCALAR_CHECK_H_
 
 #include <string>
+#include <vector>
 
 #include "io/config/located_node.h"
+#include "io/user_error.h"
 
 namespace howl {
+
+// All that break this, in the order of the file.
+std::vector<UserError> FindScalarMistakes(const std::string& file, const LocatedNode& root);
 
 // Throws UserError for the first scalar or key that breaks this.
 void CheckScalars(const std::string& file, const LocatedNode& root);

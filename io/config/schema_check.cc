@@ -2,8 +2,10 @@
 // from io/schema_explain.
 #include "io/config/schema_check.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
+#include <utility>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -47,28 +49,39 @@ Place Locate(const std::vector<std::string>& context, const LocatedNode& root,
 
 }  // namespace
 
-void CheckSchema(const std::string& file, const LocatedNode& root, const nlohmann::json& schema) {
+std::vector<SchemaMistake> FindSchemaMistakes(const LocatedNode& root,
+                                              const nlohmann::json& schema) {
   const nlohmann::json tree = ToJson(root);
   valijson::Schema parsed;
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), parsed);
   valijson::ValidationResults results;
   const valijson::adapters::NlohmannJsonAdapter target(tree);
-  if (valijson::Validator().validate(parsed, target, &results)) return;
+  if (valijson::Validator().validate(parsed, target, &results)) return {};
 
-  std::optional<SchemaMistake> first;
+  std::vector<SchemaMistake> mistakes;
+  // One place may break several rules, and a list or mapping breaks those of what is in it.
+  std::set<const LocatedNode*> seen;
   for (const valijson::ValidationResults::Error& error : results) {
     const Place place = Locate(error.context, root, schema);
-    if (first && place.node->line > first->line) continue;
-    const auto mistake = ExplainMistake(*place.node, place.key, *place.schema, schema);
-    if (mistake && (!first || mistake->line < first->line)) first = mistake;
+    if (!seen.insert(place.node).second) continue;
+    for (SchemaMistake& mistake : ExplainMistakes(*place.node, place.key, *place.schema, schema)) {
+      mistakes.push_back(std::move(mistake));
+    }
   }
-  if (!first) {
+  std::ranges::stable_sort(mistakes, {}, &SchemaMistake::line);
+  if (mistakes.empty()) {
     const auto& error = *results.begin();
     const Place place = Locate(error.context, root, schema);
-    first = {place.node->line, place.key,
-             error.description + ", expected what the config's schema says"};
+    mistakes.push_back({place.node->line, place.key,
+                        error.description + ", expected what the config's schema says"});
   }
-  throw UserError(file, first->line, first->key, first->what);
+  return mistakes;
+}
+
+void CheckSchema(const std::string& file, const LocatedNode& root, const nlohmann::json& schema) {
+  const std::vector<SchemaMistake> mistakes = FindSchemaMistakes(root, schema);
+  if (mistakes.empty()) return;
+  throw UserError(file, mistakes.front().line, mistakes.front().key, mistakes.front().what);
 }
 
 }  // namespace howl

@@ -4,10 +4,16 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "io/config/located_node.h"
+#include "io/config/schema_explain.h"
 
 namespace howl {
+
+// All mistakes, in the order of the file.
+std::vector<SchemaMistake> FindSchemaMistakes(const LocatedNode& root,
+                                              const nlohmann::json& schema);
 
 // Throws UserError with the mistake that comes first in the file.
 void CheckSchema(const std::string& file, const LocatedNode& root, const nlohmann::json& schema);

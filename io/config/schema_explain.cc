@@ -157,26 +157,25 @@ std::string ExplainUnknownKey(const std::string& key, const Json& schema, const 
 
 }  // namespace
 
-std::optional<SchemaMistake> ExplainMistake(const LocatedNode& node, const std::string& key,
-                                            const Json& schema, const Json& root_schema) {
-  if (!HasRightType(node, schema)) {
-    return SchemaMistake{node.line, key, ExplainType(node, schema)};
-  }
-  if (const auto what = ExplainValue(node, schema)) return SchemaMistake{node.line, key, *what};
-  if (node.kind != Kind::kMapping) return std::nullopt;
+std::vector<SchemaMistake> ExplainMistakes(const LocatedNode& node, const std::string& key,
+                                           const Json& schema, const Json& root_schema) {
+  if (!HasRightType(node, schema)) return {{node.line, key, ExplainType(node, schema)}};
+  if (const auto what = ExplainValue(node, schema)) return {{node.line, key, *what}};
+  std::vector<SchemaMistake> mistakes;
+  if (node.kind != Kind::kMapping) return mistakes;
   for (const LocatedMember& member : node.members) {
     if (FindMemberSchema(root_schema, schema, member.key) != nullptr) continue;
-    return SchemaMistake{member.key_line, JoinKey(key, member.key),
-                         ExplainUnknownKey(member.key, schema, root_schema)};
+    mistakes.push_back({member.key_line, JoinKey(key, member.key),
+                        ExplainUnknownKey(member.key, schema, root_schema)});
   }
   for (const Json& required : schema.value("required", Json::array())) {
     const auto name = required.get<std::string>();
     if (node.Find(name) != nullptr) continue;
     const Json& missing = ResolveRef(root_schema, schema["properties"][name]);
-    return SchemaMistake{node.line, JoinKey(key, name),
-                         "is missing, expected " + DescribeExpected(missing)};
+    mistakes.push_back(
+        {node.line, JoinKey(key, name), "is missing, expected " + DescribeExpected(missing)});
   }
-  return std::nullopt;
+  return mistakes;
 }
 
 }  // namespace howl

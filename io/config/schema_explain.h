@@ -3,8 +3,8 @@
 #define HOWL_IO_CONFIG_SCHEMA_EXPLAIN_H_
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "io/config/located_node.h"
 
@@ -18,9 +18,9 @@ struct SchemaMistake {
 
 // What `schema` (a part of `root_schema`) has against the node itself, its unknown and missing keys
 // included, its members' and items' own values not.
-std::optional<SchemaMistake> ExplainMistake(const LocatedNode& node, const std::string& key,
-                                            const nlohmann::json& schema,
-                                            const nlohmann::json& root_schema);
+std::vector<SchemaMistake> ExplainMistakes(const LocatedNode& node, const std::string& key,
+                                           const nlohmann::json& schema,
+                                           const nlohmann::json& root_schema);
 
 }  // namespace howl
 

@@ -92,6 +92,21 @@ class Finder {
 
 }  // namespace
 
+std::vector<ColumnInfo> ListChannels(const std::vector<ArrayInfo>& arrays) {
+  std::vector<ColumnInfo> columns;
+  for (const ArrayInfo& array : arrays) {
+    if (!array.problem.empty() || array.channels() <= 1) {
+      columns.push_back({array.name, array.name, array.problem, array.samples()});
+      continue;
+    }
+    for (std::size_t k = 1; k <= array.channels(); ++k) {
+      const std::string name = array.name + ":" + std::to_string(k);
+      columns.push_back({name, "", "", array.samples()});
+    }
+  }
+  return columns;
+}
+
 std::vector<ArrayChannel> FindChannels(const std::string& file,
                                        const std::vector<ArrayInfo>& arrays,
                                        const std::vector<ColumnName>& names) {

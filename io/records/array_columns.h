@@ -28,6 +28,9 @@ struct ArrayChannel {
   std::size_t channel = 0;  // from 0
 };
 
+// Every vector, and every channel of a matrix.
+std::vector<ColumnInfo> ListChannels(const std::vector<ArrayInfo>& arrays);
+
 // All of one length and all different. Throws UserError that lists what there is.
 std::vector<ArrayChannel> FindChannels(const std::string& file,
                                        const std::vector<ArrayInfo>& arrays,

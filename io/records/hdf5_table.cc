@@ -88,6 +88,9 @@ class Hdf5Table final : public TableSource {
     return columns;
   }
 
+  std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
+  std::string Format() const override { return "an HDF5 file"; }
+
  private:
   std::vector<double> ReadChannel(const ArrayInfo& array, std::size_t channel) const {
     std::vector<double> column(array.samples());
@@ -130,6 +133,8 @@ class LockedHdf5Table final : public TableSource {
     table_.reset();
   }
   Columns Read(const std::vector<ColumnName>& names) override { return table_->Read(names); }
+  std::vector<ColumnInfo> List() const override { return table_->List(); }
+  std::string Format() const override { return table_->Format(); }
 
  private:
   std::unique_ptr<Hdf5Table> table_;

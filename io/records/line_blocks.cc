@@ -1,5 +1,6 @@
 #include "io/records/line_blocks.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -38,6 +39,12 @@ bool LineBlocks::Next() {
   if (buffer_[filled_ - 1] != '\n') buffer_[filled_++] = '\n';
   whole_ = filled_;
   return true;
+}
+
+void LineBlocks::Replace(const char* from, char old_character, char new_character) {
+  const auto first = buffer_.begin() + (from - buffer_.data());
+  std::replace(first, buffer_.begin() + static_cast<std::ptrdiff_t>(whole_), old_character,
+               new_character);
 }
 
 }  // namespace howl

@@ -21,6 +21,8 @@ class LineBlocks {
 
   const char* begin() const { return buffer_.data(); }
   const char* end() const { return buffer_.data() + whole_; }
+  // In what is left of the block.
+  void Replace(const char* from, char old_character, char new_character);
   double FractionRead() const { return bytes_->FractionRead(); }
 
  private:

@@ -42,7 +42,7 @@ std::string Problem(const matvar_t& variable) {
     case MAT_C_CHAR:
       return "text";
     case MAT_C_STRUCT:
-      return "a struct";
+      return "an array of structs";
     case MAT_C_CELL:
       return "a cell array";
     case MAT_C_SPARSE:
@@ -54,6 +54,12 @@ std::string Problem(const matvar_t& variable) {
   return variable.rank == 2 ? "" : std::to_string(variable.rank) + " dimensions";
 }
 
+bool IsSingleStruct(const matvar_t& variable) {
+  std::size_t count = 1;
+  for (int i = 0; i < variable.rank; ++i) count *= variable.dims[i];
+  return variable.class_type == MAT_C_STRUCT && count == 1;
+}
+
 class MatTable final : public TableSource {
  public:
   explicit MatTable(const std::filesystem::path& file)
@@ -63,12 +69,7 @@ class MatTable final : public TableSource {
     for (;;) {
       const Variable variable(Mat_VarReadNextInfo(mat_.get()));
       if (!variable) break;
-      ArrayInfo array{variable->name != nullptr ? variable->name : "", 0, 0, Problem(*variable)};
-      if (variable->rank == 2) {
-        array.rows = variable->dims[0];
-        array.columns = variable->dims[1];
-      }
-      arrays_.push_back(array);
+      AddArrays(*variable, variable->name != nullptr ? variable->name : "");
     }
     std::sort(arrays_.begin(), arrays_.end(),
               [](const ArrayInfo& a, const ArrayInfo& b) { return a.name < b.name; });
@@ -88,7 +89,90 @@ class MatTable final : public TableSource {
     return columns;
   }
 
+  std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
+  std::string Format() const override {
+    return Mat_GetVersion(mat_.get()) == MAT_FT_MAT73 ? "a MATLAB 7.3 file" : "a MATLAB file";
+  }
+
  private:
+  // A struct has its fields in its place: rec.p, and of a struct within it rec.run.p.
+  void AddArrays(matvar_t& variable, const std::string& name) {
+    if (IsSingleStruct(variable)) {
+      const unsigned count = Mat_VarGetNumberOfFields(&variable);
+      char* const* const fields = Mat_VarGetStructFieldnames(&variable);
+      for (unsigned i = 0; i < count; ++i) {
+        matvar_t* const field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
+        if (field != nullptr) AddArrays(*field, name + "." + fields[i]);
+      }
+      return;
+    }
+    ArrayInfo array{name, 0, 0, Problem(variable)};
+    if (variable.rank == 2) {
+      array.rows = variable.dims[0];
+      array.columns = variable.dims[1];
+    }
+    arrays_.push_back(array);
+  }
+
+  // matio reads a struct as a whole or not at all.
+  std::vector<double> ReadField(const ArrayInfo& array, std::size_t channel) {
+    std::size_t dot = array.name.find('.');
+    const Variable whole(Mat_VarRead(mat_.get(), array.name.substr(0, dot).c_str()));
+    matvar_t* field = whole.get();
+    while (field != nullptr && dot != std::string::npos) {
+      const std::size_t next = array.name.find('.', dot + 1);
+      field =
+          Mat_VarGetStructFieldByName(field, array.name.substr(dot + 1, next - dot - 1).c_str(), 0);
+      dot = next;
+    }
+    const std::size_t numbers = array.rows * array.columns;
+    if (field == nullptr || field->data == nullptr || field->data_size <= 0 ||
+        field->nbytes < numbers * static_cast<std::size_t>(field->data_size)) {
+      throw UserError(file_, 0, array.name, "cannot be read: damaged");
+    }
+    std::vector<double> column(array.samples());
+    const auto copy = [&](const auto* from) {
+      for (std::size_t i = 0; i < column.size(); ++i) {
+        const std::size_t at =
+            array.along_rows() ? channel * array.rows + i : i * array.rows + channel;
+        column[i] = static_cast<double>(from[at]);
+      }
+    };
+    switch (field->class_type) {
+      case MAT_C_DOUBLE:
+        copy(static_cast<const double*>(field->data));
+        break;
+      case MAT_C_SINGLE:
+        copy(static_cast<const float*>(field->data));
+        break;
+      case MAT_C_INT8:
+        copy(static_cast<const std::int8_t*>(field->data));
+        break;
+      case MAT_C_UINT8:
+        copy(static_cast<const std::uint8_t*>(field->data));
+        break;
+      case MAT_C_INT16:
+        copy(static_cast<const std::int16_t*>(field->data));
+        break;
+      case MAT_C_UINT16:
+        copy(static_cast<const std::uint16_t*>(field->data));
+        break;
+      case MAT_C_INT32:
+        copy(static_cast<const std::int32_t*>(field->data));
+        break;
+      case MAT_C_UINT32:
+        copy(static_cast<const std::uint32_t*>(field->data));
+        break;
+      case MAT_C_INT64:
+        copy(static_cast<const std::int64_t*>(field->data));
+        break;
+      default:
+        copy(static_cast<const std::uint64_t*>(field->data));
+        break;
+    }
+    return column;
+  }
+
   // Numbers of the variable's own class.
   void ReadRaw(matvar_t* variable, const ArrayInfo& array, std::size_t channel, void* to) {
     const int rows = static_cast<int>(array.rows);
@@ -122,6 +206,7 @@ class MatTable final : public TableSource {
   }
 
   std::vector<double> ReadChannel(const ArrayInfo& array, std::size_t channel) {
+    if (array.name.find('.') != std::string::npos) return ReadField(array, channel);
     const Variable variable(Mat_VarReadInfo(mat_.get(), array.name.c_str()));
     if (!variable || array.rows * array.columns > std::numeric_limits<int>::max()) {
       throw UserError(file_, 0, array.name, "cannot be read: damaged, or 2^31 numbers or more");

@@ -22,10 +22,6 @@ namespace {
 // A factor of a thousand is told from one by far less.
 constexpr double kSameRate = 0.01;
 
-std::string UnitName(double unit_s) {
-  return unit_s == 1.0 ? "s" : unit_s == 1e-3 ? "ms" : unit_s == 1e-6 ? "us" : "ns";
-}
-
 struct Part {
   std::size_t first = 0;
   std::size_t count = 0;
@@ -105,9 +101,10 @@ Part Loader::ChoosePart(std::size_t rows, double step_s) const {
   return part;
 }
 
-// Seconds in a unit of the times: by the column's name, or by the rate that sampling_hz gives
-// beside them; else the times are in seconds.
+// Seconds in a unit of the times: as the config states it, else by the column's name, or by the
+// rate that sampling_hz gives beside them; else the times are in seconds.
 double Loader::TimeUnit(double step) const {
+  if (spec_.time_unit_s) return *spec_.time_unit_s;
   if (const auto unit_s = TimeUnitOfName(table_->NameOf(*spec_.time))) return *unit_s;
   if (!spec_.sampling_hz) return 1.0;
   return TimeUnitOfRates(1.0 / step, *spec_.sampling_hz, kSameRate).value_or(1.0);
@@ -130,7 +127,7 @@ double Loader::CheckTime(std::span<const double> time, std::size_t first, double
   if (std::abs(rate_hz / *spec_.sampling_hz - 1.0) > tolerance) {
     FailData(first, *spec_.time,
              "two sampling rates, " + NumberText(rate_hz, 6) + " Hz by the times in " +
-                 UnitName(unit_s) + " and " + NumberText(*spec_.sampling_hz) +
+                 std::string(UnitOfSeconds(unit_s)) + " and " + NumberText(*spec_.sampling_hz) +
                  " Hz by sampling_hz (" + config_file_ + ":" + std::to_string(config_line_) +
                  "), expected one");
   }
@@ -175,7 +172,7 @@ void Loader::Take(std::vector<double>& column, const ColumnName& name, Part part
 
 Record Loader::Load() {
   CheckSpec();
-  table_ = OpenTable(spec_.file);
+  table_ = OpenTable(spec_.file, spec_.dialect);
   std::vector<ColumnName> names = {spec_.pressure};
   if (spec_.heat_release) names.push_back(*spec_.heat_release);
   if (spec_.time) names.push_back(*spec_.time);

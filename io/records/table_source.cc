@@ -26,9 +26,15 @@ struct Foreign {
 constexpr Foreign kForeign[] = {{"PK\x03\x04", "a zip archive or a spreadsheet"},
                                 {"\xfd\x37zXZ", "an xz file"},
                                 {"BZh", "a bzip2 file"},
-                                {"\x28\xb5\x2f\xfd", "a zstd file"},
-                                {"\xff\xfe", "UTF-16 text"},
-                                {"\xfe\xff", "UTF-16 text"}};
+                                {"\x28\xb5\x2f\xfd", "a zstd file"}};
+
+void RequireNoDialect(const std::filesystem::path& file, const TextDialect& dialect,
+                      const char* format) {
+  if (dialect == TextDialect()) return;
+  throw UserError(
+      file.string(), 0, dialect.skip_rows > 0 ? "skip_rows" : "decimal",
+      std::string("is of text files, and this is ") + format + ", expected the record without it");
+}
 
 std::string ReadStart(const std::filesystem::path& file) {
   std::array<char, 1024> start{};
@@ -40,34 +46,39 @@ std::string ReadStart(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file) {
+std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file,
+                                       const TextDialect& dialect) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     throw UserError(file.string(), 0, "", "a folder, expected a file");
   }
   // A pipe gives its bytes once, so that nothing may look at them beforehand: it carries text.
   const bool is_there = std::filesystem::exists(file, ignored);
-  if (is_there && !std::filesystem::is_regular_file(file, ignored)) return OpenTextTable(file);
+  if (is_there && !std::filesystem::is_regular_file(file, ignored)) {
+    return OpenTextTable(file, dialect);
+  }
   const std::string start = ReadStart(file);
   if (start.empty()) {
     throw UserError(file.string(), 1, "", "an empty file, expected columns of numbers");
   }
   if (start.starts_with("MATLAB 5.0 MAT-file") || start.starts_with("MATLAB 7.")) {
+    RequireNoDialect(file, dialect, "a MATLAB file");
     return OpenMatTable(file);
   }
   if (start.starts_with(kHdf5Magic) ||
       (start.size() > kMatlabHeaderBytes &&
        std::string_view(start).substr(kMatlabHeaderBytes).starts_with(kHdf5Magic))) {
+    RequireNoDialect(file, dialect, "an HDF5 file");
     return OpenHdf5Table(file);
   }
   for (const Foreign& foreign : kForeign) {
     if (start.starts_with(foreign.magic)) {
       throw UserError(
           file.string(), 0, "",
-          std::string(foreign.what) + ", expected UTF-8 text (plain or gzip), MATLAB .mat or HDF5");
+          std::string(foreign.what) + ", expected text (plain or gzip), MATLAB .mat or HDF5");
     }
   }
-  return OpenTextTable(file);
+  return OpenTextTable(file, dialect);
 }
 
 std::string TableSource::NameOf(const ColumnName& name) const {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,14 @@
 namespace howl {
 
 using Columns = std::vector<std::vector<double>>;
+
+// A column that a file has.
+struct ColumnInfo {
+  ColumnName name;          // what Read takes: the shortest that means this column alone
+  std::string label;        // the file's own words for it, its unit included: "time [ms]"; or empty
+  std::string problem;      // why it cannot be read ("text", "complex"); empty where it can
+  std::size_t samples = 0;  // 0: known once it is read
+};
 
 class TableSource {
  public:
@@ -26,15 +35,27 @@ class TableSource {
   // through: the caller knows which rows matter. Throws UserError for everything else.
   virtual Columns Read(const std::vector<ColumnName>& names) = 0;
 
+  // All columns, in the file's order.
+  virtual std::vector<ColumnInfo> List() const = 0;
+
+  // What the file is, for a reader: "text parted by tabs, no header".
+  virtual std::string Format() const = 0;
+
+  // The rate that the file's header states, if it does.
+  virtual std::optional<double> StatedRateHz() const { return std::nullopt; }
+
   // What the file itself calls the column: of a number, the header's name. Empty where it has none.
+  // The unit of a units row follows in brackets: "time [ms]".
   virtual std::string NameOf(const ColumnName& name) const;
 
   // The line of a row (both from 0 and 1 respectively), or 0 where the format has no lines.
   virtual int LineOf(std::size_t /*row*/) const { return 0; }
 };
 
-// Recognises the format by the file's content. Throws UserError when it cannot be read.
-std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file);
+// Recognises the format by the file's content. Throws UserError when it cannot be read, and where a
+// dialect is given for what is no text.
+std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file,
+                                       const TextDialect& dialect = {});
 
 // "column 2" for a number, the name itself otherwise: the key of an error.
 std::string DisplayName(const ColumnName& name);

@@ -11,11 +11,12 @@
 namespace howl {
 
 TextRows::TextRows(std::string file, TextLayout layout, const std::vector<std::size_t>& wanted,
-                   std::vector<std::string> display_names)
+                   std::vector<std::string> display_names, std::string hint)
     : file_(std::move(file)),
       layout_(std::move(layout)),
       slot_of_(layout_.columns, -1),
       display_names_(std::move(display_names)),
+      hint_(std::move(hint)),
       columns_(wanted.size()),
       row_(wanted.size()) {
   for (std::size_t i = 0; i < wanted.size(); ++i) slot_of_[wanted[i]] = static_cast<int>(i);
@@ -115,12 +116,14 @@ void TextRows::TakeUnusualLine(std::string_view line, int number) {
   if (blank_line_ > 0) Fail(blank_line_, "", "a blank line inside the data, expected a row");
   std::vector<std::string_view> fields = SplitFields(line, layout_.separator);
   const std::size_t expected = slot_of_.size();
-  if (fields.size() == expected + 1 && Trim(fields.back()).empty()) fields.pop_back();
+  if (fields.size() == expected + 1 && (layout_.has_comments || Trim(fields.back()).empty())) {
+    fields.pop_back();
+  }
   if (fields.size() != expected) {
     const std::string names = layout_.names.empty() ? "" : " (" + ListNames(layout_.names) + ")";
     Fail(number, "",
          "a row of " + std::to_string(fields.size()) + " columns, expected " +
-             std::to_string(expected) + names);
+             std::to_string(expected) + names + hint_);
   }
   for (std::size_t c = 0; c < expected; ++c) {
     if (slot_of_[c] < 0) continue;
@@ -131,7 +134,7 @@ void TextRows::TakeUnusualLine(std::string_view line, int number) {
       const bool comma = field.find(',') != std::string_view::npos;
       Fail(number, display_names_[slot],
            (field.empty() ? std::string("empty") : "'" + std::string(field) + "'") +
-               ", expected a number" + (comma ? " with a decimal point" : ""));
+               ", expected a number" + (comma ? " with a decimal point" : "") + hint_);
     }
     row_[slot] = *value;
   }

@@ -15,9 +15,10 @@ namespace howl {
 
 class TextRows {
  public:
-  // `wanted`: the file's columns (from 0) in the order asked for, all different.
+  // `wanted`: the file's columns (from 0) in the order asked for, all different. `hint` is added to
+  // what is said of a row that is none.
   TextRows(std::string file, TextLayout layout, const std::vector<std::size_t>& wanted,
-           std::vector<std::string> display_names);
+           std::vector<std::string> display_names, std::string hint);
 
   // Whole lines; `first_line` is the number of the first. `fraction` of the file lies behind the
   // end of them. Returns the number of lines. Throws UserError.
@@ -40,6 +41,7 @@ class TextRows {
   TextLayout layout_;
   std::vector<int> slot_of_;  // for each column of the file its place in `columns_`, or -1
   std::vector<std::string> display_names_;
+  std::string hint_;
   Columns columns_;
   std::vector<double> row_;
   int blank_line_ = 0;  // a blank line among the data: no row may follow

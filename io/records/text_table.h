@@ -9,7 +9,8 @@
 
 namespace howl {
 
-std::unique_ptr<TableSource> OpenTextTable(const std::filesystem::path& file);
+std::unique_ptr<TableSource> OpenTextTable(const std::filesystem::path& file,
+                                           const TextDialect& dialect);
 
 }  // namespace howl
 

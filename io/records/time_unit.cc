@@ -54,10 +54,18 @@ std::optional<double> TimeUnitOfName(std::string_view name) {
     if (before == std::string_view::npos) return std::nullopt;
     unit = name.substr(before + 1);
   }
+  return SecondsOfUnit(unit);
+}
+
+std::optional<double> SecondsOfUnit(std::string_view unit) {
   for (const auto& [text, seconds] : kUnits) {
     if (SameUnit(unit, text)) return seconds;
   }
   return std::nullopt;
+}
+
+std::string_view UnitOfSeconds(double unit_s) {
+  return unit_s == 1.0 ? "s" : unit_s == 1e-3 ? "ms" : unit_s == 1e-6 ? "us" : "ns";
 }
 
 std::optional<double> TimeUnitOfRates(double rate_by_times_hz, double sampling_hz,

@@ -70,6 +70,8 @@ Defaults StructDefaults() {
       {"simulate.combustion_noise_relative", Dump(config.simulation.combustion_noise_relative)},
       {"simulate.sensor_noise_relative", Dump(config.simulation.sensor_noise_relative)},
       {"simulate.loop_gain_min", Dump(config.simulation.loop_gain_min)},
+      {"experiments[].record.skip_rows", Dump(RecordSpec().dialect.skip_rows)},
+      {"experiments[].record.decimal", Dump(RecordSpec().dialect.decimal_comma ? "," : ".")},
       {"analysis.method", Dump(std::string(AnalysisMethodName(config.analysis.method)))},
   };
   for (const ParameterKind kind : kParameterKinds) {

@@ -206,7 +206,7 @@ TEST_F(Errors, BinaryAndForeignFiles) {
   EXPECT_THAT(ErrorOfBytes("PK\x03\x04....."), testing::HasSubstr("data.csv: a zip archive"));
   EXPECT_THAT(ErrorOfBytes("\xff\xfe"
                            "1"),
-              testing::HasSubstr("data.csv: UTF-16 text"));
+              testing::HasSubstr("data.csv:1: UTF-16 text that ends within a character"));
 }
 
 TEST_F(Errors, OldMacLineEnds) {

@@ -1,0 +1,99 @@
+// Samples that show their converter: clipped, stuck, held, coarse, appended. What the truth is
+// comes from how each signal is made.
+#include "estimation/health/sample_health.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace howl {
+namespace {
+
+constexpr double kRateHz = 10000.0;
+
+// A cycle at 220 Hz whose amplitude breathes, with noise, on a grid of 0.3 mV as converters have.
+std::vector<double> Signal(double grid = 3e-4) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::vector<double> samples;
+  double envelope = 0.0;
+  for (int i = 0; i < 30000; ++i) {
+    envelope += -0.002 * envelope + 0.005 * normal(random);
+    const double cycle = (1.0 + envelope) * std::sin(2.0 * std::numbers::pi * 220.0 * i / kRateHz);
+    samples.push_back(std::round((cycle + 0.02 * normal(random)) / grid) * grid);
+  }
+  return samples;
+}
+
+std::vector<std::string> Subjects(const std::vector<double>& samples) {
+  std::vector<std::string> subjects;
+  for (const Finding& finding : CheckSamples("exp1", "p", samples, kRateHz)) {
+    EXPECT_EQ(finding.experiment, "exp1");
+    EXPECT_EQ(finding.kind, FindingKind::kSamples);
+    subjects.push_back(finding.subject);
+  }
+  return subjects;
+}
+
+TEST(SampleHealth, ASoundSignalHasNoFinding) {
+  EXPECT_THAT(Subjects(Signal()), testing::IsEmpty());
+  // Quantised to some hundred steps.
+  EXPECT_THAT(Subjects(Signal(0.01)), testing::IsEmpty());
+  // A simulated sine that is sampled in step with its period, and one that is not.
+  std::vector<double> in_step;
+  std::vector<double> free;
+  for (int i = 0; i < 10000; ++i) {
+    in_step.push_back(std::sin(2.0 * std::numbers::pi * (i % 125) / 125.0));
+    free.push_back(std::sin(0.0123456 * i));
+  }
+  EXPECT_THAT(Subjects(free), testing::IsEmpty());
+  EXPECT_THAT(Subjects(in_step), testing::ElementsAre("p_appended"));  // which it is
+}
+
+TEST(SampleHealth, ClippedAtOneEndOrBoth) {
+  std::vector<double> samples = Signal();
+  for (double& each : samples) each = std::min(each, 0.9);
+  EXPECT_THAT(Subjects(samples), testing::ElementsAre("p_clipped"));
+  const Health health = CheckSamples("exp1", "p", samples, kRateHz);
+  EXPECT_THAT(health[0].text, testing::HasSubstr("its largest value, 0.9, stands in"));
+  for (double& each : samples) each = std::max(each, -0.9);
+  EXPECT_THAT(Subjects(samples), testing::ElementsAre("p_clipped", "p_clipped"));
+}
+
+TEST(SampleHealth, StuckForAWhile) {
+  std::vector<double> samples = Signal();
+  std::fill(samples.begin() + 5000, samples.begin() + 5300, samples[5000]);
+  const Health health = CheckSamples("exp1", "p", samples, kRateHz);
+  ASSERT_EQ(health.size(), 1U);
+  EXPECT_EQ(health[0].subject, "p_stuck");
+  EXPECT_EQ(health[0].value, 300.0);
+  EXPECT_THAT(health[0].text, testing::HasSubstr("for 300 samples, from 0.5 to 0.53 s"));
+}
+
+TEST(SampleHealth, HeldOverSeveralSamples) {
+  std::vector<double> samples = Signal(1e-6);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = samples[i - i % 4];
+  const Health health = CheckSamples("exp1", "p", samples, kRateHz);
+  ASSERT_EQ(health.size(), 1U);
+  EXPECT_EQ(health[0].subject, "p_held");
+  EXPECT_THAT(health[0].text, testing::HasSubstr("about 2.5e+03 Hz and stored at 10000 Hz"));
+}
+
+TEST(SampleHealth, CoarseAndAppended) {
+  EXPECT_THAT(Subjects(Signal(0.2)), testing::Contains("p_coarse"));
+  std::vector<double> samples = Signal();
+  const std::vector<double> again = samples;
+  samples.insert(samples.end(), again.begin(), again.end());
+  const Health health = CheckSamples("exp1", "p", samples, kRateHz);
+  ASSERT_EQ(health.size(), 1U);
+  EXPECT_EQ(health[0].subject, "p_appended");
+  EXPECT_EQ(health[0].value, 30000.0);
+}
+
+}  // namespace
+}  // namespace howl
