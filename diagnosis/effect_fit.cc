@@ -18,6 +18,7 @@ namespace {
 constexpr int kFirstRoundIterations = 7;
 constexpr int kLaterRoundIterations = 8;
 constexpr int kMostRounds = 30;
+constexpr int kIdleRounds = 2;
 constexpr int kMostRestarts = 3;
 constexpr double kSettled = 0.1;  // nats between two rounds
 constexpr std::size_t kStartsKept = 2;
@@ -39,18 +40,27 @@ EffectPointer BaseEffect() {
 
 namespace {
 
-// Descents at fixed noise and refits of it in turn, until neither finds anything more. Where noise
-// is a millionth of the signal, the first rounds still lower the cost by thousands.
+// Descents at fixed noise and refits of it in turn, until they find nothing more. Where noise is a
+// millionth of the signal, the first rounds still lower the cost by thousands; where the model is
+// far from the rig the cost may go to and fro by some nats, for a descent looks at the squares
+// alone, and a refit at the noise alone: the best of the rounds is kept.
 void Alternate(Fitter* fitter, EffectFit* fit) {
-  double before = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < kMostRounds; ++round) {
+  EffectFit best = *fit;
+  double least = std::numeric_limits<double>::infinity();
+  int idle = 0;
+  for (int round = 0; round < kMostRounds && idle < kIdleRounds; ++round) {
     fitter->Descend(fit, kLaterRoundIterations);
     fitter->RefitScatter(fit);
     fitter->RefitNoise(fit);
     VLOG(3) << fit->effect->id() << ", round " << round << ": cost " << fit->cost();
-    if (std::abs(before - fit->cost()) < kSettled) break;
-    before = fit->cost();
+    idle = fit->cost() < least - kSettled ? 0 : idle + 1;
+    if (fit->cost() < least) {
+      least = fit->cost();
+      best = *fit;
+    }
   }
+  *fit = std::move(best);
+  fitter->SetNoise(*fit);
 }
 
 // To the end, from here and from further starts of the experiments' own parameters, which are
@@ -71,10 +81,23 @@ void SettleLocals(Fitter* fitter, EffectFit* fit) {
 
 }  // namespace
 
-EffectFit FitBase(const std::vector<CutRecord>& records) {
+namespace {
+
+EffectFit SettledBase(const std::vector<CutRecord>& records,
+                      const std::vector<FlameColumns>& columns, EffectFit fit) {
+  Fitter fitter(records, *fit.effect, &columns);
+  fitter.SetNoise(fit);
+  fitter.Descend(&fit, kLaterRoundIterations);
+  fitter.RefitNoise(&fit);
+  SettleLocals(&fitter, &fit);
+  fitter.Finish(&fit, nullptr);
+  return fit;
+}
+
+EffectFit BaseFromGrid(const std::vector<CutRecord>& records,
+                       const std::vector<FlameColumns>& columns) {
   EffectFit fit;
   fit.effect = BaseEffect();
-  const std::vector<FlameColumns> columns = BaseColumns(records);
   fit.tau_s = StartDelay(records, columns);
   fit.experiments.resize(records.size());
   for (std::size_t e = 0; e < records.size(); ++e) {
@@ -83,12 +106,23 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
     at.acoustic_noise = Eigen::VectorXd::Ones(records[e].acoustic_count);
     at.flame_noise = Eigen::VectorXd::Ones(records[e].flame_count);
   }
-  Fitter fitter(records, *fit.effect, &columns);
-  fitter.SetNoise(fit);
-  fitter.Descend(&fit, kLaterRoundIterations);
-  fitter.RefitNoise(&fit);
-  SettleLocals(&fitter, &fit);
-  fitter.Finish(&fit, nullptr);
+  return SettledBase(records, columns, std::move(fit));
+}
+
+}  // namespace
+
+// Two modes contain one: whatever the grid led to, they fit no worse than one mode alone, from
+// whose fit they begin as well, and which is theirs where no second mode is any better.
+EffectFit FitBase(const std::vector<CutRecord>& records) {
+  const std::vector<FlameColumns> columns = BaseColumns(records);
+  EffectFit fit = BaseFromGrid(records, columns);
+  if (records[0].model.modes < 2) return fit;
+  std::vector<CutRecord> one = records;
+  for (CutRecord& record : one) record.model.modes = 1;
+  EffectFit one_mode = BaseFromGrid(one, columns);
+  for (const EffectFit& other : {SettledBase(records, columns, one_mode), one_mode}) {
+    if (other.cost() < fit.cost() - kSettled) fit = other;
+  }
   return fit;
 }
 
