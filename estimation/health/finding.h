@@ -26,9 +26,9 @@ enum class FindingKind : std::uint8_t {
 
 // As in files.
 constexpr std::string_view FindingKindName(FindingKind kind) {
-  constexpr std::array<std::string_view, 9> kNames = {
-      "not_converged", "guard_rail", "bound",   "residual", "mistake",
-      "sampling",      "state",      "samples", "setup"};
+  constexpr std::array<std::string_view, 9> kNames = {"not_converged", "guard_rail", "bound",
+                                                      "residual",      "mistake",    "sampling",
+                                                      "state",         "samples",    "setup"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
