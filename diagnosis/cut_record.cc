@@ -20,8 +20,8 @@ constexpr double kHighestOfCycleAcoustic = 8.0;
 constexpr double kHighestOfCycleFlame = 6.4;
 constexpr double kHighestOfSamplingAcoustic = 0.33;
 constexpr double kHighestOfSamplingFlame = 0.26;
-constexpr double kTaper = 0.3;  // of cut B's band
-constexpr double kFilterOverBand = 1.05;
+constexpr double kTaper = 0.3;            // of cut B's band
+constexpr double kFilterOverBand = 1.05;  // edge of the flame's low-pass
 constexpr double kLowestSearched_hz = 20.0;
 constexpr double kLeastSampling_hz = 5.0 * kLowestSearched_hz;
 constexpr std::size_t kFewestSamples = 4096;
@@ -65,10 +65,6 @@ Eigen::VectorXcd DerivativeFilter(const CutRecord& record, double edge_hz) {
   return filter;
 }
 
-double HighestOfFlame(double cycle_hz, double sampling_hz) {
-  return std::min(kHighestOfCycleFlame * cycle_hz, kHighestOfSamplingFlame * sampling_hz);
-}
-
 // Half a cosine over the band's last part.
 Eigen::VectorXd UpperTaper(Eigen::Index count) {
   Eigen::VectorXd taper(count);
@@ -104,7 +100,8 @@ CutRecord Spectra(const DiagnosisExperiment& experiment) {
 void SetBand(double cycle_hz, CutRecord* record) {
   const double high_a = std::min(kHighestOfCycleAcoustic * cycle_hz,
                                  kHighestOfSamplingAcoustic * record->sampling_hz);
-  const double high_b = HighestOfFlame(cycle_hz, record->sampling_hz);
+  const double high_b =
+      std::min(kHighestOfCycleFlame * cycle_hz, kHighestOfSamplingFlame * record->sampling_hz);
   record->first = static_cast<Eigen::Index>(std::ceil(kLowestOfCycle * cycle_hz / record->bin_hz));
   CHECK_GE(record->first, kTapReach);
   record->acoustic_count =

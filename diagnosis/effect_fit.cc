@@ -79,10 +79,6 @@ void SettleLocals(Fitter* fitter, EffectFit* fit) {
   fitter->SetNoise(*fit);
 }
 
-}  // namespace
-
-namespace {
-
 EffectFit SettledBase(const std::vector<CutRecord>& records,
                       const std::vector<FlameColumns>& columns, EffectFit fit) {
   Fitter fitter(records, *fit.effect, &columns);

@@ -6,15 +6,15 @@
 namespace howl {
 namespace {
 
-// Over what part of a frequency the model's error is one and the same: as a mode of damping 0.05 is
-// wide; below two cycles' frequency, of that.
-constexpr double kErrorWidth = 0.1;
+// How far to either side the signals' ratio is taken: as wide as a mode of damping 0.05 is at the
+// cycle; above twice the cycle's frequency, in proportion to the frequency.
+constexpr double kRatioReach = 0.1;
 
-double ErrorWidth(double frequency_hz, double cycle_hz) {
-  return kErrorWidth * std::max(cycle_hz, 0.5 * frequency_hz);
+double RatioReach(double frequency_hz, double cycle_hz) {
+  return kRatioReach * std::max(cycle_hz, 0.5 * frequency_hz);
 }
 
-constexpr Eigen::Index kPowerReach = 4;
+constexpr Eigen::Index kPowerReach = 4;  // bins
 
 Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x) {
   Eigen::VectorXd out(x.size());
@@ -51,7 +51,7 @@ JointBand MakeJointBand(const CutRecord& record) {
   out.pressure_over_heat_release.resize(out.count);
   for (Eigen::Index i = 0; i < out.count; ++i) {
     const auto reach = static_cast<Eigen::Index>(
-        ErrorWidth(out.frequency_hz[i], record.lowest_cycle_hz) / record.bin_hz);
+        RatioReach(out.frequency_hz[i], record.lowest_cycle_hz) / record.bin_hz);
     const Eigen::Index from = std::max<Eigen::Index>(i - reach, 0);
     const Eigen::Index bins = std::min(i + reach + 1, out.count) - from;
     out.pressure_over_heat_release[i] =

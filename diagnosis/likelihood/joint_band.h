@@ -25,9 +25,8 @@ struct JointBand {
   Eigen::VectorXcd heat_release;
   Eigen::VectorXd log_frequency;  // -1 .. 1 over the band
 
-  // The root of |P|^2 over |Q|^2, smooth over a tenth of the cycle's frequency:
-  // what an error of the transfer from q to p
-  // is relative to; of the transfer from p to q, its inverse.
+  // The root of |P|^2 over |Q|^2, smooth over a fifth of the cycle's frequency and more: what an
+  // error of the transfer from q to p is relative to; of the transfer from p to q, its inverse.
   Eigen::VectorXd pressure_over_heat_release;
   // |P|^2 and |Q|^2, smooth over a few bins: an error that is a part of one bin's own power would
   // take what noise makes large for error.

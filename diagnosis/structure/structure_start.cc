@@ -1,8 +1,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
 
+#include "diagnosis/sample_limits.h"
 #include "diagnosis/structure/structure_fit.h"
 
 namespace howl {
@@ -12,15 +12,11 @@ constexpr double kEulerGamma = 0.57721566490153286;
 // The quietest of a spectrum is where a white sensor's noise may be all there is.
 constexpr double kQuiet = 0.05;
 constexpr double kFirstError = 0.02;
-
-double Quantile(Eigen::VectorXd x, double share) {
-  const auto at = static_cast<Eigen::Index>(share * static_cast<double>(x.size() - 1));
-  std::nth_element(x.data(), x.data() + at, x.data() + x.size());
-  return x[at];
-}
+constexpr Eigen::Index kCombustionCoefficients = 6;
 
 // Coefficients of the logarithm of a smooth spectrum, from one exponential draw a bin: the mean of
-// its logarithm lies Euler's constant too low. Lines are left out by a second pass.
+// its logarithm lies Euler's constant too low. Lines are left out: each pass caps what stands out
+// of the one before.
 Eigen::VectorXd LogSpectrum(const JointBand& band, const Eigen::VectorXd& power,
                             Eigen::Index coefficients) {
   const Eigen::MatrixXd basis = ChebyshevColumns(band.log_frequency, coefficients);
@@ -33,8 +29,6 @@ Eigen::VectorXd LogSpectrum(const JointBand& band, const Eigen::VectorXd& power,
   }
   return out;
 }
-
-constexpr Eigen::Index kCombustionCoefficients = 6;
 
 }  // namespace
 
@@ -79,10 +73,10 @@ StructureFit StartOf(const std::vector<JointBand>& bands, const EffectFit& base,
           coefficients = LogSpectrum(band, duct_power, term.coefficients);
           break;
         case NoiseSource::kPressureSensor:
-          coefficients[0] = std::log(Quantile(acoustic_power, kQuiet) / kQuiet);
+          coefficients[0] = std::log(SampleQuantile(acoustic_power, kQuiet) / kQuiet);
           break;
         case NoiseSource::kHeatReleaseSensor:
-          coefficients[0] = std::log(Quantile(flame_power, kQuiet) / kQuiet);
+          coefficients[0] = std::log(SampleQuantile(flame_power, kQuiet) / kQuiet);
           break;
       }
       point.noise.push_back(coefficients);
