@@ -133,7 +133,7 @@ int Run(const Options& options) {
   }
   const AnalysisOptions analysis_options = MakeAnalysisOptions(config, options);
   const AnalysisSet set = AnalyseRecords(records, analysis_options);
-  const Health health = CheckAnalysis(records, set, analysis_options, RateSources(config));
+  const Health health = CheckRecords(config, records, set, analysis_options);
   nlohmann::ordered_json analysis = AnalysisJson(set);
   analysis["health"] = HealthJson(health);
   WriteWholeFile(options.out / "characteristics.csv",

@@ -8,23 +8,11 @@
 #include "app/record_input.h"
 #include "app/text_table.h"
 #include "estimation/health/analysis_health.h"
-#include "estimation/health/sample_health.h"
 #include "io/config/config.h"
 #include "io/records/record_faults.h"
 
 namespace howl {
 namespace {
-
-// What was recorded, before what is known of the instruments is taken out of it: a filter moves the
-// samples that were at the converter's end.
-Record AsRecorded(const RecordSpec& spec, const Config& config, int line, const Record& record) {
-  if (!spec.pressure_response && !spec.heat_release_response && spec.delay_s == 0.0) return record;
-  RecordSpec plain = spec;
-  plain.pressure_response.reset();
-  plain.heat_release_response.reset();
-  plain.delay_s = 0.0;
-  return ReadRecordOn(plain, config.source.string(), line).record.value_or(record);
-}
 
 void Append(Health more, Health& health) { std::ranges::move(more, std::back_inserter(health)); }
 
@@ -37,11 +25,7 @@ std::vector<NamedRecord> TakeRecords(Config& config, CheckReport& report) {
       RecordReading reading = ReadRecordOn(*each.record, config.source.string(), each.record_line);
       std::ranges::move(reading.faults, std::back_inserter(report.errors));
       if (!reading.record) continue;
-      const Record raw = AsRecorded(*each.record, config, each.record_line, *reading.record);
-      Append(CheckSamples(each.experiment.name, "p", raw.pressure, raw.sampling_hz),
-             report.warnings);
-      Append(CheckSamples(each.experiment.name, "q", raw.heat_release, raw.sampling_hz),
-             report.warnings);
+      Append(CheckRecordedSamples(each, config, *reading.record), report.warnings);
       records.push_back({each.experiment.name, each.experiment.phi, *std::move(reading.record)});
     }
     good.push_back(std::move(each));

@@ -96,8 +96,8 @@ Health CheckAll(const Config& config, const Options& options, const ProblemInput
                 const JointProblem& problem, const JointFit& fit) {
   Health health;
   if (input.analysis) {
-    health = CheckAnalysis(input.records, *input.analysis, MakeAnalysisOptions(config, options),
-                           RateSources(config));
+    health =
+        CheckRecords(config, input.records, *input.analysis, MakeAnalysisOptions(config, options));
   }
   const Health of_fit = CheckFit(problem, fit);
   health.insert(health.end(), of_fit.begin(), of_fit.end());

@@ -1,6 +1,7 @@
 #include "app/health_text.h"
 
 #include <cstddef>
+#include <iterator>
 
 #include "app/text_table.h"
 
@@ -10,10 +11,11 @@ namespace {
 constexpr std::size_t kShownOfAKind = 4;
 constexpr std::size_t kIndent = 4;
 // A mistake explains what stands below it.
-constexpr FindingKind kOrder[] = {FindingKind::kMistake,      FindingKind::kSampling,
-                                  FindingKind::kNotConverged, FindingKind::kGuardRail,
-                                  FindingKind::kBound,        FindingKind::kResidual,
-                                  FindingKind::kState};
+constexpr FindingKind kOrder[] = {
+    FindingKind::kMistake,      FindingKind::kSampling,  FindingKind::kSamples,
+    FindingKind::kNotConverged, FindingKind::kGuardRail, FindingKind::kBound,
+    FindingKind::kResidual,     FindingKind::kState,     FindingKind::kSetup};
+static_assert(std::size(kOrder) == kFindingKinds, "a finding of any kind is printed");
 
 }  // namespace
 

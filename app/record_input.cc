@@ -1,9 +1,27 @@
 #include "app/record_input.h"
 
+#include <glog/logging.h>
+
+#include "estimation/health/sample_health.h"
+#include "io/records/record_faults.h"
 #include "io/records/records.h"
 #include "io/records/time_unit.h"
 
 namespace howl {
+namespace {
+
+// What was recorded, before what is known of the instruments is taken out of it: a filter moves the
+// samples that were at the converter's end.
+Record AsRecorded(const RecordSpec& spec, const Config& config, int line, const Record& record) {
+  if (!spec.pressure_response && !spec.heat_release_response && spec.delay_s == 0.0) return record;
+  RecordSpec plain = spec;
+  plain.pressure_response.reset();
+  plain.heat_release_response.reset();
+  plain.delay_s = 0.0;
+  return ReadRecordOn(plain, config.source.string(), line).record.value_or(record);
+}
+
+}  // namespace
 
 std::vector<NamedRecord> LoadRecords(const Config& config) {
   std::vector<NamedRecord> records;
@@ -25,6 +43,32 @@ std::vector<RateSource> RateSources(const Config& config) {
     sources.push_back(by_times ? RateSource::kTimeColumn : RateSource::kNumber);
   }
   return sources;
+}
+
+Health CheckRecordedSamples(const ExperimentConfig& experiment, const Config& config,
+                            const Record& record) {
+  const Record raw = AsRecorded(*experiment.record, config, experiment.record_line, record);
+  Health health = CheckSamples(experiment.experiment.name, "p", raw.pressure, raw.sampling_hz);
+  const Health of_q =
+      CheckSamples(experiment.experiment.name, "q", raw.heat_release, raw.sampling_hz);
+  health.insert(health.end(), of_q.begin(), of_q.end());
+  return health;
+}
+
+Health CheckRecords(const Config& config, std::span<const NamedRecord> records,
+                    const AnalysisSet& set, const AnalysisOptions& options) {
+  Health health;
+  auto record = records.begin();
+  for (const ExperimentConfig& each : config.experiments) {
+    if (!each.record) continue;
+    CHECK(record != records.end() && record->name == each.experiment.name);
+    const Health of_one = CheckRecordedSamples(each, config, record->record);
+    health.insert(health.end(), of_one.begin(), of_one.end());
+    ++record;
+  }
+  const Health of_analysis = CheckAnalysis(records, set, options, RateSources(config));
+  health.insert(health.end(), of_analysis.begin(), of_analysis.end());
+  return health;
 }
 
 AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options) {

@@ -2,6 +2,7 @@
 #ifndef HOWL_APP_RECORD_INPUT_H_
 #define HOWL_APP_RECORD_INPUT_H_
 
+#include <span>
 #include <vector>
 
 #include "app/options.h"
@@ -17,6 +18,15 @@ std::vector<NamedRecord> LoadRecords(const Config& config);
 // Of each experiment that has a record: whether a number gives its sampling rate, or the steps of
 // its time column.
 std::vector<RateSource> RateSources(const Config& config);
+
+// What the samples of one experiment's record show of its instruments, before what is known of them
+// is taken out. `record`: as LoadRecords has it.
+Health CheckRecordedSamples(const ExperimentConfig& experiment, const Config& config,
+                            const Record& record);
+
+// The samples of every record, then their analysis. `records`: LoadRecords of this config.
+Health CheckRecords(const Config& config, std::span<const NamedRecord> records,
+                    const AnalysisSet& set, const AnalysisOptions& options);
 
 AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options);
 

@@ -4,6 +4,7 @@
 #define HOWL_ESTIMATION_HEALTH_FINDING_H_
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -24,9 +25,11 @@ enum class FindingKind : std::uint8_t {
   kSetup          // what stands between the experiments and a command that could be asked
 };
 
+constexpr std::size_t kFindingKinds = 9;
+
 // As in files.
 constexpr std::string_view FindingKindName(FindingKind kind) {
-  constexpr std::array<std::string_view, 9> kNames = {"not_converged", "guard_rail", "bound",
+  constexpr std::array<std::string_view, kFindingKinds> kNames = {"not_converged", "guard_rail", "bound",
                                                       "residual",      "mistake",    "sampling",
                                                       "state",         "samples",    "setup"};
   return kNames[static_cast<std::size_t>(kind)];

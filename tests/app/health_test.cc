@@ -3,8 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/app/program.h"
 
@@ -106,6 +111,31 @@ TEST_F(MistakenRecords, AWrongSignIsNamed) {
   const ProgramResult fit = RunHowl("fit " + config + Loud());
   EXPECT_EQ(fit.status, 1);
   EXPECT_THAT(fit.out, HasSubstr("look like p or q with the wrong sign"));
+}
+
+// A converter of a few steps shows a tone that is no cycle of the loop's, and any tone a staircase.
+TEST_F(MistakenRecords, ARecordOfAFewConverterStepsIsNamed) {
+  std::stringstream rows(ReadFile(folder_.path() / "exp1.csv"));
+  std::string line;
+  std::getline(rows, line);
+  std::vector<std::pair<double, std::string>> samples;
+  double largest = 0.0;
+  while (std::getline(rows, line)) {
+    const std::size_t comma = line.find(',');
+    samples.emplace_back(std::stod(line.substr(0, comma)), line.substr(comma));
+    largest = std::max(largest, std::abs(samples.back().first));
+  }
+  std::string coarse = "p,q\n";
+  for (const auto& [p, rest] : samples) {
+    coarse += std::to_string(std::round(8.0 * p / largest)) + rest + "\n";
+  }
+  folder_.Write("exp1.csv", coarse);
+  const std::string config = (folder_.path() / "records.yaml").string();
+  for (const char* command : {"analyse ", "fit "}) {
+    EXPECT_THAT(RunHowl(command + config + Loud()).out,
+                HasSubstr("exp1: p has only 17 different values"))
+        << command;
+  }
 }
 
 TEST_F(MistakenRecords, ATimeColumnInMillisecondsIsNamed) {
