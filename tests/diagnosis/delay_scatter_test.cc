@@ -110,6 +110,28 @@ TEST(DelayScatter, TwoDelaysThatDifferAreNoLaw) {
   EXPECT_LT(GainOver(base, law), 3.0);
 }
 
+// ... so that where no scope is stated, two operating points with two delays accuse nothing.
+TEST(DelayScatter, WhereNoScopeIsStatedTwoDelaysAccuseNothing) {
+  DiagnosisOptions options;
+  options.withheld = AllBut({"delay_varies_with_phi", "channel_skew"});
+  options.choose_delays = true;
+  const Diagnosis diagnosis = Diagnose(RigWithDelays({std::exp(0.02), std::exp(-0.02)}), options);
+  EXPECT_EQ(diagnosis.kind, VerdictKind::kNone) << diagnosis.effect;
+  EXPECT_TRUE(diagnosis.model.own_delays);
+  EXPECT_GT(diagnosis.own_delays_gain, 100.0);
+}
+
+// Over six a law is the better word than six delays.
+TEST(LongDelayScatter, WhereNoScopeIsStatedALawOfSixDelaysIsNamed) {
+  DiagnosisOptions options;
+  options.withheld = AllBut({"delay_varies_with_phi", "channel_skew"});
+  options.choose_delays = true;
+  std::vector<double> factors;
+  for (int point = 0; point < 6; ++point) factors.push_back(1.0 - 0.12 * (point / 5.0 - 0.5));
+  const Diagnosis diagnosis = Diagnose(RigWithDelays(factors), options);
+  EXPECT_EQ(diagnosis.effect, "delay_varies_with_phi");
+}
+
 TEST(DelayScatter, AnEffectThatLeavesTheFlameAloneDoesNotTakeOffTheDelaysCost) {
   const std::vector<CutRecord> records = MakeCutRecords(RigWithDelays(Scattered()), kOwnDelays);
   const EffectFit base = FitBase(records);
