@@ -9,6 +9,9 @@ howl_install_packages
 # A browser tests the report's page; without one that test skips, saying so.
 howl_install_packages "${howl_browser_packages[@]}" ||
   echo "no browser could be installed: the report's page is not tested" >&2
+# The Python package is tested where these are; without them its test skips, saying so.
+howl_install_packages "${howl_python_packages[@]}" ||
+  echo "the Python package is not tested" >&2
 # Measured records and practice rigs are optional: the tests that read them skip, saying so,
 # where these folders are absent.
 if [ -d "$root/../shared/realdata" ]; then

@@ -3,6 +3,10 @@
 # For the test that drives a report's page in a real browser, which is skipped without them.
 howl_browser_packages=(chromium chromium-driver python3-selenium)
 
+# For the tests of the Python package; its figures and some formats of files need the later ones.
+howl_python_packages=(python3-pytest python3-numpy python3-pandas python3-yaml
+  python3-matplotlib python3-scipy)
+
 # Installs the packages that are missing, those named as arguments too, quietly and without asking;
 # asks no server when none is.
 howl_install_packages() {

@@ -1,0 +1,67 @@
+"""Files of samples as data frames: text, NumPy, MATLAB, HDF5, Parquet, NI TDMS, UFF58."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Callable, Dict, Optional, Union
+
+import pandas as pd
+
+from .._errors import ConfigError
+from ._arrays import read_hdf5, read_mat, read_npy, read_npz
+from ._instruments import read_tdms, read_uff
+from ._tables import read_parquet, read_text
+
+_READERS: Dict[str, Callable[[Path], pd.DataFrame]] = {
+    ".csv": read_text, ".txt": read_text, ".dat": read_text, ".asc": read_text, ".tsv": read_text,
+    ".npz": read_npz, ".npy": read_npy, ".mat": read_mat,
+    ".h5": read_hdf5, ".hdf5": read_hdf5, ".hdf": read_hdf5,
+    ".parquet": read_parquet, ".pq": read_parquet,
+    ".tdms": read_tdms, ".uff": read_uff, ".unv": read_uff, ".uf": read_uff,
+}
+
+
+def read(path: "Union[str, os.PathLike[str]]", *, sampling_hz: Optional[float] = None
+         ) -> pd.DataFrame:
+    """All channels of a file, one column each, every number as a double.
+
+    `attrs["sampling_hz"]` has the samples a second where the file tells (TDMS, UFF58) or
+    `sampling_hz` is given; the index is then the time `t_s` in seconds. The format goes by the
+    file's ending: .csv .txt .dat .tsv (also .gz), .npz .npy, .mat (scipy), .h5 (h5py), .parquet
+    (pyarrow), .tdms (npTDMS), .uff .unv (pyuff); an ImportError names the package that is missing.
+    Text here is plain: numbers with points, at most one header row. Other text (decimal commas,
+    LabVIEW's headers, UTF-16) the program reads itself: name the file in a config.
+    """
+    file = Path(path)
+    endings = [ending.lower() for ending in file.suffixes if ending.lower() != ".gz"]
+    reader = _READERS.get(endings[-1] if endings else "")
+    if reader is None:
+        raise ConfigError(
+            f"has an unknown ending, expected one of {' '.join(_READERS)}", file=str(file))
+    if not file.is_file():
+        raise ConfigError("there is no such file", file=str(file))
+    table = reader(file)
+    if table.empty:
+        raise ConfigError("has no channel of numbers", file=str(file))
+    rate = sampling_hz if sampling_hz is not None else table.attrs.get("sampling_hz")
+    table = table.astype("float64")
+    if rate is not None:
+        table.attrs["sampling_hz"] = float(rate)
+        table.index = pd.Index(range(len(table)), dtype="float64", name="t_s") / float(rate)
+    return table
+
+
+def convert(source: "Union[str, os.PathLike[str]]", target: "Union[str, os.PathLike[str]]", *,
+            sampling_hz: Optional[float] = None) -> pd.DataFrame:
+    """Reads a file and writes its channels as CSV (gzip where the name ends with .gz), each number
+    the shortest text that reads back as the same double. Returns the table."""
+    table = read(source, sampling_hz=sampling_hz)
+    path = Path(target)
+    temporary = path.with_name("." + path.name)  # the file appears whole or not at all
+    try:
+        table.to_csv(temporary, index=False, compression="gzip" if path.suffix == ".gz" else None)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+    return table

@@ -1,0 +1,84 @@
+"""Ctrl-C ends the program in order, and the same call goes on."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from conftest import CONFIGS
+
+import howl
+from howl._program import Completed, run_program
+
+
+def stop(state):
+    os.kill(os.getpid(), signal.SIGINT)  # as Ctrl-C does
+
+
+def children():
+    found = subprocess.run(["ps", "--ppid", str(os.getpid()), "-o", "args="], capture_output=True,
+                           text=True)
+    return [line for line in found.stdout.splitlines() if "howl" in line and "family" in line]
+
+
+def test_the_same_call_goes_on_where_ctrl_c_stopped_it():
+    with pytest.raises(KeyboardInterrupt) as first:
+        howl.family(CONFIGS / "first_rig.yaml", progress=stop)
+    assert isinstance(first.value, howl.Interrupted)
+    assert "goes on from" in str(first.value) and not children()
+    with pytest.raises(howl.Interrupted) as second:
+        howl.family(str(CONFIGS / "first_rig.yaml"), progress=stop)
+    assert any("going on from" in note for note in second.value.notes)
+
+
+def test_with_a_folder_the_program_itself_goes_on(tmp_path):
+    with pytest.raises(howl.Interrupted):
+        howl.family(CONFIGS / "first_rig.yaml", out=tmp_path, progress=stop)
+    assert (tmp_path / "bounds.state").exists()
+    assert not (tmp_path / "family.json").exists()
+
+
+def test_a_program_that_does_not_watch_for_ctrl_c_is_ended(tmp_path, monkeypatch):
+    sleeper = tmp_path / "howl"
+    sleeper.write_text("#!/bin/sh\necho started >&2\nexec sleep 30\n")
+    sleeper.chmod(0o755)
+    monkeypatch.setenv("HOWL_PROGRAM", str(sleeper))
+    signal.signal(signal.SIGALRM, lambda *_: os.kill(os.getpid(), signal.SIGINT))
+    signal.setitimer(signal.ITIMER_REAL, 0.5)
+    begun = time.monotonic()
+    with pytest.raises(howl.Interrupted):
+        run_program(["fit"])
+    assert time.monotonic() - begun < 20
+
+
+def test_an_observers_exception_ends_the_program():
+    def fail(state):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        howl.family(CONFIGS / "first_rig.yaml", progress=fail)
+    assert not children()
+
+
+def test_the_status_and_both_streams_of_the_program(tmp_path, monkeypatch):
+    speaker = tmp_path / "howl"
+    speaker.write_text("#!/bin/sh\necho out\necho one >&2\nprintf 'two' >&2\nexit 3\n")
+    speaker.chmod(0o755)
+    monkeypatch.setenv("HOWL_PROGRAM", str(speaker))
+    for observer in (None, lambda state: None):
+        assert run_program(["fit"], observer) == Completed(3, "out\n", ["one", "two"])
+
+
+def test_ctrl_c_in_a_terminal_reaches_the_program_once(tmp_path):
+    """Both get the terminal's signal where they share a process group; the program must not."""
+    code = (f"import howl\ntry: howl.family({str(CONFIGS / 'first_rig.yaml')!r}, progress=lambda s:"
+            " print('now', flush=True))\nexcept howl.Interrupted as e: print('caught', e)\n")
+    python = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
+                              start_new_session=True)
+    assert python.stdout.readline() == "now\n"
+    os.killpg(python.pid, signal.SIGINT)
+    rest = python.stdout.read()
+    assert "caught interrupted: nothing written; the same command goes on from" in rest
+    assert python.wait() == 0
