@@ -8,12 +8,21 @@ The functions run the program howl and have its answers to the bit.
 """
 
 from ._commands import (
-    analyse, check, diagnose, family, fit, predict, report, save, simulate, version,
+    analyse,
+    check,
+    diagnose,
+    family,
+    fit,
+    predict,
+    report,
+    save,
+    simulate,
+    version,
 )
 from ._diagnosis import Check, Diagnosis
 from ._errors import ConfigError, HowlError, Interrupted, NegativeAnswer, ProgramError
+from ._experiment import Experiment
 from ._loops import Family, Fit, Prediction
-from ._problem import Experiment
 from ._program import Progress, find_program
 from ._records import Analysis, Simulation
 from ._result import Result

@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from ._problem import Experiment, Problem
+from ._experiment import Experiment
+from ._problem import Problem
 from ._result import Result, figure
 
 if TYPE_CHECKING:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import io
 import json
 import shutil
 from pathlib import Path
@@ -137,7 +138,17 @@ def need_matplotlib() -> Any:
 
 def figure(rows: int, columns: int, width: float = 4.5, height: float = 3.0) -> "Tuple[Any, Any]":
     """A figure that no pyplot state knows, and its axes as a two-dimensional array."""
-    made = need_matplotlib()(figsize=(width * columns, height * rows), layout="constrained")
+    kind = need_matplotlib()
+
+    class Shown(kind):  # type: ignore[misc, valid-type]
+        """Notebooks show a figure of matplotlib by themselves only after pyplot was imported."""
+
+        def _repr_png_(self) -> bytes:
+            page = io.BytesIO()
+            self.savefig(page, format="png")
+            return page.getvalue()
+
+    made = Shown(figsize=(width * columns, height * rows), layout="constrained")
     return made, made.subplots(rows, columns, squeeze=False)
 
 

@@ -3,6 +3,7 @@
 import pickle
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import howl
@@ -63,6 +64,13 @@ def test_signals_of_different_length_or_kind_are_refused():
         howl.analyse(np.zeros(100), np.zeros(90), sampling_hz=5000, phi=0.5)
     with pytest.raises(howl.ConfigError, match="complex128"):
         howl.analyse(np.zeros(100), np.zeros(100, dtype=complex), sampling_hz=5000, phi=0.5)
+
+
+def test_a_table_of_samples_is_not_taken_for_experiments(first_rig):
+    table = pd.DataFrame({"p": first_rig["p"][0], "q": first_rig["q"][0]})
+    with pytest.raises(howl.ConfigError, match="samples go in as arrays") as caught:
+        howl.analyse(table)
+    assert caught.value.key == "phi"
 
 
 def test_a_wrong_type_says_what_was_expected(paper):
