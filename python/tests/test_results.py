@@ -102,7 +102,8 @@ def test_files_go_where_they_are_asked_for_and_else_vanish(paper, tmp_path):
 
 def test_members_are_tested_on_another_problems_experiments(listed, fitted):
     tested = howl.family(listed, falsify=fitted)
-    assert tested.json["falsified"]["survive"] == 40  # the same experiments reject none
+    assert tested.json["falsified"]["survive"] >= 40
+    assert tested.json["falsified"]["rejected"] == 0  # the same experiments reject none
 
 
 def test_a_report_is_a_page(fitted):

@@ -1,6 +1,8 @@
 """Arrays, dicts, tables and paths give the figures of the command line, to the bit."""
 
 import json
+import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -49,6 +51,26 @@ def test_signals_that_are_not_contiguous_or_not_native(first_rig, analysis):
     one = howl.analyse(both[:, 0], both[:, 1].astype(">f8"), sampling_hz=5000, phi=0.51,
                        name="lean")
     assert one.characteristics.loc["lean"].equals(analysis.characteristics.loc["lean"])
+
+
+def test_measured_records_read_here_and_there(tmp_path):
+    if "HOWL_DATA" not in os.environ:
+        pytest.skip("HOWL_DATA names no folder of measured records")
+    folder = Path(os.environ["HOWL_DATA"]) / "turbulent_combustor"
+    if not folder.is_dir():
+        pytest.skip(f"{folder} is not there")
+    names, flows = ["p12", "p17"], [552, 620]
+    tables = [howl.read(folder / f"{name}.txt.gz") for name in names]
+    found = howl.analyse([t["3"] for t in tables], [t["2"] for t in tables], sampling_hz=10000,
+                         phi=flows, name=names, config={"operating_parameter": "air_slpm"})
+    lines = [f"  - {{name: {name}, air_slpm: {flow}, record: {{file: {folder / name}.txt.gz, "
+             "heat_release: 2, pressure: 3, sampling_hz: 10000}}" for name, flow in
+             zip(names, flows)]
+    config = "operating_parameter: air_slpm\nexperiments:\n" + "\n".join(lines) + "\n"
+    (tmp_path / "rig.yaml").write_text(config)
+    run_howl("analyse", tmp_path / "rig.yaml", "--out", tmp_path / "out")
+    assert same_cells(found.characteristics, tmp_path / "out" / "characteristics.csv")
+    assert same_cells(found.lines, tmp_path / "out" / "lines.csv")
 
 
 def test_the_fit_of_a_table_is_the_command_lines(paper, fitted, tmp_path):

@@ -21,9 +21,11 @@ def main():
               "(python3-pytest python3-numpy python3-pandas python3-yaml)")
         return SKIP
     package = os.path.join(source, "python")
-    environment = dict(os.environ, HOWL_PROGRAM=howl, PYTHONPATH=package, PYTHONDONTWRITEBYTECODE="1")
-    command = [sys.executable, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider", "-c",
-               os.path.join(package, "pyproject.toml"), os.path.join(package, "tests"), *sys.argv[3:]]
+    environment = dict(os.environ, HOWL_PROGRAM=howl, PYTHONPATH=package,
+                       PYTHONDONTWRITEBYTECODE="1")
+    command = [sys.executable, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider",
+               "-c", os.path.join(package, "pyproject.toml"), os.path.join(package, "tests"),
+               *sys.argv[3:]]
     return subprocess.run(command, env=environment, cwd=package).returncode
 
 
