@@ -71,6 +71,11 @@ class Diagnosis(Result):
         return pd.DataFrame(rows, columns=columns).set_index(["effect", "parameter"])
 
     @property
+    def budget(self) -> pd.DataFrame:
+        """Where several causes act together: what each takes off the gap, in their order."""
+        return frame_of(self.json.get("budget", []), "item")
+
+    @property
     def advice(self) -> str:
         """What to measure next."""
         return str(self.json.get("advice") or "")
