@@ -95,7 +95,9 @@ Eigen::VectorXcd MovedPressure(const CutRecord& record, const Effect& effect, Ef
     const Acoustics<double> at = ToAcoustics(record.model, mean);
     const double omega = kRadPerSPerHz * at.omega_hz;
     Eigen::VectorXcd both = MovedDamping(record, omega, at.xi, at.N, modulation.xi_add);
-    both += MovedDamping(record, at.harmonic_ratio * omega, at.xi, at.M, modulation.xi_add);
+    if (at.M != 0.0) {
+      both += MovedDamping(record, at.harmonic_ratio * omega, at.xi, at.M, modulation.xi_add);
+    }
     for (Eigen::Index k = 0; k < both.size(); ++k) {
       const double f = record.frequency_hz[k];
       both[k] *= effect.PressureInstrument(f, x) / effect.HeatReleaseInstrument(f, x);
