@@ -43,11 +43,13 @@ namespace {
 // Descents at fixed noise and refits of it in turn, until they find nothing more. Where noise is a
 // millionth of the signal, the first rounds still lower the cost by thousands; where the model is
 // far from the rig the cost may go to and fro by some nats, for a descent looks at the squares
-// alone, and a refit at the noise alone: the best of the rounds is kept.
+// alone, and a refit at the noise alone: the best of the rounds is kept. A round that leaves the
+// cost where it was would leave it there again.
 void Alternate(Fitter* fitter, EffectFit* fit) {
   EffectFit best = *fit;
   double least = std::numeric_limits<double>::infinity();
   int idle = 0;
+  double before = std::numeric_limits<double>::infinity();
   for (int round = 0; round < kMostRounds && idle < kIdleRounds; ++round) {
     fitter->Descend(fit, kLaterRoundIterations);
     fitter->RefitScatter(fit);
@@ -58,6 +60,8 @@ void Alternate(Fitter* fitter, EffectFit* fit) {
       least = fit->cost();
       best = *fit;
     }
+    if (std::abs(fit->cost() - before) < kDescentConverged) break;
+    before = fit->cost();
   }
   *fit = std::move(best);
   fitter->SetNoise(*fit);

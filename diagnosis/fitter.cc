@@ -64,8 +64,10 @@ double Fitter::EvaluateOne(EffectFit* fit, std::size_t e) {
 double Fitter::Descend(EffectFit* fit, int iterations) {
   double cost = Evaluate(fit);
   double damping = 1e-4;
+  bool at_fit = true;  // what was evaluated last
   for (int i = 0; i < iterations; ++i) {
     const System system = Linearise(*fit);
+    if (Decrement(system) < kDescentConverged) break;
     bool better = false;
     double gain = 0.0;
     for (int attempt = 0; attempt < 6 && !better; ++attempt) {
@@ -81,10 +83,11 @@ double Fitter::Descend(EffectFit* fit, int iterations) {
       } else {
         damping *= 20.0;
       }
+      at_fit = better;
     }
     if (!better || gain < kDescentConverged) break;
   }
-  Evaluate(fit);
+  if (!at_fit) Evaluate(fit);
   return cost;
 }
 

@@ -102,6 +102,8 @@ class Fitter {
   void DescendDelay(EffectFit* fit, std::size_t e);
   double DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) const;
   System Linearise(const EffectFit& fit) const;
+  // What a full step would take off the cost, were it a square: g' H^-1 g.
+  double Decrement(const System& system) const;
   void Step(const System& system, double damping, EffectFit* fit) const;
 
   const std::vector<CutRecord>& records_;

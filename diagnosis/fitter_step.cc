@@ -13,6 +13,7 @@ namespace {
 constexpr double kLargestLogStep = 0.6;
 constexpr double kLargestLinearStep = 0.15;  // of the bounds' distance
 constexpr double kDifferenceStep = 1e-5;
+constexpr double kLeastDamping = 1e-10;
 constexpr int kLocalIterations = 6;
 constexpr std::size_t kFurtherStarts = 3;
 constexpr double kSameModeLogRatio = 0.3;
@@ -136,6 +137,26 @@ Fitter::Score Fitter::ScoreOf(EffectFit* fit, std::size_t parameter) {
   }
   const Eigen::Vector2d move = -SolveScaled(h, g, 1e-9);
   return {-g.dot(move), fit->values[parameter] + move[0]};
+}
+
+double Fitter::Decrement(const System& system) const {
+  const auto taken_off = [](const Eigen::MatrixXd& h, const Eigen::VectorXd& g) {
+    return g.dot(SolveScaled(h, g, kLeastDamping).col(0));
+  };
+  const Eigen::Index d = system.experiments[0].reduced_gradient.size();
+  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(d, d);
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(d);
+  double sum = 0.0;
+  for (const Reduced& part : system.experiments) {
+    h += part.reduced_curvature;
+    g += part.reduced_gradient;
+    if (acoustic_) sum += taken_off(part.local_curvature, part.local_gradient);
+    if (part.delay_curvature > 0.0) {
+      sum += part.delay_gradient * part.delay_gradient / part.delay_curvature;
+    }
+  }
+  if (flame_) return sum + taken_off(h, g);
+  return d > 1 ? sum + taken_off(h.bottomRightCorner(d - 1, d - 1), g.tail(d - 1)) : sum;
 }
 
 void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
