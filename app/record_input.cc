@@ -78,7 +78,8 @@ AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options
   analysis.characteristics.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
   analysis.transfer.min_frequency_hz = config.analysis.min_frequency_hz.value_or(0.0);
   analysis.transfer.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
-  if (config.analysis.method == CharacteristicsMethod::kSeed) analysis.flame_curve.max_harmonic = 1;
+  if (config.analysis.method == CharacteristicsMethod::kPaper)
+    analysis.flame_curve.max_harmonic = 1;
   analysis.delay_branch = config.analysis.delay_branch;
   analysis.model = config.model;
   analysis.second_mode_share_max = config.family.test.second_mode_share_max;

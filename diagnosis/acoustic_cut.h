@@ -1,4 +1,4 @@
-// Cut A: acoustics and instruments driven by measured q (seed, (5a), and the places of
+// Cut A: acoustics and instruments driven by measured q (the paper, (5a), and the places of
 // model/effects/effect.h):
 //
 //   E_A = P - R Q,    R = K / (1 + leak K),    K = G PressureInstrument / HeatReleaseInstrument

@@ -1,4 +1,4 @@
-// Cut B: delay and flame driven by measured p (seed, section 3.2, and the places of
+// Cut B: delay and flame driven by measured p (the paper, section 3.2, and the places of
 // model/effects/effect.h):
 //
 //   E_B = Q - leak P - HeatReleaseInstrument FlameOut e^(-tau s) Phi(v)

@@ -31,7 +31,7 @@ namespace howl {
 
 struct TableLimits {
   int modes = 2;
-  double harmonic_ratio = kSeedHarmonicRatio;
+  double harmonic_ratio = kPaperHarmonicRatio;
   double omega_min_hz = 0.0;
   double xi_min = 1e-3;
   double xi_max = 1.0;

@@ -48,7 +48,7 @@ struct OwnParameter {
 
 struct ModelSpec {
   int modes = 1;  // 1: N alone; 2: N, and M or M_over_N
-  double harmonic_ratio = kSeedHarmonicRatio;
+  double harmonic_ratio = kPaperHarmonicRatio;
   bool second_mode_relative = false;  // the free parameter is M / N instead of M
   std::array<ParameterSpec, kNumParameterKinds> parameters;
   std::vector<OwnParameter> own;
@@ -78,7 +78,7 @@ struct LoopModel {
   double N = 0.0;
   double M = 0.0;
   double tau_s = 0.0;
-  double harmonic_ratio = kSeedHarmonicRatio;
+  double harmonic_ratio = kPaperHarmonicRatio;
 
   LoopParameters<double> Loop() const { return {{omega_hz, xi, N, M, harmonic_ratio}, tau_s}; }
 };

@@ -1,4 +1,4 @@
-// From one experiment's record, or several, to the seed's tables 2 and 3 and figures 4, 6, 7, 10:
+// From one experiment's record, or several, to the paper's tables 2 and 3 and figures 4, 6, 7, 10:
 // the characteristics with their uncertainty that fit and family run on.
 #ifndef HOWL_ESTIMATION_ANALYSIS_ANALYSE_H_
 #define HOWL_ESTIMATION_ANALYSIS_ANALYSE_H_

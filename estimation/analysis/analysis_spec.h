@@ -11,7 +11,7 @@
 namespace howl {
 
 inline constexpr std::array kAnalysisMethods = {CharacteristicsMethod::kLocal,
-                                                CharacteristicsMethod::kSeed};
+                                                CharacteristicsMethod::kPaper};
 
 // As in configs.
 constexpr std::string_view AnalysisMethodName(CharacteristicsMethod method) {

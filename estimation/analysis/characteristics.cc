@@ -227,9 +227,9 @@ std::string_view CycleStateName(CycleState state) {
   return "no_limit_cycle";
 }
 
-Characteristics SeedCharacteristics(std::span<const double> p, std::span<const double> q,
-                                    double sampling_hz, double min_frequency_hz,
-                                    double max_frequency_hz) {
+Characteristics PaperCharacteristics(std::span<const double> p, std::span<const double> q,
+                                     double sampling_hz, double min_frequency_hz,
+                                     double max_frequency_hz) {
   const Complexes fp = RealFft(p), fq = RealFft(q);
   const double bin_hz = sampling_hz / static_cast<double>(p.size());
   const auto first = static_cast<std::size_t>(std::ceil(min_frequency_hz / bin_hz));
@@ -317,13 +317,13 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
   EstimateEnvelope(p_blocks.amplitude, p_blocks.hop_s, &result);
   Classify(options, duration_s, &result);
 
-  if (options.method == CharacteristicsMethod::kSeed && !q.empty()) {
+  if (options.method == CharacteristicsMethod::kPaper && !q.empty()) {
     const double top =
         options.max_frequency_hz > 0 ? options.max_frequency_hz : 0.4 * record.sampling_hz;
-    const Characteristics seed = SeedCharacteristics(p, q, record.sampling_hz, lowest_hz, top);
-    result.frequency_hz = {seed.frequency_hz.value, kNan};
-    result.phase_deg = {seed.phase_deg.value, kNan};
-    result.gain = {seed.gain.value, kNan};
+    const Characteristics paper = PaperCharacteristics(p, q, record.sampling_hz, lowest_hz, top);
+    result.frequency_hz = {paper.frequency_hz.value, kNan};
+    result.phase_deg = {paper.phase_deg.value, kNan};
+    result.gain = {paper.gain.value, kNan};
   }
   return result;
 }

@@ -1,7 +1,7 @@
-// Characteristics of a limit cycle (seed, section 2 and table 2): its frequency f, and the phase
-// and gain from q to p at f.
+// Characteristics of a limit cycle (the paper, section 2 and table 2): its frequency f, and the
+// phase and gain from q to p at f.
 //
-// Method `seed`, the paper's: f = argmax |FFT p|; phase and gain are the means of those of
+// Method `paper`, the published one: f = argmax |FFT p|; phase and gain are the means of those of
 // FFT p / FFT q over 11 bins around f, weighted by |FFT p|.
 //
 // Method `local`, the default. A limit cycle's phase diffuses and its amplitude breathes, so that
@@ -31,7 +31,7 @@
 
 namespace howl {
 
-enum class CharacteristicsMethod { kLocal, kSeed };
+enum class CharacteristicsMethod { kLocal, kPaper };
 
 struct CharacteristicsOptions {
   CharacteristicsMethod method = CharacteristicsMethod::kLocal;
@@ -102,9 +102,9 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
                                         const CharacteristicsOptions& options = {});
 
 // The paper's procedure on mean-free samples; standard deviations are not part of it.
-Characteristics SeedCharacteristics(std::span<const double> p, std::span<const double> q,
-                                    double sampling_hz, double min_frequency_hz,
-                                    double max_frequency_hz);
+Characteristics PaperCharacteristics(std::span<const double> p, std::span<const double> q,
+                                     double sampling_hz, double min_frequency_hz,
+                                     double max_frequency_hz);
 
 }  // namespace howl
 

@@ -1,4 +1,4 @@
-// One operating point and what its record showed: a row of the seed's tables 1 to 3, and the
+// One operating point and what its record showed: a row of the paper's tables 1 to 3, and the
 // non-harmonic lines of its section 4. Published tables and analysed records both end here.
 #ifndef HOWL_ESTIMATION_ANALYSIS_EXPERIMENT_H_
 #define HOWL_ESTIMATION_ANALYSIS_EXPERIMENT_H_

@@ -156,8 +156,8 @@ FlameCurve EstimateFlameCurve(const Record& record, const CrossSpectrum& spectru
     const double preference =
         ScatterPreference(samples, FlamePolynomial(samples, limit, options.fit_range, kDegree),
                           full, FlamePolynomial(full, limit, options.fit_range, kDegree));
-    // Where the scatter cannot tell the two apart, the seed's (4) stands, and the slope is known no
-    // better than to half of their distance.
+    // Where the scatter cannot tell the two apart, the paper's (4) stands, and the slope is known
+    // no better than to half of their distance.
     if (preference > kClearPreference) {
       samples = std::move(full);
       curve.harmonics = regressor.locked_harmonics();

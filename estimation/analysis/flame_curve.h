@@ -1,16 +1,16 @@
-// The flame's static characteristic q = Phi[pdot(t - tau)] (seed, section 3.2), with the delayed
-// derivative of the fundamental in place of the full one (4), f in hertz:
+// The flame's static characteristic q = Phi[pdot(t - tau)] (the paper, section 3.2), with the
+// delayed derivative of the fundamental in place of the full one (4), f in hertz:
 //
 //   x(t) = 2 pi f p(t - tau + 1 / (4 f))                       (units of p per second)
 //
 // p here is its fundamental, joined from its blocks; or its fundamental and the harmonics locked to
-// it (flame_regressor.h), whichever leaves q less scattered about the curve. The seed's (4) is the
+// it (flame_regressor.h), whichever leaves q less scattered about the curve. The paper's (4) is the
 // first: its q lacks the harmonics.
 //
-// Phi is seen as means of q in bins of x, the seed's method, and as a polynomial over |x| <= 0.9 X,
-// X = 2 pi f |p|, whose derivative at zero is Phi'(0) (flame_polynomial.h). It is that of a flame
-// as smooth as the polynomial: one that bends sharply near the origin is steeper there than any
-// record shows. To first order, noise left in x, of variance s^2 (Tweedie's formula for an x of
+// Phi is seen as means of q in bins of x, the paper's method, and as a polynomial over |x| <= 0.9
+// X, X = 2 pi f |p|, whose derivative at zero is Phi'(0) (flame_polynomial.h). It is that of a
+// flame as smooth as the polynomial: one that bends sharply near the origin is steeper there than
+// any record shows. To first order, noise left in x, of variance s^2 (Tweedie's formula for an x of
 // arcsine density, and smoothing of Phi), and pressure beside x, of variance s_r^2
 // (flame_dither.h), change the slope at zero to
 //

@@ -1,11 +1,11 @@
 // The delayed derivative of pressure that drives the flame, rebuilt from a record: the regressor of
 // flame_curve.h.
 //
-//   x(t) = Re sum_k j k w P_k(t - tau),      w = 2 pi f,   k = 1: the seed's (4)
+//   x(t) = Re sum_k j k w P_k(t - tau),      w = 2 pi f,   k = 1: the paper's (4)
 //
 // P_1 is p's fundamental, joined from its blocks (spectrum.h) so that it follows a wandering phase.
 // P_k, k > 1, are the harmonics that are locked to it, P_k = m_k (P_1 / |P_1|)^k with m_k their
-// coherent mean over the blocks. The seed leaves them out, because its q lacks them; where the
+// coherent mean over the blocks. The paper leaves them out, because its q lacks them; where the
 // flame feels them they matter: a third harmonic of 3 % changes the slope at zero by 9 %.
 #ifndef HOWL_ESTIMATION_ANALYSIS_FLAME_REGRESSOR_H_
 #define HOWL_ESTIMATION_ANALYSIS_FLAME_REGRESSOR_H_

@@ -1,5 +1,5 @@
-// Significant spectral lines of p and q (seed, section 4 and figure 10): harmonics of the limit
-// cycle and non-harmonic ones.
+// Significant spectral lines of p and q (the paper, section 4 and figure 10): harmonics of the
+// limit cycle and non-harmonic ones.
 //
 // A line is a local maximum of p's or q's Welch spectrum (2 nu degrees of freedom, chi-square)
 // above the noise floor, a running median, by more than the quantile at 1 - alpha / bins: alpha is

@@ -100,7 +100,7 @@ struct TransferFitPoint {
 // by which the covariance is larger than for errors that differ from point to point.
 struct TransferFit {
   bool available = false;  // at least four points, and the solver converged
-  Acoustics<double> acoustics{0, 0, 0, 0, kSeedHarmonicRatio};
+  Acoustics<double> acoustics{0, 0, 0, 0, kPaperHarmonicRatio};
   Estimate omega_hz, xi, N, M;  // one mode: M is zero
   // Of log omega_hz, log xi, log N, log M, model_error included; one mode: nothing of log M.
   Eigen::Matrix4d log_covariance = Eigen::Matrix4d::Zero();

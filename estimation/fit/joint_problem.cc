@@ -29,7 +29,7 @@ namespace howl {
 namespace {
 
 constexpr double kStartXi = 0.1;            // a lightly damped mode
-constexpr double kStartMOverN = 0.4;        // the seed's figures 11 and 12 imply about this
+constexpr double kStartMOverN = 0.4;        // the paper's figures 11 and 12 imply about this
 constexpr double kMostQNoise = 100.0;       // standard deviations: a guard rail
 constexpr double kMaxStartPhaseDeg = 85.0;  // the closed form needs less than 90
 

@@ -15,7 +15,7 @@ namespace howl {
 using EffectPointer = std::shared_ptr<const Effect>;
 
 // Beside a base with these modes. With one mode there is none to detune.
-std::vector<EffectPointer> Catalogue(int modes = 2, double harmonic_ratio = kSeedHarmonicRatio);
+std::vector<EffectPointer> Catalogue(int modes = 2, double harmonic_ratio = kPaperHarmonicRatio);
 // With the forms that only a simulation tells apart.
 std::vector<EffectPointer> SimulationCatalogue();
 
@@ -24,8 +24,8 @@ std::vector<EffectPointer> FlameLowPass();
 std::vector<EffectPointer> PSensorResonance();
 std::vector<EffectPointer> ChannelSkew();
 std::vector<EffectPointer> ExtraAcousticMode(int modes = 2,
-                                             double harmonic_ratio = kSeedHarmonicRatio);
-std::vector<EffectPointer> ModeDetuning(double harmonic_ratio = kSeedHarmonicRatio);
+                                             double harmonic_ratio = kPaperHarmonicRatio);
+std::vector<EffectPointer> ModeDetuning(double harmonic_ratio = kPaperHarmonicRatio);
 std::vector<EffectPointer> DelayDispersion();
 std::vector<EffectPointer> DelayVariesWithPhi();
 std::vector<EffectPointer> AmplitudeDependentDelay();

@@ -1,4 +1,4 @@
-// howl report: figures of R228 against the seed's own numbers, and a report that shows the rest
+// howl report: figures of R228 against the paper's own numbers, and a report that shows the rest
 // whatever is missing.
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ TEST_F(ReportOfR228, NyquistCrossesTheNegativeAxisAtTheLimitCycle) {
   EXPECT_TRUE(found);
 }
 
-// Three per cent of tau are more than 20 degrees at 750 Hz (the seed: more than 50 in all).
+// Three per cent of tau are more than 20 degrees at 750 Hz (the paper: more than 50 in all).
 TEST_F(ReportOfR228, DelaySensitivityIsTheDelaysOwn) {
   const auto rows = Data("sensitivity_tau");
   ASSERT_GE(rows.size(), 6U);

@@ -135,7 +135,7 @@ TEST(LongDelayScatter, WhereNoScopeIsStatedALawOfSixDelaysIsNamed) {
 TEST(DelayScatter, AnEffectThatLeavesTheFlameAloneDoesNotTakeOffTheDelaysCost) {
   const std::vector<CutRecord> records = MakeCutRecords(RigWithDelays(Scattered()), kOwnDelays);
   const EffectFit base = FitBase(records);
-  const EffectFit fit = FitEffect(records, ExtraAcousticMode(2, kSeedHarmonicRatio)[0], base);
+  const EffectFit fit = FitEffect(records, ExtraAcousticMode(2, kPaperHarmonicRatio)[0], base);
   EXPECT_GT(base.delay_cost, 10.0);
   EXPECT_EQ(fit.delay_cost, base.delay_cost);
 }

@@ -226,7 +226,7 @@ TEST(Config, SolverFamilyAnalysis) {
   EXPECT_EQ(test.xi_max, 0.4);
   EXPECT_FALSE(test.xi_increasing);
   EXPECT_EQ(test.transfer_distance_max, 3.08);
-  EXPECT_EQ(config.analysis.method, CharacteristicsMethod::kSeed);
+  EXPECT_EQ(config.analysis.method, CharacteristicsMethod::kPaper);
   EXPECT_EQ(config.analysis.delay_branch, 1);
   EXPECT_EQ(config.analysis.min_frequency_hz, 50.0);
   EXPECT_EQ(config.analysis.max_frequency_hz, 400.0);

@@ -45,7 +45,7 @@ std::optional<double> PressureAmplitude(const LoopModel& model, const Flame<doub
                                         double frequency_hz);
 
 // A frequency within (lo, hi) at which arg L = 180 degrees (mod 360): the one nearest to the middle
-// of the band. Near 750 Hz it is the seed's non-harmonic line.
+// of the band. Near 750 Hz it is the paper's non-harmonic line.
 std::optional<double> CrossingNear(const LoopModel& model, const Range& band_hz);
 
 // |L(j 2 pi f) Phi'(0)| there: above one, the loop can oscillate at the line by itself.

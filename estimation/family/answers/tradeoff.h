@@ -1,4 +1,4 @@
-// The trade-off between a nearly constant omega and a small xi (the seed's two qualitative
+// The trade-off between a nearly constant omega and a small xi (the paper's two qualitative
 // conditions pull against each other): the smallest largest-xi that any member has when omega may
 // spread by no more than a given omega_spread over the experiments.
 //

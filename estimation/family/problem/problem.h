@@ -4,7 +4,7 @@
 // The test sees a delay only modulo one period of the limit cycle, so the domain fixes the branch:
 //   2 pi f tau = 3 pi / 2 + phase - loop phase error + 2 pi delay_periods,
 // with both errors within half a turn. delay_periods = 0 is the shortest positive delay, as in the
-// seed's (3).
+// paper's (3).
 #ifndef HOWL_ESTIMATION_FAMILY_PROBLEM_PROBLEM_H_
 #define HOWL_ESTIMATION_FAMILY_PROBLEM_PROBLEM_H_
 

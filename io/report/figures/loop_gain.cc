@@ -1,4 +1,4 @@
-// Figure 7 of the seed: the loop's gain at rest over the operating parameter, and where it reaches
+// Figure 7 of the paper: the loop's gain at rest over the operating parameter, and where it reaches
 // one and the limit cycle vanishes.
 #include <cmath>
 
@@ -65,7 +65,7 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "loop_gain";
-  figure.seed = "7";
+  figure.paper_figure = "7";
   figure.title = "Loop gain at the limit cycle";
   figure.caption = "gain · 2π f · |Φ'(0)|, condition (1b): a limit cycle needs more than one";
   figure.caption += any_interval ? ", with 95 % intervals." : ".";

@@ -1,4 +1,4 @@
-// Figure 12 of the seed: Nyquist's curve of the loop at one experiment, with its crossings of the
+// Figure 12 of the paper: Nyquist's curve of the loop at one experiment, with its crossings of the
 // negative real axis.
 #include <algorithm>
 #include <cmath>
@@ -83,7 +83,7 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
 
   Figure figure;
   figure.name = "nyquist";
-  figure.seed = "12";
+  figure.paper_figure = "12";
   figure.title = "Nyquist's curve of the loop, " + reference->name;
   figure.caption = "|Φ'(0)| L(j 2π f) up to " + Number(std::round(max_hz)) +
                    " Hz for the joint fit" + (drawn.empty() ? "" : " and some members (thin)") +

@@ -1,4 +1,4 @@
-// Figure 11 of the seed: measured and simulated power spectra of p. Where there is no measured
+// Figure 11 of the paper: measured and simulated power spectra of p. Where there is no measured
 // record, the simulated one stands beside the measured frequencies.
 #include <cmath>
 
@@ -51,7 +51,7 @@ std::optional<Figure> SpectrumComparisonFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "spectrum_comparison";
-  figure.seed = "11";
+  figure.paper_figure = "11";
   figure.title = "Simulated power spectrum of p, " + reference->name;
   figure.caption = measured != nullptr
                        ? "Measured record and what the loop gives when simulated with noise."
