@@ -15,7 +15,7 @@ inline constexpr std::array kAnalysisMethods = {CharacteristicsMethod::kLocal,
 
 // As in configs.
 constexpr std::string_view AnalysisMethodName(CharacteristicsMethod method) {
-  return method == CharacteristicsMethod::kLocal ? "local" : "seed";
+  return method == CharacteristicsMethod::kLocal ? "local" : "paper";
 }
 
 struct AnalysisSpec {

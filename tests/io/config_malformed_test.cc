@@ -232,7 +232,7 @@ std::vector<Malformed> Cases() {
       {"UnknownLoss", kGood + "residuals:\n  gain_equality: {loss: hubert}\n", 4,
        "residuals.gain_equality.loss", "\"hubert\" is not known", "the nearest is huber"},
       {"UnknownMethod", kGood + "analysis: {method: fft}\n", 3, "analysis.method",
-       "\"fft\" is not known", "one of local, seed"},
+       "\"fft\" is not known", "one of local, paper, seed"},
       {"BadOperatingParameter", "operating_parameter: air flow\n" + kGood, 1, "operating_parameter",
        "\"air flow\" cannot be used", "air_slpm"},
       {"TakenOperatingParameter", "operating_parameter: gain\n" + kGood, 1, "operating_parameter",
