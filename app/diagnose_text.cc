@@ -117,9 +117,9 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
               diagnosis.gap_after, diagnosis.gap_floor);
   std::printf("%s", BaseText(diagnosis).c_str());
   std::printf("%s", MapText(diagnosis).c_str());
-  if (std::isfinite(diagnosis.shrinkage_no_meaning)) {
-    std::printf("an effect of no meaning, as free as the best, shrinks it by %.1f %%\n",
-                kPerCent * diagnosis.shrinkage_no_meaning);
+  if (std::isfinite(diagnosis.placebo_shrinkage)) {
+    std::printf("a placebo effect, as free as the best, shrinks it by %.1f %%\n",
+                kPerCent * diagnosis.placebo_shrinkage);
   }
   if (!diagnosis.bootstrap_gains.empty()) {
     std::printf("noise alone, in %zu rigs simulated from the refitted base, gains at most %.1f\n",

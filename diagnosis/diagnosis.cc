@@ -105,8 +105,8 @@ Search::Judgement Search::Judge() {
     if (at.together) at.belief.unknown = std::max(at.belief.unknown, kUnexplainedFact);
   }
   if (at.belief.none <= 0.5 && !attempts_.empty()) {
-    at.shrinkage_no_meaning = ShrinkageByNoMeaning(attempts_[0]);
-    if (IsNoBetterThanNoMeaning(attempts_[0].candidate.shrinkage, at.shrinkage_no_meaning)) {
+    at.placebo_shrinkage = PlaceboShrinkage(attempts_[0]);
+    if (IsNoBetterThanPlacebo(attempts_[0].candidate.shrinkage, at.placebo_shrinkage)) {
       at.belief.unknown = std::max(at.belief.unknown, kUnexplainedFact);
     }
   }
@@ -121,7 +121,7 @@ void Search::Describe(const Judgement& at, Diagnosis* out) {
   out->slack_flame_before = before.flame_excess;
   out->slack_acoustic_after = at.after.acoustic_excess;
   out->slack_flame_after = at.after.flame_excess;
-  out->shrinkage_no_meaning = at.shrinkage_no_meaning;
+  out->placebo_shrinkage = at.placebo_shrinkage;
   const bool no_lines = lines_.empty();
   GapSide left;
   if (only_clipping) {

@@ -74,9 +74,9 @@ struct Diagnosis {
   double gap_before = 0.0;
   double gap_after = 0.0;
   double gap_floor = 0.0;
-  // By effects that mean nothing, as free as the best (no_meaning.h): the median. NaN where the
-  // best is no transfer function.
-  double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
+  // Median shrinkage of the gap by placebo effects with as many parameters as the best candidate
+  // (placebo.h); NaN where the best is no transfer function.
+  double placebo_shrinkage = std::numeric_limits<double>::quiet_NaN();
   std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first
   BaseModel model;                    // what the effects stand beside

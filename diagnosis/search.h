@@ -63,7 +63,7 @@ class Search {
   // V_B of the gap: the least that any fit leaves over.
   void MeasureGaps();
   void MeasureGap(Attempt* attempt) const;
-  double ShrinkageByNoMeaning(const Attempt& best) const;
+  double PlaceboShrinkage(const Attempt& best) const;
   // With the best attempt, if there is any; `after`: the slack that it leaves.
   Evidence Look(const Attempt* top, Slack* after) const;
 
@@ -73,7 +73,7 @@ class Search {
     Belief belief;
     Slack after;
     std::optional<Attempt> together;
-    double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
+    double placebo_shrinkage = std::numeric_limits<double>::quiet_NaN();
   };
   Judgement Judge();
   bool Detected() const;

@@ -178,7 +178,7 @@ void Search::AddClipping(Diagnosis* diagnosis) {
   }
   for (std::string& other : diagnosis->indistinguishable) other = CombinedId(id, other);
   if (!diagnosis->together.empty()) diagnosis->together = CombinedId(id, diagnosis->together);
-  diagnosis->shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
+  diagnosis->placebo_shrinkage = std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace howl

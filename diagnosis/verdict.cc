@@ -66,8 +66,8 @@ Belief Weigh(const Evidence& at) {
   return out;
 }
 
-bool IsNoBetterThanNoMeaning(double shrinkage, double shrinkage_no_meaning) {
-  return shrinkage_no_meaning > kNothing && shrinkage_no_meaning >= shrinkage;
+bool IsNoBetterThanPlacebo(double shrinkage, double placebo_shrinkage) {
+  return placebo_shrinkage > kNothing && placebo_shrinkage >= shrinkage;
 }
 
 double Temperature(double largest_gain) {

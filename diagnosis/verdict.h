@@ -39,9 +39,10 @@ double Unexplained(const Evidence& evidence);
 // distances count by their share of the largest gain too.
 double Temperature(double largest_gain);
 
-// Effects of no meaning, as free as the best, shrink the gap as much as it: what it gains is the
-// data's, not a cause's. NaN where there is nothing to compare.
-bool IsNoBetterThanNoMeaning(double shrinkage, double shrinkage_no_meaning);
+// True where placebo effects (placebo.h) with as many parameters as the best candidate shrink the
+// gap as much as it does: its gain then comes from its freedom, not from a cause. placebo_shrinkage
+// is NaN where there is nothing to compare.
+bool IsNoBetterThanPlacebo(double shrinkage, double placebo_shrinkage);
 
 // The doubt that such a fact leaves: that what is wrong is not in the catalogue.
 inline constexpr double kUnexplainedFact = 0.9;

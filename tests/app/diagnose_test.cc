@@ -129,7 +129,7 @@ TEST(LongDiagnose, StoppedAtAnyUnitItGoesOnToTheSameBytes) {
   std::filesystem::remove(out + "/diagnosis.json");
   const std::string state = StateWithEachKeyOnce(ReadFile(out + "/diagnosis.state"));
   const std::vector<std::size_t> ends = EntryEnds(state);
-  ASSERT_EQ(ends.size(), 1u + 1u + 11u);  // the line, the effect, eleven of no meaning
+  ASSERT_EQ(ends.size(), 1u + 1u + 11u);  // the line, the effect, eleven placebos
   for (const std::size_t end : ends) {
     folder.Write("rig/diagnosis.state", state.substr(0, end));
     ASSERT_EQ(RunHowl(command).status, 0);

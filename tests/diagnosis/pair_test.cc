@@ -244,13 +244,13 @@ TEST(LongDiagnose, AnEdgeInTheSamplesThatNothingExplainsIsUnknown) {
 }
 
 // It is as free as the low-pass, yet what it learns on two points is of no use on the third.
-TEST(Diagnose, AnEffectOfNoMeaningLeavesTheGap) {
+TEST(Diagnose, APlaceboLeavesTheGap) {
   const Diagnosis diagnosis = DiagnoseAmong(
       {"q_sensor_lowpass", "channel_skew"},
       SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)}));
   EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass");
   EXPECT_GT(diagnosis.candidates[0].shrinkage, 0.8);
-  EXPECT_LT(diagnosis.shrinkage_no_meaning, 0.03);
+  EXPECT_LT(diagnosis.placebo_shrinkage, 0.03);
 }
 
 // The columns of every transfer effect against central differences of the residual at fixed
