@@ -8,8 +8,9 @@
 
 namespace howl {
 
-// seen: in the samples themselves, or as a line: such verdicts hardly err.
-void Calibrate(bool seen, Diagnosis* diagnosis);
+// model_free: the effect was detected in the samples themselves or as a spectral line. Such
+// verdicts hardly err.
+void Calibrate(bool model_free, Diagnosis* diagnosis);
 
 }  // namespace howl
 

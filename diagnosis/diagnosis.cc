@@ -18,8 +18,8 @@ namespace howl {
 namespace {
 
 constexpr double kClassProbability = 0.02;
-// A second transfer function that brings as much as it must was seen to leave at least this share
-// of it as slack beside the first (results/trial): less is not worth the search.
+// Where a second transfer function brings as much as it must, the fit of the first alone leaves at
+// least this share of that as slack (results/trial). With less slack the search does not pay.
 constexpr double kSlackOfASecond = 0.3;
 
 // Of clipped q with a second that its rough repair may feign as well, over clipped q alone: one of
@@ -27,12 +27,12 @@ constexpr double kSlackOfASecond = 0.3;
 constexpr double kFeignedOdds = 0.03;
 
 bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
-  return !first.seen && first.also.empty() &&
+  return !first.model_free && first.also.empty() &&
          after.acoustic_excess + after.flame_excess > kSlackOfASecond * LeastCompeting(first);
 }
 
 bool Better(const Attempt& a, const Attempt& b) {
-  return a.seen != b.seen ? a.seen : a.candidate.gain > b.candidate.gain;
+  return a.model_free != b.model_free ? a.model_free : a.candidate.gain > b.candidate.gain;
 }
 
 }  // namespace
@@ -68,12 +68,13 @@ Diagnosis Search::Run() {
     out.together = at.together->candidate.effect;
     attempts_.insert(attempts_.begin() + 1, std::move(*at.together));
   }
-  const bool seen = (repair_ && out.kind == VerdictKind::kNone) ||
-                    (!attempts_.empty() && (attempts_[0].seen || attempts_[0].without_lines));
+  const bool model_free =
+      (repair_ && out.kind == VerdictKind::kNone) ||
+      (!attempts_.empty() && (attempts_[0].model_free || attempts_[0].without_lines));
   out.candidates = Candidates();
   if (repair_) AddClipping(&out);
-  out.advice = Advice(out, seen);
-  Calibrate(seen, &out);
+  out.advice = Advice(out, model_free);
+  Calibrate(model_free, &out);
   return out;
 }
 
@@ -176,8 +177,8 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
   double total = 0.0;
   for (const Attempt& attempt : attempts_) {
     const double behind = attempts_[0].candidate.gain - attempt.candidate.gain;
-    // What is seen in the samples leaves no room for another alone.
-    const bool out_of_question = attempts_[0].seen && !weight.empty() && attempt.also.empty();
+    // If the best was detected in the samples, no other single effect can replace it.
+    const bool out_of_question = attempts_[0].model_free && !weight.empty() && attempt.also.empty();
     weight.push_back(out_of_question          ? 0.0
                      : attempt.may_be_feigned ? kFeignedOdds
                                               : std::exp(-behind / temperature));

@@ -28,7 +28,7 @@ constexpr double kBiasInAcoustics = 0.02;  // of that
 bool IsLine(const Attempt& attempt) { return attempt.kind == EffectKind::kLine; }
 
 bool Detected(const Attempt& attempt) {
-  return attempt.seen || attempt.candidate.gain > DetectionGain(ShowsInFlameAlone(attempt));
+  return attempt.model_free || attempt.candidate.gain > DetectionGain(ShowsInFlameAlone(attempt));
 }
 
 // What fluctuates once the transfer function is right.
@@ -78,13 +78,13 @@ std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Att
     std::vector<Attempt> two = TryDistinctEffects(at, rest, units, lines, threads);
     if (!two.empty()) return JoinAll(*line, std::move(two));
     if (rest.empty() || !Detected(rest[0])) return {};
-    // What is seen in the samples has no twin.
-    rest.resize(rest[0].seen ? 1 : rest.size());
+    // An effect that was detected in the samples is not to be confused with another.
+    rest.resize(rest[0].model_free ? 1 : rest.size());
     return JoinAll(*line, NearBest(std::move(rest)));
   }
-  if (top.seen) {
-    const Attempt* other =
-        BestOf(attempts, [&](const Attempt& attempt) { return attempt.seen && &attempt != &top; });
+  if (top.model_free) {
+    const Attempt* other = BestOf(
+        attempts, [&](const Attempt& attempt) { return attempt.model_free && &attempt != &top; });
     if (other) return JoinAll(top, {*other});
     return top.repaired.empty() ? BesideQuantisation(attempts)
                                 : BesideClipping(at, attempts, units, lines, threads);

@@ -44,7 +44,7 @@ Attempt Join(const Attempt& first, Attempt second) {
   out.also.insert(out.also.begin(), out.candidate.block);
   out.candidate = JoinCandidates(first.candidate, std::move(out.candidate));
   out.parameters += first.parameters;
-  out.seen = out.seen || first.seen;
+  out.model_free = out.model_free || first.model_free;
   out.confirmed = out.confirmed || first.confirmed;
   out.without_lines = out.without_lines || first.without_lines;
   return out;

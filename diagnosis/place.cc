@@ -44,9 +44,9 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
     Raise(slack.block, std::max(0.0, slack.gain), &scores);
   }
   for (const Score& score : scores) most_gain = std::max(most_gain, score.gain);
-  // What is seen in a channel's samples needs no likelihood.
+  // A defect that was detected in a channel's samples needs no likelihood.
   for (const BlockSlack& slack : blocks) {
-    if (slack.seen) Raise(slack.block, 2.0 * most_gain + 10.0 * kTemperature, &scores);
+    if (slack.model_free) Raise(slack.block, 2.0 * most_gain + 10.0 * kTemperature, &scores);
   }
   double total = 0.0;
   if (kind == VerdictKind::kEffect) {

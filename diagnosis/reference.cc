@@ -253,7 +253,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
     out.fluctuation_gain = fluctuation_scale * (*most + 2.0 * (*most - *least));
   }
 
-  // The reference's own flags, seen as the rig's are.
+  // The reference's own flags are found as the rig's are.
   for (std::size_t e = 0; e < own.size(); ++e) {
     PutReference(out.points[e], &own[e]);
     own[e].reference.acoustic_share = Share(own[e], out.acoustic_kappa, own[e].acoustic_count);

@@ -1,4 +1,4 @@
-// What an instrument's range and steps leave in the samples themselves, seen without any model: a
+// What an instrument's range and steps leave in the samples themselves, detected without a model: a
 // density that ends in an edge, an extreme value that repeats, few levels.
 #ifndef HOWL_DIAGNOSIS_SAMPLE_LIMITS_H_
 #define HOWL_DIAGNOSIS_SAMPLE_LIMITS_H_

@@ -171,7 +171,7 @@ double Search::GainOfNoiseForTheBest() const {
   const Attempt& best = attempts_[0];
   if (reference_) return ShowsInFlameAlone(best) && !best.leaks ? NoiseBesideReference(at_) : 0.0;
   const double gain = best.candidate.gain;
-  if (best.seen || !ShowsInFlame(best) || gain < DetectionGain(false) || gain > kNearNoise) {
+  if (best.model_free || !ShowsInFlame(best) || gain < DetectionGain(false) || gain > kNearNoise) {
     return 0.0;
   }
   const auto unit = std::find_if(units_.begin(), units_.end(), [&](const EffectForms& forms) {

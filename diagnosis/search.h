@@ -18,8 +18,8 @@
 
 namespace howl {
 
-// p's saturation is seen without a model, and taken out of the samples before anything else is
-// searched for: what the records then still have beside the base is another effect's.
+// Saturation of p is detected without a model and taken out of the samples before the search for
+// anything else. What the base does not explain in the repaired records is due to another effect.
 struct PressureRepair {
   Candidate clipping;
   std::vector<CutRecord> recorded;

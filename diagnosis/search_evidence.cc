@@ -86,14 +86,14 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
   out.unexplained_samples =
       (ShowsLimits(at_, true) || ShowsLimits(at_, false)) &&
       std::none_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
-        return attempt.seen || (attempt.kind == EffectKind::kDeclaredMap &&
-                                attempt.candidate.gain > DetectionGain(false));
+        return attempt.model_free || (attempt.kind == EffectKind::kDeclaredMap &&
+                                      attempt.candidate.gain > DetectionGain(false));
       });
   out.gain_of_noise = gain_of_noise_;
   if (!top) return out;
   out.gain = std::max(0.0, top->candidate.gain);
   out.gap_after = top->candidate.gap_after;
-  out.seen = top->seen;
+  out.model_free = top->model_free;
   out.form_is_wrong = top->fit && !top->fit->effect->IsOwnCause(top->fit->values);
   out.confirmed = top->confirmed;
   out.flame_alone = ShowsInFlameAlone(*top);

@@ -47,12 +47,12 @@ Belief Weigh(const Evidence& at) {
   // A fit whose noise had to grow is no fit, even if no candidate takes anything off it.
   out.none *= Logistic((kGapOverFloor - at.gap_before / std::max(at.gap_floor, 1e-12)) /
                        kGapOverFloorWidth);
-  if (at.seen) out.none = 0.0;
-  if (!at.seen && rest > 0.5 * kUnexplainedDetection) {
+  if (at.model_free) out.none = 0.0;
+  if (!at.model_free && rest > 0.5 * kUnexplainedDetection) {
     const double share = at.confirmed ? kConfirmedUnknownShare : kUnknownShare;
     out.unknown = Logistic((rest / (rest + std::max(0.0, at.gain)) - share) / kUnknownWidth);
   }
-  if (!at.seen && !at.confirmed) {
+  if (!at.model_free && !at.confirmed) {
     // Nor may the held-out gap stay well above the floor.
     const double above = std::pow(at.gap_after, 2) - 4.0 * std::pow(at.gap_floor, 2);
     const double left = std::max(0.0, above) / std::max(std::pow(at.gap_before, 2), 1e-300);

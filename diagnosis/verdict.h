@@ -17,9 +17,9 @@ struct Evidence {
   double gap_before = 0.0;
   double gap_after = 0.0;
   double gap_floor = 0.0;
-  bool seen = false;                 // in the samples themselves: clipping's edge, few levels
-  bool confirmed = false;            // by something beside the likelihood
-  bool flame_alone = false;          // the candidate shows in cut B only
+  bool model_free = false;   // detected in the samples themselves: clipping's edge, few levels
+  bool confirmed = false;    // by something other than the likelihood
+  bool flame_alone = false;  // the candidate shows in cut B only
   bool unexplained_lines = false;    // coherent lines that no candidate accounts for
   bool form_is_wrong = false;        // the candidate is no cause of its own (Effect::IsOwnCause)
   bool unexplained_samples = false;  // an edge or few levels: the same
@@ -48,7 +48,7 @@ bool IsNoBetterThanPlacebo(double shrinkage, double placebo_shrinkage);
 inline constexpr double kUnexplainedFact = 0.9;
 
 // Gains in cut B below this may be noise: where p's is as strong as a hundredth of its amplitude,
-// rigs with no effect were seen to reach 35, and 46 where a measured record is the reference.
+// rigs with no effect reached 35 in trials, and 46 where a measured record is the reference.
 inline constexpr double kNearNoise = 60.0;
 
 // Of two kinds of evidence that do not compete (a line and a transfer function, say), the least

@@ -18,7 +18,7 @@ std::vector<double> BootstrapGains(const std::vector<CutRecord>& records, const 
                                    const DiagnosisOptions& options);
 
 // What noise alone gives one candidate, all its forms: the mean over a few replicates and six
-// standard deviations of them more. For a candidate whose gain is near what noise was seen to give.
+// standard deviations of them more. For a candidate whose gain is near what noise gave in trials.
 double GainOfNoise(const std::vector<CutRecord>& records, const EffectFit& base,
                    const std::vector<DiagnosisExperiment>& experiments,
                    const std::vector<EffectPointer>& forms, const DiagnosisOptions& options);

@@ -29,9 +29,10 @@ struct Attempt {
   std::optional<EffectFit> fit;
   bool leaks = false;  // p into recorded q: cut B's evidence, though both cuts' likelihood has it
   double parameters = 1.0;
-  // Evidence beside the likelihood: what slack is left over may be the effect's own crude form.
+  // There is evidence other than the likelihood, so that slack that is left over may come from the
+  // crude form that the catalogue gives the effect.
   bool confirmed = false;
-  bool seen = false;  // in the samples themselves, without a model
+  bool model_free = false;  // detected in the samples themselves, without a model
   // Its second brings no more than what is crude in the first's repair may bring.
   bool may_be_feigned = false;
   // Where the effect was taken out of the samples: the records without it.
@@ -54,8 +55,9 @@ struct Setting {
   std::function<EffectFit(const EffectFit&)> refit = {};
 };
 
-// Of the best's gain, what a fit must have under the base's filling to be made a fit to its own:
-// that raises it, and was not seen to double it.
+// A fit to the records that the base declipped is fitted anew to records declipped under itself if
+// it has at least this share of the best candidate's gain. The new fit raises the gain, and in
+// trials never doubled it.
 inline constexpr double kWorthRefilling = 0.3;
 
 // An effect with several forms (orders of a filter, say): the best of them. unit: the name under

@@ -26,7 +26,7 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
   for (std::size_t e = 0; e < out.held_out.size(); ++e) {
     out.held_out[e].acoustic_residual = clipping.fit.experiments[e].acoustic_residual;
   }
-  out.seen = clipping.sharp_edge;
+  out.model_free = clipping.sharp_edge;
   out.confirmed = clipping.sharp_edge || clipping.plateau_noise < kPlateauNoise;
   if (clipping.sharp_edge) {
     CHECK(!pressure) << "an edge in p is repaired before the search (search_repair.cc)";

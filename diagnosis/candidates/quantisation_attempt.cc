@@ -9,7 +9,7 @@ Attempt TryQuantisation(const Setting& at, const Effect& effect) {
   if (at.reference && at.reference->quantisation_levels > 0.0) {
     found.found &= found.levels < 0.67 * at.reference->quantisation_levels;
   }
-  out.seen = found.found;
+  out.model_free = found.found;
   out.candidate.parameters.push_back(WithoutError("levels", found.levels, ""));
   return out;
 }

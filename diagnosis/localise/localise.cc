@@ -68,7 +68,7 @@ BlockSlack OfMap(const Setting& at, bool pressure) {
   BlockSlack out =
       Paid(at, fit, pressure ? LoopBlock::kPressureInstrument : LoopBlock::kHeatReleaseInstrument,
            pressure ? "slack_p_map" : "slack_q_map", static_cast<double>(kMapTerms));
-  out.seen = ShowsLimits(at, pressure);
+  out.model_free = ShowsLimits(at, pressure);
   return out;
 }
 

@@ -3,7 +3,7 @@
 // slack takes most off the likelihood, parameters paid for, is the place. What is no fit: coherent
 // lines by the ratio that they leave over in the two cuts (coherent_lines.h); fluctuations of the
 // flame's answer in phase (gain: flame) or in quadrature (delay); few levels and sharp edges of a
-// channel, seen in its samples.
+// channel, detected in its samples.
 #ifndef HOWL_DIAGNOSIS_LOCALISE_LOCALISE_H_
 #define HOWL_DIAGNOSIS_LOCALISE_LOCALISE_H_
 
@@ -17,9 +17,9 @@ namespace howl {
 struct BlockSlack {
   LoopBlock block = LoopBlock::kAcoustics;
   std::string form;
-  double gain = 0.0;    // of log-likelihood over the base, less half a log(data) a parameter
-  bool seen = false;    // in the samples themselves
-  double low_hz = 0.0;  // where it takes most off; zeros: nowhere in particular
+  double gain = 0.0;        // of log-likelihood over the base, less half a log(data) a parameter
+  bool model_free = false;  // in the samples themselves
+  double low_hz = 0.0;      // where it takes most off; zeros: nowhere in particular
   double high_hz = 0.0;
 };
 

@@ -36,7 +36,7 @@ const BlockSlack& Best(const std::vector<BlockSlack>& slacks) {
 TEST(Localise, NothingWrongGainsLittleAnywhere) {
   for (const BlockSlack& slack : LocaliseRig(SimulateRig())) {
     EXPECT_LT(slack.gain, 25.0) << slack.form;
-    EXPECT_FALSE(slack.seen) << slack.form;
+    EXPECT_FALSE(slack.model_free) << slack.form;
   }
 }
 

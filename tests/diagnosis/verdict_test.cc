@@ -28,7 +28,7 @@ TEST(Verdict, FollowsTheEvidence) {
   EXPECT_GT(Weigh(far).unknown, 0.95);
   // Few levels take nothing off the likelihood, yet there they are.
   Evidence steps = nothing;
-  steps.seen = true;
+  steps.model_free = true;
   EXPECT_EQ(Weigh(steps).none, 0.0);
   EXPECT_EQ(Weigh(steps).unknown, 0.0);
   Evidence misfit = found;
