@@ -22,9 +22,9 @@ constexpr double kClassProbability = 0.02;
 // least this share of that as slack (results/trial). With less slack the search does not pay.
 constexpr double kSlackOfASecond = 0.3;
 
-// Of clipped q with a second that its rough repair may feign as well, over clipped q alone: one of
-// 38 was true (results/trial).
-constexpr double kFeignedOdds = 0.03;
+// Odds of clipped q with a second effect over clipped q alone, where the second may be an artefact
+// of the rough repair of q: one of 38 such seconds was true (results/trial).
+constexpr double kSpuriousOdds = 0.03;
 
 bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
   return !first.model_free && first.also.empty() &&
@@ -87,7 +87,7 @@ Search::Judgement Search::Judge() {
         TryDistinctEffects(at_, attempts_, units_, lines_, options_.threads);
     if (!combined.empty()) {
       const double p_value = attempts_[0].candidate.p_value;
-      // The best alone stays on top of a combination that may be feigned.
+      // The best alone stays on top of a combination that may be spurious.
       const bool again = combined[0].candidate.effect == attempts_[0].candidate.effect;
       if (again) attempts_.erase(attempts_.begin());
       for (Attempt& each : combined) {
@@ -179,9 +179,9 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
     const double behind = attempts_[0].candidate.gain - attempt.candidate.gain;
     // If the best was detected in the samples, no other single effect can replace it.
     const bool out_of_question = attempts_[0].model_free && !weight.empty() && attempt.also.empty();
-    weight.push_back(out_of_question          ? 0.0
-                     : attempt.may_be_feigned ? kFeignedOdds
-                                              : std::exp(-behind / temperature));
+    weight.push_back(out_of_question           ? 0.0
+                     : attempt.may_be_spurious ? kSpuriousOdds
+                                               : std::exp(-behind / temperature));
     total += weight.back();
   }
   for (std::size_t i = 0; i < attempts_.size(); ++i) {

@@ -12,16 +12,16 @@
 namespace howl {
 namespace {
 
-// Two transfer functions compete: the second mends what is inexact in the first. What moves with
-// the amplitude is known to some orders only.
+// Two transfer functions compete, because the second corrects what is inexact in the first. Effects
+// that move with the amplitude are modelled to some orders only, so a second must bring more there.
 constexpr double kCompetingShare = 0.01;
 constexpr double kCompetingShareOfMoving = 0.03;
-constexpr std::size_t kFollowed = 3;  // of the seconds, to the end
-// A fluctuating gain spreads the cycle's line: effects that smooth the flame's answer fit that.
-// What they gain grows as the square of what the fluctuation gains: at most 1.1e-3 times that, and
-// 0.37 of the fluctuation's, in 60 rigs with nothing else (results/trial).
-constexpr double kFeignedByFluctuation = 1.5e-3;  // over the square
-constexpr double kFeignedShare = 0.45;
+constexpr std::size_t kFollowed = 3;  // seconds that are fitted until they converge
+// A fluctuating gain spreads the cycle's line, and effects that smooth the flame's response fit
+// that spread. In 60 rigs with a fluctuating gain alone (results/trial) their spurious gain was at
+// most 1.1e-3 of the square of the fluctuation's gain, and at most 0.37 of that gain.
+constexpr double kSpuriousByFluctuation = 1.5e-3;  // over the square of the fluctuation's gain
+constexpr double kSpuriousShare = 0.45;
 constexpr double kBiasGainAtThirtyLevels = 300.0;
 constexpr double kBiasInAcoustics = 0.02;  // of that
 
@@ -46,9 +46,10 @@ std::vector<Attempt> WithFluctuation(const Setting& at, const Attempt& transfer,
   return gains;
 }
 
-// Steps in p feign no fluctuating gain (results/trial). They are noise of p: little to cut A, but
-// in cut B p drives the flame, and errors there bias what is fitted by their variance. Effects that
-// are fitted to cut B gain by the bias squared: as the step's fourth power.
+// Seconds given coarse quantisation of p. The steps in p give no spurious fluctuating gain
+// (results/trial). They are noise of p and do little harm in cut A, but in cut B p drives the
+// flame, and errors in it bias what is fitted by their variance. Effects that are fitted to cut B
+// gain the square of that bias, which grows as the fourth power of the step.
 std::vector<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
   std::vector<Attempt> gains = NearBestOf(attempts, IsGain);
   if (!gains.empty() && gains[0].candidate.gain > DetectionGain(true)) {
@@ -92,7 +93,7 @@ std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Att
   if (IsGain(top)) {
     const double gain = top.candidate.gain;
     const double beside = std::max(
-        LeastSecond(top), std::min(kFeignedShare * gain, kFeignedByFluctuation * gain * gain));
+        LeastSecond(top), std::min(kSpuriousShare * gain, kSpuriousByFluctuation * gain * gain));
     const Attempt* other = BestOf(attempts, [&](const Attempt& attempt) {
       return IsTransfer(attempt) &&
              attempt.candidate.gain >= (ChangesAcousticCut(attempt) ? LeastSecond(top) : beside);

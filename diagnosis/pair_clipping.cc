@@ -36,7 +36,7 @@ std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
   if (best[0].candidate.gain >= least) return JoinAll(first, std::move(best));
   if (best[0].candidate.gain < LeastSecond(first)) return {};
   Attempt both = Join(first, std::move(best[0]));
-  both.may_be_feigned = true;
+  both.may_be_spurious = true;
   return {first, std::move(both)};
 }
 

@@ -88,9 +88,9 @@ void Search::TakeLinesLeftOver() {
   base_ = FitBase(records_);
 }
 
-// Gains are squares of misfits: what clipping feigns may lie in line with what chance leaves, so
-// it is taken off the misfit.
-void Search::TakeOffWhatClippingFeigns(bool pressure) {
+// A gain is the square of a misfit. The spurious misfit that clipping gives may add to a chance
+// misfit in phase, so it is subtracted from the misfit and not from the gain.
+void Search::SubtractSpuriousGain(bool pressure) {
   DiagnosisOptions options = options_;
   options.memory = nullptr;
   options.progress = {};
@@ -104,8 +104,8 @@ void Search::TakeOffWhatClippingFeigns(bool pressure) {
     if (!attempt.fit || gain <= 0.0) continue;
     for (const Attempt& other : alike.attempts_) {
       if (other.candidate.effect != attempt.candidate.effect) continue;
-      const double feigned = ratio * std::max(other.candidate.gain, 0.0);
-      gain = std::pow(std::max(std::sqrt(gain) - std::sqrt(feigned), 0.0), 2);
+      const double spurious = ratio * std::max(other.candidate.gain, 0.0);
+      gain = std::pow(std::max(std::sqrt(gain) - std::sqrt(spurious), 0.0), 2);
     }
   }
 }
@@ -113,9 +113,9 @@ void Search::TakeOffWhatClippingFeigns(bool pressure) {
 void Search::TryAll() {
   TryEach();
   if (!reference_ || Stopped()) return;
-  if (repair_) TakeOffWhatClippingFeigns(true);
+  if (repair_) SubtractSpuriousGain(true);
   if (!reference_->heat_release_sharp_edge && HasSharpEdge(records_, false)) {
-    TakeOffWhatClippingFeigns(false);
+    SubtractSpuriousGain(false);
   }
 }
 

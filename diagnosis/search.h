@@ -51,8 +51,9 @@ class Search {
   Attempt Refilled(const Attempt& attempt, const EffectForms& forms) const;
   void RefillBest();
   void TryEach();
-  // Against a reference: what saturation alone brings a transfer function is no evidence of it.
-  void TakeOffWhatClippingFeigns(bool pressure);
+  // With a reference, the gain that saturation alone gives a transfer function is no evidence of
+  // it.
+  void SubtractSpuriousGain(bool pressure);
   void TryAll();
   void Bootstrap();
   // By the bootstrap if there was one; else, where the best is weak, by a few replicates of it.

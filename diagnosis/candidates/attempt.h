@@ -33,8 +33,8 @@ struct Attempt {
   // crude form that the catalogue gives the effect.
   bool confirmed = false;
   bool model_free = false;  // detected in the samples themselves, without a model
-  // Its second brings no more than what is crude in the first's repair may bring.
-  bool may_be_feigned = false;
+  // The second of two effects brings no more than the errors of the first's rough repair may bring.
+  bool may_be_spurious = false;
   // Where the effect was taken out of the samples: the records without it.
   std::vector<DiagnosisExperiment> repaired;
   // Where p's plateaus were filled in under this fit (search_repair.cc): the records it is a fit

@@ -140,7 +140,7 @@ TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
 
 // With half of q lost, what its repair gets wrong looks like damping that moves with the amplitude:
 // clipping alone is the answer, and the two together are not excluded.
-TEST(LongDiagnose, WhatRepairedHeatReleaseMayFeignIsNotAsserted) {
+TEST(LongDiagnose, WhatMayBeSpuriousInRepairedHeatReleaseIsNotAsserted) {
   std::vector<DiagnosisExperiment> rig = SimulateRig();
   CutOff(0.75, &Record::heat_release, &rig);
   const Diagnosis alone = DiagnoseAmong({"q_clipping", "nonlinear_damping"}, rig);

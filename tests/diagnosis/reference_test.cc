@@ -93,7 +93,7 @@ TEST(Reference, IsClippedAsOftenAsTheRig) {
 
 // Behind a low-pass, which the reference has as a factor after the flame, a saturation is no part
 // of the flame's any more: cut B sees it as a slower flame.
-TEST(LongReference, WhatClippingFeignsIsNotNamed) {
+TEST(LongReference, SpuriousGainOfClippingIsNotNamed) {
   const std::shared_ptr<const Instrument> low_pass =
       std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 150.0);
   DiagnosisOptions options;
