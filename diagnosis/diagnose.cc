@@ -43,7 +43,8 @@ double Search::OwnDelaysGain() const {
   const auto best = std::ranges::max_element(
       attempts_, {}, [](const Attempt& attempt) { return attempt.candidate.gain; });
   if (best == attempts_.end() || best->candidate.gain <= 0.0 || !ShowsInFlame(*best) ||
-      !best->repaired.empty() || best->refilled || GainOver(base, *best->fit) < kLogOddsToAccuse) {
+      !best->repaired.empty() || best->redeclipped ||
+      GainOver(base, *best->fit) < kLogOddsToAccuse) {
     return base_.cost() - base.cost();
   }
   return best->fit->cost() - Settle(records, base, *best->fit).cost();

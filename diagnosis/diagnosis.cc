@@ -56,7 +56,7 @@ Diagnosis Search::Run() {
   }
   MeasureGaps();
   std::stable_sort(attempts_.begin(), attempts_.end(), Better);
-  if (!attempts_.empty() && attempts_[0].refilled) records_ = *attempts_[0].refilled;
+  if (!attempts_.empty() && attempts_[0].redeclipped) records_ = *attempts_[0].redeclipped;
   gain_of_noise_ = GainOfNoiseForTheBest();
   Judgement at = Judge();
   Diagnosis out = Conclude(at.evidence, at.belief);

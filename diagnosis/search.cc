@@ -146,7 +146,7 @@ void Search::TryEach() {
     attempt.candidate.p_value = PValue(attempt.candidate.gain, attempt.parameters, units_.size());
     PayForParameters(&attempt);
   }
-  RefillBest();
+  RedeclipBest();
 }
 
 std::optional<double> Search::LargestGain() {

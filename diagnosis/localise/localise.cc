@@ -122,7 +122,7 @@ std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLi
     double best = 0.0;
     for (const BlockSlack& slack : out) best = std::max(best, slack.gain);
     RunUnits(forms.size(), threads, [&](std::size_t i) {
-      if (!forms[i]->ChangesAcousticCut() || out[i].gain <= kWorthRefilling * best) return;
+      if (!forms[i]->ChangesAcousticCut() || out[i].gain <= kWorthRedeclipping * best) return;
       out[i] = OfForm(at, at.refit(fits[i]));
     });
   }
