@@ -32,7 +32,7 @@ bool Detected(const Attempt& attempt) {
 }
 
 // What fluctuates once the transfer function is right.
-std::vector<Attempt> WithFluctuation(const Setting& at, const Attempt& transfer,
+std::vector<Attempt> WithFluctuation(const AttemptContext& at, const Attempt& transfer,
                                      const std::vector<EffectForms>& units) {
   std::vector<Attempt> gains = FluctuationsBeside(at, *transfer.fit, units);
   if (gains.empty() || gains[0].candidate.gain < LeastSecond(transfer)) return {};
@@ -67,7 +67,8 @@ std::vector<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
 
 }  // namespace
 
-std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Attempt>& attempts,
+std::vector<Attempt> TryDistinctEffects(const AttemptContext& at,
+                                        const std::vector<Attempt>& attempts,
                                         const std::vector<EffectForms>& units,
                                         const std::vector<CoherentLine>& lines, int threads) {
   if (attempts.empty()) return {};
@@ -110,7 +111,7 @@ double LeastCompeting(const Attempt& first) {
   return std::max(LeastSecond(first), share * first.candidate.gain);
 }
 
-std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
+std::optional<Attempt> TryTransferPair(const AttemptContext& at, const Attempt& first,
                                        const std::vector<EffectForms>& units, int threads) {
   if (!IsTransfer(first)) return std::nullopt;
   std::vector<std::optional<EffectFit>> approached(units.size());

@@ -21,7 +21,8 @@ using EffectForms = std::vector<EffectPointer>;
 // The most probable combination first, then those that the data can hardly tell from it. Where the
 // second effect may be spurious (Attempt::may_be_spurious) the best alone comes before the pair.
 // Empty if there is no more than one effect. attempts: the best first.
-std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Attempt>& attempts,
+std::vector<Attempt> TryDistinctEffects(const AttemptContext& at,
+                                        const std::vector<Attempt>& attempts,
                                         const std::vector<EffectForms>& units,
                                         const std::vector<CoherentLine>& lines, int threads);
 
@@ -29,7 +30,7 @@ std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Att
 double LeastCompeting(const Attempt& first);
 
 // The best second transfer function given the best; nothing if it brings no more than noise does.
-std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
+std::optional<Attempt> TryTransferPair(const AttemptContext& at, const Attempt& first,
                                        const std::vector<EffectForms>& units, int threads);
 
 }  // namespace howl

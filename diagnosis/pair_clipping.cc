@@ -14,13 +14,13 @@ constexpr double kAfterRepairGain = 60.0;
 constexpr double kAfterRepairShare = 0.4;
 
 // Once q's clipping was taken out of the samples.
-std::vector<Attempt> AfterRepair(const Setting& whole, const Attempt& first,
+std::vector<Attempt> AfterRepair(const AttemptContext& whole, const Attempt& first,
                                  const std::vector<EffectForms>& units,
                                  const std::vector<CoherentLine>& lines, int threads) {
   const std::vector<CutRecord> records = RemakeCutRecords(first.repaired, *whole.records, lines);
   const EffectFit base = FitBase(records);
-  const Setting at{&records, &base,          &first.repaired, HoldOutEach(records, base),
-                   nullptr,  whole.reference};
+  const AttemptContext at{&records, &base,          &first.repaired, HoldOutEach(records, base),
+                          nullptr,  whole.reference};
   std::vector<std::optional<Attempt>> tried(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const Effect& effect = *units[i][0];
@@ -58,7 +58,7 @@ std::vector<Attempt> BesideClippedHeatRelease(const Attempt& first,
 
 }  // namespace
 
-std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
+std::vector<Attempt> BesideClipping(const AttemptContext& at, const std::vector<Attempt>& attempts,
                                     const std::vector<EffectForms>& units,
                                     const std::vector<CoherentLine>& lines, int threads) {
   const double least = std::max(DetectionGain(true), NoiseBesideReference(at));

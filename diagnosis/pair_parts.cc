@@ -77,7 +77,7 @@ std::vector<Attempt> NearBestPaid(std::vector<std::optional<Attempt>> tried) {
   return NearBest(std::move(attempts));
 }
 
-std::vector<Attempt> FluctuationsBeside(const Setting& at, const EffectFit& fit,
+std::vector<Attempt> FluctuationsBeside(const AttemptContext& at, const EffectFit& fit,
                                         const std::vector<EffectForms>& units) {
   const GainFluctuation fluctuation = EstimateGainFluctuation(*at.records, fit);
   std::vector<std::optional<Attempt>> tried;

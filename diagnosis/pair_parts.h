@@ -50,11 +50,11 @@ std::vector<Attempt> NearBestOf(const std::vector<Attempt>& attempts, Predicate&
 std::vector<Attempt> NearBestPaid(std::vector<std::optional<Attempt>> tried);
 
 // How the flame's gain fluctuates under this fit: the best of its kinds, and those near it.
-std::vector<Attempt> FluctuationsBeside(const Setting& at, const EffectFit& fit,
+std::vector<Attempt> FluctuationsBeside(const AttemptContext& at, const EffectFit& fit,
                                         const std::vector<EffectForms>& units);
 
 // Seconds beside clipped q, the best of `attempts` (pair_clipping.cc).
-std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
+std::vector<Attempt> BesideClipping(const AttemptContext& at, const std::vector<Attempt>& attempts,
                                     const std::vector<EffectForms>& units,
                                     const std::vector<CoherentLine>& lines, int threads);
 

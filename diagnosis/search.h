@@ -96,7 +96,7 @@ class Search {
   std::optional<ReferenceModel> reference_;
   EffectFit base_;
   std::optional<PressureRepair> repair_;
-  Setting at_;
+  AttemptContext at_;
   Slack slack_before_;
   LineOrigin origin_;
   GainFluctuation fluctuation_;

@@ -119,7 +119,7 @@ Attempt Search::Redeclipped(const Attempt& attempt, const EffectForms& forms) co
   RedeclippedFit& redeclipped = *std::min_element(
       each.begin(), each.end(),
       [](const RedeclippedFit& a, const RedeclippedFit& b) { return a.fit.cost() < b.fit.cost(); });
-  Setting at = at_;
+  AttemptContext at = at_;
   at.records = redeclipped.records.get();
   Attempt out = FromFit(at, std::move(redeclipped.fit));
   PayForParameters(&out);

@@ -44,14 +44,15 @@ struct Attempt {
   std::shared_ptr<const std::vector<CutRecord>> redeclipped;
 };
 
-// What all attempts share: the records, and the fit of the loop with no effect.
-struct Setting {
+// What all attempts share: the records, the fit of the loop with no effect, and what goes with
+// them.
+struct AttemptContext {
   const std::vector<CutRecord>* records = nullptr;
   const EffectFit* base = nullptr;
   const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
   FitMemory* memory = nullptr;
-  const ReferenceModel* reference = nullptr;  // what stands in the model's place, if anything does
+  const ReferenceModel* reference = nullptr;         // in the model's place; null: there is none
   const std::vector<CutRecord>* recorded = nullptr;  // before a repair; null: records
   // After a repair: takes a fit to records that the base declipped, and returns one to records that
   // were declipped under that fit itself.
@@ -65,20 +66,20 @@ inline constexpr double kWorthRedeclipping = 0.3;
 
 // An effect with several forms (orders of a filter, say): the best of them. unit: the name under
 // which the memory keeps the fits (fit_memory.h).
-Attempt TryTransfer(const Setting& at, const std::string& unit,
+Attempt TryTransfer(const AttemptContext& at, const std::string& unit,
                     const std::vector<EffectPointer>& forms);
-Attempt FromFit(const Setting& at, EffectFit fit);
-Attempt TryGain(const Setting& at, const Effect& effect, const GainFluctuation& fluctuation);
-Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<CoherentLine>& lines,
-                 const LineOrigin& origin);
-Attempt TryClipping(const Setting& at, const Effect& effect);
-Attempt TryQuantisation(const Setting& at, const Effect& effect);
-Attempt TryDeclaredMap(const Setting& at, const DeclaredEffect& effect);
-Attempt TryDeclaredLine(const Setting& at, const DeclaredEffect& effect,
+Attempt FromFit(const AttemptContext& at, EffectFit fit);
+Attempt TryGain(const AttemptContext& at, const Effect& effect, const GainFluctuation& fluctuation);
+Attempt TryLines(const AttemptContext& at, const Effect& effect,
+                 const std::vector<CoherentLine>& lines, const LineOrigin& origin);
+Attempt TryClipping(const AttemptContext& at, const Effect& effect);
+Attempt TryQuantisation(const AttemptContext& at, const Effect& effect);
+Attempt TryDeclaredMap(const AttemptContext& at, const DeclaredEffect& effect);
+Attempt TryDeclaredLine(const AttemptContext& at, const DeclaredEffect& effect,
                         const std::vector<CoherentLine>& lines);
 
 // An attempt with the effect's name, and with the base's residuals until it is fitted.
-Attempt Named(const Setting& at, const Effect& effect);
+Attempt Named(const AttemptContext& at, const Effect& effect);
 
 // True for a transfer function whose evidence comes from cut B alone, and for one that changes cut
 // B at all.
@@ -86,15 +87,15 @@ bool ShowsInFlameAlone(const Attempt& attempt);
 bool ShowsInFlame(const Attempt& attempt);
 
 // The records before any repair: quantisation levels are those of the samples as recorded.
-const std::vector<CutRecord>& AsRecorded(const Setting& at);
+const std::vector<CutRecord>& AsRecorded(const AttemptContext& at);
 
 // The gain that noise may give where a reference takes the model's place: no replicate of a
 // reference can be simulated to measure it. Zero without a reference.
-double NoiseBesideReference(const Setting& at);
+double NoiseBesideReference(const AttemptContext& at);
 
 // True where the channel's samples have a sharp edge in their density, or p's samples few levels,
 // and the reference's have not.
-bool ShowsLimits(const Setting& at, bool pressure);
+bool ShowsLimits(const AttemptContext& at, bool pressure);
 
 // Half the logarithm of the data's size for each parameter, as in the BIC.
 double PriceOfParameters(double parameters);

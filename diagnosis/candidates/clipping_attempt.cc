@@ -10,7 +10,7 @@ constexpr double kPlateauNoise = 0.45;
 
 }  // namespace
 
-Attempt TryClipping(const Setting& at, const Effect& effect) {
+Attempt TryClipping(const AttemptContext& at, const Effect& effect) {
   Attempt out = Named(at, effect);
   const bool pressure = effect.id() == "p_clipping";
   ClippingFit clipping = FitClipping(*at.records, pressure, *at.base);

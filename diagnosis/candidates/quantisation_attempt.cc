@@ -3,7 +3,7 @@
 
 namespace howl {
 
-Attempt TryQuantisation(const Setting& at, const Effect& effect) {
+Attempt TryQuantisation(const AttemptContext& at, const Effect& effect) {
   Attempt out = Named(at, effect);
   FewLevels found = FindQuantisation(AsRecorded(at));
   if (at.reference && at.reference->quantisation_levels > 0.0) {

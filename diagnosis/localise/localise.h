@@ -24,7 +24,7 @@ struct BlockSlack {
 };
 
 // Every form of every block; nothing in it is random.
-std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLine>& lines,
+std::vector<BlockSlack> Localise(const AttemptContext& at, const std::vector<CoherentLine>& lines,
                                  const LineOrigin& origin, const GainFluctuation& fluctuation,
                                  int threads);
 

@@ -22,7 +22,7 @@ std::vector<BlockSlack> LocaliseRig(const std::vector<DiagnosisExperiment>& expe
   const std::vector<CoherentLine> lines = FindCoherentLines(records);
   MaskLines(lines, &records);
   const EffectFit base = FitBase(records);
-  const Setting at{&records, &base, &experiments, {}, nullptr, nullptr};
+  const AttemptContext at{&records, &base, &experiments, {}, nullptr, nullptr};
   return Localise(at, lines, ExplainLines(records, base, lines),
                   EstimateGainFluctuation(records, base), 2);
 }
