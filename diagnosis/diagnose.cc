@@ -47,7 +47,7 @@ double Search::OwnDelaysGain() const {
       GainOver(base, *best->fit) < kLogOddsToAccuse) {
     return base_.cost() - base.cost();
   }
-  return best->fit->cost() - Settle(records, base, *best->fit).cost();
+  return best->fit->cost() - ConvergedFit(records, base, *best->fit).cost();
 }
 
 Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,

@@ -114,26 +114,27 @@ double LeastCompeting(const Attempt& first) {
 std::optional<Attempt> TryTransferPair(const AttemptContext& at, const Attempt& first,
                                        const std::vector<EffectForms>& units, int threads) {
   if (!IsTransfer(first)) return std::nullopt;
-  std::vector<std::optional<EffectFit>> approached(units.size());
+  std::vector<std::optional<EffectFit>> preliminary(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const EffectForms& forms = units[i];
     if (forms[0]->kind() != EffectKind::kTransfer || forms[0]->id() == first.fit->effect->id()) {
       return;
     }
     for (const EffectPointer& form : forms) {
-      EffectFit fit = Approach(*at.records, Combine(first.fit->effect, form), *at.base, *first.fit);
-      if (!approached[i] || fit.cost() < approached[i]->cost()) approached[i] = std::move(fit);
+      EffectFit fit =
+          PreliminaryFit(*at.records, Combine(first.fit->effect, form), *at.base, *first.fit);
+      if (!preliminary[i] || fit.cost() < preliminary[i]->cost()) preliminary[i] = std::move(fit);
     }
   });
   std::vector<EffectFit> seconds;
-  for (std::optional<EffectFit>& fit : approached) {
+  for (std::optional<EffectFit>& fit : preliminary) {
     if (fit) seconds.push_back(std::move(*fit));
   }
   std::stable_sort(seconds.begin(), seconds.end(),
                    [](const auto& a, const auto& b) { return a.cost() < b.cost(); });
   std::vector<std::optional<Attempt>> tried(std::min(seconds.size(), kFollowed));
   RunUnits(tried.size(), threads, [&](std::size_t i) {
-    tried[i] = FromFit(at, Settle(*at.records, *at.base, seconds[i]));
+    tried[i] = FromFit(at, ConvergedFit(*at.records, *at.base, seconds[i]));
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
   const double least = std::max(LeastCompeting(first), NoiseBesideReference(at));

@@ -102,7 +102,7 @@ Search::RedeclippedFit Search::Redeclip(const EffectFit& under_base) const {
     SetPressures(whole.pressure, &experiments);
     *records = RemakeCutRecords(experiments, repair_->recorded, lines_);
     const double before = fit.cost();
-    fit = Settle(*records, base_, whole.fit);
+    fit = ConvergedFit(*records, base_, whole.fit);
     if (std::abs(before - fit.cost()) < kConvergedGain) break;
     whole = DeclipAt(repair_->recorded, *records, fit, options_.threads);
   }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kStarts = 4;
 constexpr int kMostFillings = 40;
-constexpr double kSettled = 1e-6;  // change of the signal over the error, both squared
+constexpr double kConverged = 1e-6;  // change of the signal over the error, both squared
 
 CutRecord WithPressure(CutRecord record, const Eigen::VectorXd& pressure) {
   record.pressure = pressure;
@@ -53,7 +53,7 @@ Eigen::VectorXd Fill(const BesidePlateaus& beside, CutRecord filled, std::size_t
     const Eigen::VectorXd next = beside.Fill(error);
     const double change = (next - filled.pressure).squaredNorm();
     filled = WithPressure(std::move(filled), next);
-    if (change <= kSettled * beside.WeightedSquares(error)) break;
+    if (change <= kConverged * beside.WeightedSquares(error)) break;
     locals = Step(filled, *fit, locals);
   }
   return filled.pressure;
