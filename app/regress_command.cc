@@ -79,8 +79,9 @@ Json FreshResults(const Config& config, const Options& options, bool with_family
 
 std::filesystem::path ReferencePath(const Options& options) {
   const std::filesystem::path folder = options.config.parent_path() / ".." / "results";
-  const std::string beside = (folder / options.config.stem()).lexically_normal().string();
-  return std::filesystem::path(options.Text("--reference").value_or(beside)) / "reference.json";
+  const std::string default_folder = (folder / options.config.stem()).lexically_normal().string();
+  return std::filesystem::path(options.Text("--reference").value_or(default_folder)) /
+         "reference.json";
 }
 
 // Nothing to compare with on a machine without the config's records.

@@ -31,10 +31,10 @@ bool Detected(const Attempt& attempt) {
   return attempt.model_free || attempt.candidate.gain > DetectionGain(ShowsInFlameAlone(attempt));
 }
 
-// What fluctuates once the transfer function is right.
+// Fluctuations of the gain given the transfer function.
 std::vector<Attempt> WithFluctuation(const AttemptContext& at, const Attempt& transfer,
                                      const std::vector<EffectForms>& units) {
-  std::vector<Attempt> gains = FluctuationsBeside(at, *transfer.fit, units);
+  std::vector<Attempt> gains = FluctuationsGiven(at, *transfer.fit, units);
   if (gains.empty() || gains[0].candidate.gain < LeastSecond(transfer)) return {};
   for (Attempt& gain : gains) {
     for (std::size_t e = 0; e < gain.held_out.size(); ++e) {
@@ -50,7 +50,7 @@ std::vector<Attempt> WithFluctuation(const AttemptContext& at, const Attempt& tr
 // (results/trial). They are noise of p and do little harm in cut A, but in cut B p drives the
 // flame, and errors in it bias what is fitted by their variance. Effects that are fitted to cut B
 // gain the square of that bias, which grows as the fourth power of the step.
-std::vector<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
+std::vector<Attempt> SecondsGivenQuantisation(const std::vector<Attempt>& attempts) {
   std::vector<Attempt> gains = NearBestOf(attempts, IsGain);
   if (!gains.empty() && gains[0].candidate.gain > DetectionGain(true)) {
     return JoinAll(attempts[0], std::move(gains));
@@ -88,16 +88,17 @@ std::vector<Attempt> TryDistinctEffects(const AttemptContext& at,
     const Attempt* other = BestOf(
         attempts, [&](const Attempt& attempt) { return attempt.model_free && &attempt != &top; });
     if (other) return JoinAll(top, {*other});
-    return top.repaired.empty() ? BesideQuantisation(attempts)
-                                : BesideClipping(at, attempts, units, lines, threads);
+    return top.repaired.empty() ? SecondsGivenQuantisation(attempts)
+                                : SecondsGivenClipping(at, attempts, units, lines, threads);
   }
   if (IsGain(top)) {
     const double gain = top.candidate.gain;
-    const double beside = std::max(
+    const double least_in_flame_cut = std::max(
         LeastSecond(top), std::min(kSpuriousShare * gain, kSpuriousByFluctuation * gain * gain));
     const Attempt* other = BestOf(attempts, [&](const Attempt& attempt) {
       return IsTransfer(attempt) &&
-             attempt.candidate.gain >= (ChangesAcousticCut(attempt) ? LeastSecond(top) : beside);
+             attempt.candidate.gain >=
+                 (ChangesAcousticCut(attempt) ? LeastSecond(top) : least_in_flame_cut);
     });
     return other ? WithFluctuation(at, *other, units) : std::vector<Attempt>();
   }
@@ -137,7 +138,7 @@ std::optional<Attempt> TryTransferPair(const AttemptContext& at, const Attempt& 
     tried[i] = FromFit(at, ConvergedFit(*at.records, *at.base, seconds[i]));
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
-  const double least = std::max(LeastCompeting(first), NoiseBesideReference(at));
+  const double least = std::max(LeastCompeting(first), NoiseGivenReference(at));
   if (best.empty() || best[0].candidate.gain - first.candidate.gain < least) {
     return std::nullopt;
   }

@@ -4,7 +4,7 @@
 //
 // Two transfer functions do compete: together they have freedom enough to imitate an effect that
 // is not in the catalogue. Where the best needs such a second the verdict is unknown, and the pair
-// is reported beside it.
+// is reported with it.
 #ifndef HOWL_DIAGNOSIS_PAIR_H_
 #define HOWL_DIAGNOSIS_PAIR_H_
 

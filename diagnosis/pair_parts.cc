@@ -77,8 +77,8 @@ std::vector<Attempt> NearBestPaid(std::vector<std::optional<Attempt>> tried) {
   return NearBest(std::move(attempts));
 }
 
-std::vector<Attempt> FluctuationsBeside(const AttemptContext& at, const EffectFit& fit,
-                                        const std::vector<EffectForms>& units) {
+std::vector<Attempt> FluctuationsGiven(const AttemptContext& at, const EffectFit& fit,
+                                       const std::vector<EffectForms>& units) {
   const GainFluctuation fluctuation = EstimateGainFluctuation(*at.records, fit);
   std::vector<std::optional<Attempt>> tried;
   for (const EffectForms& forms : units) {

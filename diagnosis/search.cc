@@ -169,7 +169,7 @@ double Search::GainOfNoiseForTheBest() const {
   if (!bootstrap_gains_.empty()) return BootstrapDetectionGain(bootstrap_gains_);
   if (attempts_.empty()) return 0.0;
   const Attempt& best = attempts_[0];
-  if (reference_) return ShowsInFlameAlone(best) && !best.leaks ? NoiseBesideReference(at_) : 0.0;
+  if (reference_) return ShowsInFlameAlone(best) && !best.leaks ? NoiseGivenReference(at_) : 0.0;
   const double gain = best.candidate.gain;
   if (best.model_free || !ShowsInFlame(best) || gain < DetectionGain(false) || gain > kNearNoise) {
     return 0.0;

@@ -39,8 +39,8 @@ double MeanFraction(const std::vector<CutRecord>& recorded, const std::vector<Cu
   return sum / static_cast<double>(recorded.size());
 }
 
-// Half each, a block that both have once.
-std::vector<Place> BesideOneAnother(std::vector<Place> places, std::vector<Place> others) {
+// Both lists with half the share each; a block that both have is listed once.
+std::vector<Place> MergedPlaces(std::vector<Place> places, std::vector<Place> others) {
   if (others.empty()) return places;
   for (Place& place : places) place.share *= 0.5;
   for (Place& other : others) {
@@ -149,9 +149,9 @@ void Search::AddClipping(Diagnosis* diagnosis) {
   alone.candidate = repair_->clipping;
   alone.held_out = at_.base_held_out;
   alone.candidate.probability = 1.0;
-  diagnosis->where = BesideOneAnother(
-      FindPlaces(records_, {alone}, VerdictKind::kEffect, repair_->recorded_slack, {}),
-      std::move(diagnosis->where));
+  diagnosis->where =
+      MergedPlaces(FindPlaces(records_, {alone}, VerdictKind::kEffect, repair_->recorded_slack, {}),
+                   std::move(diagnosis->where));
 
   alone.candidate.probability = diagnosis->probability_none;
   for (Attempt& attempt : attempts_) {

@@ -39,7 +39,7 @@ const std::vector<CutRecord>& AsRecorded(const AttemptContext& at) {
   return at.recorded ? *at.recorded : *at.records;
 }
 
-double NoiseBesideReference(const AttemptContext& at) { return at.reference ? kNearNoise : 0.0; }
+double NoiseGivenReference(const AttemptContext& at) { return at.reference ? kNearNoise : 0.0; }
 
 bool ShowsLimits(const AttemptContext& at, bool pressure) {
   const ReferenceModel* known = at.reference;

@@ -91,7 +91,7 @@ const std::vector<CutRecord>& AsRecorded(const AttemptContext& at);
 
 // The gain that noise may give where a reference takes the model's place: no replicate of a
 // reference can be simulated to measure it. Zero without a reference.
-double NoiseBesideReference(const AttemptContext& at);
+double NoiseGivenReference(const AttemptContext& at);
 
 // True where the channel's samples have a sharp edge in their density, or p's samples few levels,
 // and the reference's have not.

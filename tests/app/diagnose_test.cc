@@ -274,7 +274,7 @@ TEST(Diagnose, ARateInKilohertzIsAMistake) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(Diagnose, TooFewReplicatesOrAReferenceBesideThemAreMistakes) {
+TEST(Diagnose, TooFewReplicatesOrAReferenceWithThemAreMistakes) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");
   const std::string out = (folder.path() / "out").string();

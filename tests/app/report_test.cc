@@ -225,7 +225,7 @@ TEST(Report, FindsTheConfigThatMovedAway) {
   EXPECT_NE(page.find("R228, six experiments"), std::string::npos);
 }
 
-TEST(Report, SaysWhatAnUnknownHasBesideIt) {
+TEST(Report, SaysWhatGoesWithAnUnknown) {
   TemporaryFolder folder;
   folder.Write("diagnosis.json",
                R"({"schema": "howl.diagnosis/1",

@@ -74,7 +74,7 @@ TEST(Combined, AcousticsAddTheirChanges) {
   }
 }
 
-TEST(Diagnose, HumBesideALowPassAreTwoEffects) {
+TEST(Diagnose, HumAndALowPassAreTwoEffects) {
   std::vector<DiagnosisExperiment> rig =
       SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)});
   AddHum(50.0, 0.05, &rig);
@@ -108,7 +108,7 @@ std::vector<DiagnosisExperiment> SlowAndIntermittent() {
       41);
 }
 
-TEST(Diagnose, AFluctuatingGainIsSeenBesideALowPass) {
+TEST(Diagnose, AFluctuatingGainIsFoundGivenALowPass) {
   const Diagnosis diagnosis =
       DiagnoseAmong({"intermittency", "q_sensor_lowpass", "channel_skew"}, SlowAndIntermittent());
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
@@ -130,7 +130,7 @@ TEST(Diagnose, ThreeEffectsAreThree) {
   EXPECT_NEAR(cutoff->value, 400.0, 20.0);
 }
 
-TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
+TEST(Diagnose, AFluctuatingGainIsFoundGivenClippedHeatRelease) {
   std::vector<DiagnosisExperiment> rig = SimulatePoints(3, AddDropouts, 43);
   CutOff(0.85, &Record::heat_release, &rig);
   const Diagnosis diagnosis = DiagnoseAmong({"intermittency", "q_clipping", "channel_skew"}, rig);
@@ -157,7 +157,7 @@ TEST(LongDiagnose, WhatMayBeSpuriousInRepairedHeatReleaseIsNotAsserted) {
             std::vector<std::string>{"mains_hum+q_clipping+nonlinear_damping"});
 }
 
-TEST(Diagnose, AnExtraModeIsSeenBesideFewLevels) {
+TEST(Diagnose, AnExtraModeIsFoundGivenFewLevels) {
   std::vector<DiagnosisExperiment> rig = SimulatePoints(
       3, [](RigParameters* one) { AddMode(2.2, 0.04, 0.05, one); }, 47);
   for (DiagnosisExperiment& experiment : rig) {
