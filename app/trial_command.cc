@@ -63,7 +63,7 @@ TrialRequest MakeRequest(const Options& options) {
     throw UsageError(std::string("--effects: ") + error.what());
   }
   const Config config = LoadConfig(options.config);
-  request.setting = MakeRigSetting(config, options);
+  request.rig_template = MakeRigTemplate(config, options);
   request.config_sha256 = Sha256OfFile(options.config).value_or("");
   request.command = CommandText(options);
   return request;

@@ -70,7 +70,7 @@ std::string TrialRequest::Passphrase() const {
                      std::to_string(options.cases);
   for (const std::string& effect : options.effects) text += " " + effect;
   for (const double severity : options.severities) text += " " + std::to_string(severity);
-  return text + "\n" + RigSpecYaml(setting, {});
+  return text + "\n" + RigSpecYaml(rig_template, {});
 }
 
 void MakeCases(const TrialFolder& folder, const TrialRequest& request, int threads,
@@ -83,7 +83,7 @@ void MakeCases(const TrialFolder& folder, const TrialRequest& request, int threa
   std::vector<nlohmann::json> keys(plans.size());
   std::vector<std::string> hashes(plans.size());
   RunUnits(plans.size(), threads, progress, [&](std::size_t i) {
-    keys[i] = MakeRig(request.setting, plans[i], folder.CaseFolder(plans[i].name));
+    keys[i] = MakeRig(request.rig_template, plans[i], folder.CaseFolder(plans[i].name));
     hashes[i] = Sha256OfFolder(folder.CaseFolder(plans[i].name));
   });
   StopIfAsked("while the cases were made");

@@ -15,7 +15,7 @@ namespace howl {
 
 // All that decides what the cases are, and that the key's passphrase is made of.
 struct TrialRequest {
-  RigSetting setting;
+  RigTemplate rig_template;
   TrialOptions options;
   std::string config_sha256;
   std::string command;  // what reproduces the trial

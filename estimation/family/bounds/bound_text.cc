@@ -84,7 +84,7 @@ bool VisitModel(Model& model, const Visitor& visit) {
 
 template <typename Search, typename Visitor>
 bool VisitEnds(Search& search, const Visitor& visit) {
-  return visit(search.inner) && visit(search.settled) && visit(search.outer) &&
+  return visit(search.inner) && visit(search.finest_reach) && visit(search.outer) &&
          visit(search.focus.xi_end) && visit(search.focus.phase_end) &&
          visit(search.focus.gain_end) && visit(search.focus.loop_phase_end) &&
          visit(search.focus.omega_end);

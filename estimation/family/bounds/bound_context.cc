@@ -1,4 +1,4 @@
-#include "estimation/family/bounds/bound_setting.h"
+#include "estimation/family/bounds/bound_context.h"
 
 #include <utility>
 
@@ -14,7 +14,7 @@ constexpr std::size_t kBaseMembers = 1000;
 
 }  // namespace
 
-BoundSetting::BoundSetting(const FamilyProblem& family, std::uint64_t seed_of_draws)
+BoundContext::BoundContext(const FamilyProblem& family, std::uint64_t seed_of_draws)
     : problem(family),
       seed(seed_of_draws),
       contractor(family),
