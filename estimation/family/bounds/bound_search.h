@@ -1,8 +1,7 @@
 // Where the search for one bound is. For the quantity sign * value
 // (estimation/family/bounds/bound_quantity.h), over all members,
 //
-//   inner  <=  largest sign * value  <=  outer  =  max(inner, finest_reach, reach of the heap's
-//   cells)
+//   inner  <=  largest sign * value  <=  outer  =  max(inner, finest_reach, reach of the heap)
 //
 // with `inner` the value of the best member found, and `outer` widened by the rounding of the test.
 // No member found: inner = -infinity. Nothing proved: outer = +infinity.

@@ -18,7 +18,7 @@ namespace howl {
 
 // A model, and how far it uses the conditions that were minimised: the largest error over its
 // tolerance. At most one: a member.
-struct Approach {
+struct LocalSolution {
   Member member;
   double violation = 0.0;
   bool converged = false;
@@ -36,12 +36,13 @@ class LocalSearch {
 
   // Minimises the largest violation of all conditions until it is below `enough`. Nothing where the
   // start is no model of the kind (a second mode that no omega goes with).
-  std::optional<Approach> FindMember(const Member& start, double enough = 0.97) const;
+  std::optional<LocalSolution> FindMember(const Member& start, double enough = 0.97) const;
 
   // Minimises the largest violation of the conditions in `soft` among the models that keep the
   // others, `start` being one. With a quantity, among those where it has the value `at`.
-  std::optional<Approach> Minimise(const Member& start, const ConditionSet& soft,
-                                   const MemberQuantity* quantity = nullptr, double at = 0.0) const;
+  std::optional<LocalSolution> Minimise(const Member& start, const ConditionSet& soft,
+                                        const MemberQuantity* quantity = nullptr,
+                                        double at = 0.0) const;
 
   // The member with the largest sign * quantity that the search reaches from `start`, a member;
   // `scale`: a typical range of the quantity. Nothing where it found none.
