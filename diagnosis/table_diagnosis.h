@@ -1,8 +1,8 @@
 // What published characteristics alone say of the lag of the q sensor, without a record.
 //
 // A sensor that makes recorded q lag true q by lambda at the cycle f makes p seem to lead by as
-// much, and q too small if it is a first-order low-pass. With Delta and g as published (seed,
-// table 2):
+// much, and q too small if it is a first-order low-pass. With Delta and g as published (the
+// paper, table 2):
 //
 //   arg G(f) = Delta - lambda,    |G(f)| = g cos lambda
 //   tau = (270 deg + Delta - lambda) / (360 deg f)                                   (3)
