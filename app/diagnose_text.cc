@@ -63,7 +63,7 @@ std::string MapText(const Diagnosis& diagnosis) {
   return text + "\n";
 }
 
-// The loop that the effects stand beside.
+// The base: the loop to which each effect is added.
 std::string BaseText(const Diagnosis& diagnosis) {
   std::string text = "base: ";
   text += diagnosis.model.modes == 1

@@ -221,7 +221,7 @@ std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect
       }
     }
   }
-  // A reference's factors stand beside its own base: far from there they mislead.
+  // A reference's factors hold relative to its own base, and mislead far from that base.
   if (reference.acoustic.size() > 0) places = {reference.acoustics.head<2>()};
   return BestStarts(record, effect, x, places, count);
 }

@@ -1,4 +1,4 @@
-// One diagnosis beside the base that the model states, or that the records choose.
+// One diagnosis with the base that the config's model states, or that is chosen by the records.
 #include <algorithm>
 #include <limits>
 #include <optional>

@@ -62,11 +62,13 @@ struct Place {
 struct Diagnosis {
   VerdictKind kind = VerdictKind::kNone;
   std::string effect;  // empty unless kEffect; "a+b": two at once
-  // Seen in the samples and taken out of them before the search: p_clipping; else empty. It leads
-  // `effect` and every candidate; an unknown is then what is left once it is repaired.
+  // p_clipping where it was detected in the samples and taken out of them before the search; else
+  // empty. It comes first in `effect` and in every candidate; a verdict of unknown is then about
+  // what is left once it is repaired.
   std::string repaired;
   std::vector<std::string> indistinguishable;
-  // Unknown: two effects of the catalogue that together would leave little; empty if none do.
+  // With the verdict unknown: two effects of the catalogue that together would leave little; empty
+  // if there are none.
   std::string together;
   double probability_none = 0.0;
   double probability_unknown = 0.0;
@@ -79,12 +81,12 @@ struct Diagnosis {
   double placebo_shrinkage = std::numeric_limits<double>::quiet_NaN();
   std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first
-  BaseModel model;                    // what the effects stand beside
-  // What a second mode takes off the likelihood, its coefficients paid for, where it was asked by
-  // that (choose_modes.h); NaN where the model states its modes.
+  BaseModel model;                    // the base to which effects were added
+  // The gain in log-likelihood by a second mode, less the price of its coefficients, where the
+  // records choose the modes (choose_modes.h); NaN where the model states them.
   double second_mode_gain = std::numeric_limits<double>::quiet_NaN();
-  // What own delays take off the likelihood beside the best effect, or none, where that was asked;
-  // NaN where the model states it.
+  // The gain in log-likelihood by own delays, given the best effect or none, where the records
+  // choose the delays; NaN where the model states them.
   double own_delays_gain = std::numeric_limits<double>::quiet_NaN();
   double delay_scatter = 0.0;  // of log tau over the experiments, in the best fit
   // Of the loop, where the verdict is an effect whose fit has them.

@@ -214,13 +214,13 @@ bool Fitter::RestartLocals(EffectFit* fit) {
   for (std::size_t e = 0; e < records_.size(); ++e) {
     std::vector<AcousticLocals> starts =
         AcousticStarts(records_[e], effect_, fit->values, kFurtherStarts);
-    // As the other experiments have it, beside their own cycle.
+    // Starts at the other experiments' acoustics, moved by the ratio of the cycles' frequencies.
     for (std::size_t other = 0; other < records_.size(); ++other) {
       if (other == e) continue;
       AcousticLocals start = fit->experiments[other].acoustics;
       const double ratio =
           records_[e].at.cycle_frequency_hz / records_[other].at.cycle_frequency_hz;
-      // Farther apart they are cycles of two modes.
+      // Cycles that are farther apart are cycles of two different modes.
       if (std::abs(std::log(ratio)) < kSameModeLogRatio) start[0] += std::log(ratio);
       starts.push_back(start);
     }

@@ -18,7 +18,7 @@ constexpr double kSwitchingParameters = 4.0;
 constexpr double kLeastStd = 0.005;  // of the grid, up to 1.5
 constexpr int kStds = 20;
 constexpr int kExpectations = 60;
-// Beside the noise; with more the levels are no levels.
+// Variance in addition to the noise: with more than this the two levels are not constant levels.
 constexpr double kMostExcess = 0.04;
 constexpr double kLargestDrop = 0.99;
 constexpr double kLargestLeave = 0.6;
@@ -204,7 +204,7 @@ class Switcher {
   std::vector<Eigen::MatrixXd> columns_;
   std::vector<Eigen::VectorXd> coefficients_;
   double drop_;
-  double excess_ = 0.0;  // variance beside the noise
+  double excess_ = 0.0;  // variance in addition to the noise
   std::array<double, 2> leave_ = {0.15, 0.15};
   SwitchingFluctuation now_;
 };

@@ -60,7 +60,7 @@ double Excess(const std::vector<SlackBand>& bands) {
   return std::max(0.0, sum - 4.0 * std::sqrt(static_cast<double>(bands.size())));
 }
 
-// Delays beside tau, half a period of the band's upper edge apart.
+// Offsets from tau, half a period of the band's upper edge apart.
 std::vector<double> Offsets(const CutRecord& record, double tau_s) {
   const double step = 0.5 / record.frequency(record.flame_count - 1);
   std::vector<double> offsets;

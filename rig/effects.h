@@ -44,7 +44,7 @@ struct Behaviour {
   double second_path_extra_s = 1e-3;
   double delay_wander = 0.0;  // relative rms, slow
 
-  // Sources beside the flame. Over the amplitude of q.
+  // Sources other than the flame, relative to the amplitude of q.
   double tone = 0.0;
   double tone_hz = 100.0;
   double sweep = 0.0;

@@ -25,8 +25,9 @@ inline Complex2 ConjugateTimes(Complex2 a, Complex2 b) {
   return {a.real() * b.real() + a.imag() * b.imag(), a.real() * b.imag() - a.imag() * b.real()};
 }
 
-// The mean over the record of d Phi / d v, what a small signal beside the cycle meets, is the sum
-// of the coefficients times these. Every seventh sample: the mean needs no more.
+// The mean over the record of d Phi / d v, by which a small signal on top of the cycle is
+// multiplied, is the sum of the coefficients times these. Every seventh sample is used: the mean
+// needs no more.
 Eigen::VectorXd MeanSlopes(const FlameColumns& flame) {
   const FlameBasis basis(flame.range);
   const double step = 1e-3 * flame.range;

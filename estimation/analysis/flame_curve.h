@@ -7,20 +7,20 @@
 // it (flame_regressor.h), whichever leaves q less scattered about the curve. The paper's (4) is the
 // first: its q lacks the harmonics.
 //
-// Phi is seen as means of q in bins of x, the paper's method, and as a polynomial over |x| <= 0.9
-// X, X = 2 pi f |p|, whose derivative at zero is Phi'(0) (flame_polynomial.h). It is that of a
+// Phi is estimated by means of q in bins of x, the paper's method, and as a polynomial over |x| <=
+// 0.9 X, X = 2 pi f |p|, whose derivative at zero is Phi'(0) (flame_polynomial.h). It is that of a
 // flame as smooth as the polynomial: one that bends sharply near the origin is steeper there than
 // any record shows. To first order, noise left in x, of variance s^2 (Tweedie's formula for an x of
-// arcsine density, and smoothing of Phi), and pressure beside x, of variance s_r^2
+// arcsine density, and smoothing of Phi), and pressure other than x, of variance s_r^2
 // (flame_dither.h), change the slope at zero to
 //
 //   (1 + s^2 / X^2) Phi'(0) + ((s^2 + s_r^2) / 2) Phi'''(0)
 //
-// which is taken out; half of the correction enters the standard deviation. s is what the floor of
-// p beside the line, incoherent with q, lets through.
+// which is corrected for; half of the correction enters the standard deviation. s^2 is the variance
+// that the noise floor of p at the line, as far as it is incoherent with q, leaves in x.
 //
 // The mean cycle of q, q = mean - |q1| Re sum_k r_k e^(j k theta) with r_1 = 1, theta the phase of
-// x, is the same curve seen in time: r_k is real for a flame without memory, and where x is its
+// x, is the same curve in time: r_k is real for a flame without memory, and where x is its
 // fundamental alone
 //
 //   Phi'(0) over D(X) = 1 - 3 r_3 + 5 r_5 - ...,      d ln D / d ln X = 6 r_3 + 10 r_5 + ...

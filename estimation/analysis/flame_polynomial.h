@@ -19,7 +19,7 @@
 
 namespace howl {
 
-// One regressor and the heat release beside it.
+// Samples of one regressor and of the heat release at the same times.
 struct FlameSamples {
   std::vector<double> x;
   std::vector<double> q;

@@ -2,9 +2,9 @@
 //
 //   recorded(s) = H(s) true(s),   s = 2 pi j f in rad/s
 //
-// H is a formula, such as "1 / (1 + s / (2 pi 400))", with the names s, f_hz and j beside those of
-// formula.h, or a table. Between the rows of a table log |H| and the unwrapped phase are linear in
-// the frequency; beyond its ends magnitude and phase are held.
+// H is a formula, such as "1 / (1 + s / (2 pi 400))", with the names s, f_hz and j in addition to
+// those of formula.h, or a table. Between the rows of a table log |H| and the unwrapped phase are
+// linear in the frequency; beyond its ends magnitude and phase are held.
 #ifndef HOWL_ESTIMATION_ANALYSIS_INSTRUMENT_RESPONSE_H_
 #define HOWL_ESTIMATION_ANALYSIS_INSTRUMENT_RESPONSE_H_
 

@@ -1,6 +1,6 @@
-// Every phase crossing of a fitted loop in the band that its modes cover, beside what was observed:
-// the limit cycle and the experiment's lines. Section 4 of the paper explains a line by a second
-// crossing with magnitude above one, so that its frequency and its size both count.
+// Every phase crossing of a fitted loop in the band that its modes cover, compared with what was
+// observed: the limit cycle and the experiment's lines. Section 4 of the paper explains a line by a
+// second crossing with magnitude above one, so that its frequency and its size both count.
 #ifndef HOWL_ESTIMATION_FIT_LOOP_CROSSINGS_H_
 #define HOWL_ESTIMATION_FIT_LOOP_CROSSINGS_H_
 

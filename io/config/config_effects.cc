@@ -224,7 +224,7 @@ void ReadForm(const ConfigCursor& cursor, EffectDeclaration& effect) {
   for (const Known& known : kForms) {
     if (!cursor.Find(known.key)) continue;
     if (found) {
-      cursor.FailAt(known.key, std::string("stands beside ") + found->key +
+      cursor.FailAt(known.key, std::string("is given with ") + found->key +
                                    ", expected one of them in an effect");
     }
     found = &known;

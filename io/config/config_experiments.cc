@@ -16,7 +16,7 @@ void CheckRecordAlone(const ConfigCursor& cursor) {
   const auto check = [&](const char* key) {
     if (!cursor.Find(key)) return;
     cursor.FailAt(key,
-                  "stands beside a record, which gives it; expected either record or published "
+                  "is given with a record, which gives it too; expected either record or published "
                   "numbers (frequency_hz, phase_deg, gain, ...)");
   };
   for (const char* const key : kNeededNumbers) check(key);

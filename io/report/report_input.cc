@@ -298,7 +298,7 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
   }
   ReadPublishedLines(input);
   Try(input, "records.yaml", "simulate", [&](const auto& path) {
-    // The records that were analysed are no simulation to set beside themselves.
+    // If the config is this very records.yaml, its records would be compared with themselves.
     if (input.config && std::filesystem::weakly_canonical(input.config->source) ==
                             std::filesystem::weakly_canonical(path)) {
       return;

@@ -7,7 +7,8 @@
 namespace howl {
 namespace {
 
-// What states the problem, beside its experiments: the records are of the same one.
+// The sections of the config that state the problem, in addition to its experiments; they are
+// copied because the records belong to the same problem.
 constexpr const char* kSections[] = {"residuals", "solver", "family", "analysis"};
 
 // As written, but for names of experiments that are not among the records.

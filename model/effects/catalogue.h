@@ -14,9 +14,9 @@ namespace howl {
 
 using EffectPointer = std::shared_ptr<const Effect>;
 
-// Beside a base with these modes. With one mode there is none to detune.
+// The effects for a base with so many modes. With one mode there is none to detune.
 std::vector<EffectPointer> Catalogue(int modes = 2, double harmonic_ratio = kPaperHarmonicRatio);
-// With the forms that only a simulation tells apart.
+// The catalogue with the forms that only a simulation can tell apart.
 std::vector<EffectPointer> SimulationCatalogue();
 
 std::vector<EffectPointer> QSensorLowPass();

@@ -236,7 +236,7 @@ TEST(Report, SaysWhatGoesWithAnUnknown) {
   EXPECT_EQ(result.status, 0) << result.err;
   const std::string page = ReadFile(folder.path() / "report.html");
   EXPECT_NE(page.find("unknown</strong> (probability 0.93)"), std::string::npos);
-  EXPECT_NE(page.find("p_clipping is seen in the samples"), std::string::npos);
+  EXPECT_NE(page.find("p_clipping is detected in the samples"), std::string::npos);
   EXPECT_NE(page.find("p_clipping+channel_skew+mode_detuning together"), std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-// Saturated p put back, and what is then seen beside the saturation.
+// Saturated p is declipped, and other effects are then found given the saturation.
 #include "diagnosis/declip/declip.h"
 
 #include <gtest/gtest.h>

@@ -62,7 +62,7 @@ TEST(LongReference, WhatBothHaveIsNotNamed) {
   const Diagnosis same = Diagnose(rig, options);
   EXPECT_EQ(same.kind, VerdictKind::kNone) << same.effect;
 
-  // The rig has a skew besides.
+  // The rig has a skew in addition.
   SkewQ(&rig, 2e-4);
   const Diagnosis skewed = Diagnose(rig, options);
   ASSERT_EQ(skewed.kind, VerdictKind::kEffect);

@@ -253,7 +253,7 @@ std::vector<Malformed> Cases() {
       {"MWithOneMode", kGood + "parameters: {M: {initial: 2e4}}\n", 3, "parameters.M",
        "the model has one", "modes: 2"},
       {"BothMs", kGood + "model: {modes: 2}\nparameters: {M: {}, M_over_N: {}}\n", 4,
-       "parameters.M_over_N", "stands beside M", "only one"},
+       "parameters.M_over_N", "is given with M", "only one"},
       {"UnknownExperiment", kGood + "residuals:\n  omega_prior:\n    experiments: [exp1, exp2]\n",
        5, "residuals.omega_prior.experiments[1]", "\"exp2\" is no experiment", "exp1"},
       {"FormWhereThereIsNone", kGood + "residuals: {tau_prior: {form: full}}\n", 3,
@@ -262,7 +262,7 @@ std::vector<Malformed> Cases() {
        "residuals.gain_equality.std_deg", "not a known key", "std_relative"},
       // Records.
       {"RecordAndNumbers", Experiment("gain: 2\n    record: {file: a.csv, sampling_hz: 5000}"), 4,
-       e0 + ".gain", "stands beside a record", "either record or published numbers"},
+       e0 + ".gain", "is given with a record", "either record or published numbers"},
       {"RecordMissing", Experiment("record:\n      sampling_hz: 5000\n      file: absent.csv"), 6,
        e0 + ".record.file", "there is no file", "relative to the config's folder"},
       {"RecordIsFolder", Experiment("record: {file: ., sampling_hz: 5000}"), 4, e0 + ".record.file",

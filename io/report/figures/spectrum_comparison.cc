@@ -1,5 +1,5 @@
 // Figure 11 of the paper: measured and simulated power spectra of p. Where there is no measured
-// record, the simulated one stands beside the measured frequencies.
+// record, the simulated one is drawn with the measured frequencies.
 #include <cmath>
 
 #include "estimation/analysis/spectrum.h"
