@@ -1,4 +1,4 @@
-// What published characteristics alone say of the lag of the q sensor, without a record.
+// The lag of the q sensor that published characteristics alone allow, without a record.
 //
 // A sensor that makes recorded q lag true q by lambda at the cycle f makes p seem to lead by as
 // much, and q too small if it is a first-order low-pass. With Delta and g as published (the
@@ -62,11 +62,11 @@ struct TableDiagnosis {
   Diagnosis diagnosis;                       // verdict: unknown
 };
 
-// Of this experiment, at its own cycle.
+// lag_deg: the lag of this experiment at its own cycle.
 double DelayAtLag(const Experiment& experiment, double lag_deg);
 bool AgreesAtLag(const Experiment& experiment, double lag_deg, const TableLimits& limits);
 
-// At least one experiment has a line.
+// At least one experiment must have a line.
 TableDiagnosis DiagnoseTable(const std::vector<Experiment>& experiments, const TableLimits& limits);
 
 }  // namespace howl

@@ -1,12 +1,12 @@
 // From evidence to belief: how probable it is that nothing is wrong, and that what is wrong is not
-// in the catalogue. Both are logistic in what the best candidate takes off the likelihood, in what
-// free slack still takes off after it, and in the gap that it leaves on held-out experiments.
+// in the catalogue. Both are logistic in the best candidate's gain, in the gain that free slack
+// still has after it, and in the gap that it leaves on held-out experiments.
 #ifndef HOWL_DIAGNOSIS_VERDICT_H_
 #define HOWL_DIAGNOSIS_VERDICT_H_
 
 namespace howl {
 
-// Slack in cut B (slack.h) on rigs without an effect, where p's noise is strong: at most.
+// The largest slack in cut B (slack.h) on rigs without an effect where p's noise is strong.
 inline constexpr double kFlameAllowance = 80.0;
 
 struct Evidence {
@@ -32,7 +32,7 @@ struct Belief {
 
 Belief Weigh(const Evidence& evidence);
 
-// The slack beyond what rigs leave whose effect's form is only nearly right.
+// The slack beyond what is left on rigs whose effect has a form that is only nearly right.
 double Unexplained(const Evidence& evidence);
 
 // How fast the odds of a candidate fall with its distance to the best: models are never exact, so
@@ -44,7 +44,7 @@ double Temperature(double largest_gain);
 // is NaN where there is nothing to compare.
 bool IsNoBetterThanPlacebo(double shrinkage, double placebo_shrinkage);
 
-// The doubt that such a fact leaves: that what is wrong is not in the catalogue.
+// The probability that what is wrong is not in the catalogue, given such a fact.
 inline constexpr double kUnexplainedFact = 0.9;
 
 // Gains in cut B below this may be noise: where p's is as strong as a hundredth of its amplitude,

@@ -20,7 +20,7 @@ namespace howl {
 // The unclipped samples of one experiment's p.
 class UnclippedSamples {
  public:
-  // recorded: outlives this.
+  // recorded must outlive this.
   explicit UnclippedSamples(const CutRecord& recorded);
 
   // Recorded less modelled p, less its mean over the unclipped samples. filled: the same experiment
@@ -48,7 +48,7 @@ struct PlateauFit {
   double cost = 0.0;                   // half the sum above; n is the number of unclipped samples
 };
 
-// filled: of each experiment. threads: 0 for as many as there are.
+// filled: one record for each experiment. threads: 0 for as many as the machine has.
 PlateauFit FitUnclippedSamples(const std::vector<UnclippedSamples>& experiments,
                                const std::vector<CutRecord>& filled, const Effect& effect,
                                PlateauFit start, int threads);

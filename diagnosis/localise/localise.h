@@ -1,8 +1,9 @@
 // The place of a gap that no effect of the catalogue explains: each block of the loop in turn is
 // given slack (free_slack.h, free_map.h), base and slack are fitted together, and the block whose
-// slack takes most off the likelihood, parameters paid for, is the place. What is no fit: coherent
-// lines by the ratio that they leave over in the two cuts (coherent_lines.h); fluctuations of the
-// flame's answer in phase (gain: flame) or in quadrature (delay); few levels and sharp edges of a
+// slack gains most, less the price of its parameters, is the place. Some places are found without a
+// fit: that of coherent lines by the ratio of what they leave over in the two cuts
+// (coherent_lines.h); that of fluctuations of the flame's response in phase (gain: flame) or in
+// quadrature (delay); that of few levels and sharp edges of a
 // channel, detected in its samples.
 #ifndef HOWL_DIAGNOSIS_LOCALISE_LOCALISE_H_
 #define HOWL_DIAGNOSIS_LOCALISE_LOCALISE_H_
@@ -23,7 +24,7 @@ struct BlockSlack {
   double high_hz = 0.0;
 };
 
-// Every form of every block; nothing in it is random.
+// Tries every form of every block; nothing in it is random.
 std::vector<BlockSlack> Localise(const AttemptContext& at, const std::vector<CoherentLine>& lines,
                                  const LineOrigin& origin, const GainFluctuation& fluctuation,
                                  int threads);
