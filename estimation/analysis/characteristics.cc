@@ -59,9 +59,9 @@ Peak FindPeak(const CrossSpectrum& spectrum, const CharacteristicsOptions& optio
   return peak;
 }
 
-// Of the floor beside the peak: the median incoherent power of p over its median power, over the
-// bins of the floor's running median outside the peak's main lobe. With nu averages a coherence of
-// zero comes out as 1 / nu, which is taken out.
+// The incoherent share of the floor next to the peak: the median incoherent power of p over its
+// median power, over the bins of the floor's running median outside the peak's main lobe. With nu
+// averages a coherence of zero comes out as 1 / nu, which is corrected for.
 double IncoherentShare(const CrossSpectrum& spectrum, double frequency_hz) {
   constexpr int kReach = 30;  // bins, as NoiseFloor's
   const double nu = spectrum.degrees_of_freedom;

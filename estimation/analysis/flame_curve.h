@@ -68,8 +68,8 @@ inline constexpr int kMeanCycleHarmonics = 5;
 struct FlameCurveOptions {
   int bins = 40;
   double fit_range = 0.9;  // of X
-  // 1: (4) as it stands. The k-th harmonic of p counts k^2-fold in the slope at zero: a flame that
-  // saturates hard is felt up to the ninth.
+  // 1: (4) as published. The k-th harmonic of p counts k^2-fold in the slope at zero, so that with
+  // a flame that saturates hard harmonics up to the ninth matter.
   int max_harmonic = 9;
 };
 
@@ -78,7 +78,8 @@ FlameCurve EstimateFlameCurve(const Record& record, const CrossSpectrum& spectru
                               const Characteristics& cycle, double tau_s,
                               const FlameCurveOptions& options = {});
 
-// |L Phi'(0)| at the limit cycle with |G| = gain (1b): gain 2 pi f |Phi'(0)|. Independent errors.
+// |L Phi'(0)| at the limit cycle with |G| = gain (1b): gain 2 pi f |Phi'(0)|. The errors of gain,
+// frequency and slope count as independent.
 Estimate LoopGainFromSlope(const Estimate& gain, const Estimate& frequency_hz,
                            const Estimate& flame_slope);
 

@@ -15,8 +15,8 @@
 
 namespace howl {
 
-// s_r^2 in (units of p per second)^2. Blocks of block_s seconds at frequency_hz; frequencies up to
-// top_hz count.
+// s_r^2 in (units of p per second)^2, for blocks of block_s seconds at frequency_hz; frequencies up
+// to top_hz count.
 double DitherVariance(const CrossSpectrum& spectrum, double frequency_hz, double block_s,
                       double top_hz);
 

@@ -1,4 +1,4 @@
-// What an instrument, a probe or a camera, makes of a signal:
+// The response of an instrument, such as a probe or a camera:
 //
 //   recorded(s) = H(s) true(s),   s = 2 pi j f in rad/s
 //
@@ -19,7 +19,7 @@ namespace howl {
 
 class InstrumentResponse {
  public:
-  // Nothing on an error, which is then told.
+  // No value on a mistake, whose description is then written to the argument.
   static std::optional<InstrumentResponse> Parse(std::string_view text, FormulaError& error);
 
   // At least two rows: frequencies that increase, magnitudes above zero, all finite. From row to
@@ -31,7 +31,7 @@ class InstrumentResponse {
   // Not finite where a formula has no value.
   std::complex<double> At(double frequency_hz) const;
 
-  // The ends of a table, in Hz; nothing for a formula.
+  // The ends of a table in Hz; no value for a formula.
   struct Band {
     double low_hz = 0.0;
     double high_hz = 0.0;

@@ -70,9 +70,9 @@ struct TransferBand {
   }
 };
 
-// Where the search starts with two modes: where the second adds no more than a share at the limit
-// cycle, (5b). Elsewhere the two may have changed places: a mode at omega is as well a second mode
-// at r times omega / r.
+// The search with two modes starts where the second adds no more than a share at the limit cycle,
+// (5b). Elsewhere the two may have changed places: a mode at omega is as well a second mode at r
+// times omega / r.
 struct FirstModeCarries {
   double frequency_hz = 0.0;  // of the limit cycle
   double second_mode_share_max = std::numeric_limits<double>::infinity();

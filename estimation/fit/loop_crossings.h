@@ -21,8 +21,8 @@ struct ObservedCrossing {
   double observed_gain = 0.0;    // |L Phi'(0)| there; NaN where the flame slope is not known
 };
 
-// In the order of frequency, up to the end of the transfer's band (estimation/analysis/transfer.h)
-// or a little beyond the highest line.
+// The crossings in the order of frequency, up to the end of the transfer's band
+// (estimation/analysis/transfer.h) or a little beyond the highest line.
 std::vector<ObservedCrossing> LoopCrossings(const Experiment& experiment, const LoopModel& model,
                                             const ModelSpec& spec);
 
