@@ -37,7 +37,7 @@ std::string Key(const Config& config, const Options& options) {
   return "howl.bounds " + std::string(Version()) + " " + std::to_string(hash);
 }
 
-// How many of the state's searches are damaged, which begin anew; nothing where there is no state
+// How many of the state's searches are damaged, which begin anew; no value where there is no state
 // of this problem.
 std::optional<std::size_t> LoadState(const std::filesystem::path& path, const std::string& key,
                                      Enclosure& enclosure) {

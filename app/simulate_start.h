@@ -11,7 +11,7 @@
 
 namespace howl {
 
-// The cycle nearest to the one that was observed; nothing where the loop has none.
+// The cycle nearest to the one that was observed; no value where the loop has none.
 std::optional<LimitCycle> ObservedCycle(const ClosedLoop& model, double frequency_hz);
 
 struct SimulationOrigin {

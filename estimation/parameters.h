@@ -1,5 +1,5 @@
-// The loop's free parameters: which are shared by all experiments, which each experiment has to
-// itself, where the search starts, and the guard rails it keeps to.
+// The loop's free parameters: which are shared by all experiments, which each experiment has of its
+// own, where the search starts, and the guard rails that it keeps to.
 #ifndef HOWL_ESTIMATION_PARAMETERS_H_
 #define HOWL_ESTIMATION_PARAMETERS_H_
 
@@ -59,7 +59,7 @@ struct ModelSpec {
   const ParameterSpec& operator[](ParameterKind kind) const {
     return parameters[static_cast<std::size_t>(kind)];
   }
-  // What holds for an experiment: its own, or what holds for all.
+  // The specification for an experiment: its own, or that for all.
   const ParameterSpec& Of(ParameterKind kind, std::string_view experiment) const;
   bool Uses(ParameterKind kind) const {
     if (kind == ParameterKind::kM) return modes == 2 && !second_mode_relative;

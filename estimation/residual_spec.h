@@ -1,4 +1,4 @@
-// Which residuals a joint fit has, how heavy each is, and on which experiments it acts. The
+// Which residuals a joint fit has, the weight of each, and on which experiments it acts. The
 // equations are in estimation/residuals/, one file each.
 #ifndef HOWL_ESTIMATION_RESIDUAL_SPEC_H_
 #define HOWL_ESTIMATION_RESIDUAL_SPEC_H_

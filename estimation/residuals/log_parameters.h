@@ -13,7 +13,7 @@
 
 namespace howl {
 
-// What the fourth parameter block holds, and the ratio of the modes' frequencies.
+// The kind of the fourth parameter block, and the ratio of the modes' frequencies.
 struct SecondMode {
   double harmonic_ratio = kPaperHarmonicRatio;
   bool relative = false;  // log(M / N) instead of log M

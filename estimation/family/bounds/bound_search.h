@@ -1,4 +1,4 @@
-// Where the search for one bound is. For the quantity sign * value
+// The state of the search for one bound. For the quantity sign * value
 // (estimation/family/bounds/bound_quantity.h), over all members,
 //
 //   inner  <=  largest sign * value  <=  outer  =  max(inner, finest_reach, reach of the heap)
@@ -49,7 +49,7 @@ void AddBothEnds(const BoundContext& context, BoundQuantity quantity,
 // to split, and by those of its heap.
 double OuterSoFar(const BoundSearch& search);
 
-// By the reach of its cell.
+// Orders cells of the heap by their reach.
 void PushCell(BoundSearch& search, Cell&& cell);
 Cell PopFarthestCell(BoundSearch& search);
 

@@ -1,5 +1,5 @@
-// Where to halve a cell in the search for a bound. A variable's width counts relative to the root
-// cell's,
+// Chooses the variable in which a cell is halved in the search for a bound. A variable's width
+// counts relative to the root cell's,
 //
 //   score = weight * width / root width      (of the logarithms, where the root spans decades)
 //

@@ -22,7 +22,7 @@ struct BoundLimits {
 
 double BoundTolerance(const BoundLimits& limits, const BoundSearch& search);
 
-// The first step looks for members and pushes the root cell. Not for a search that is done.
+// The first step looks for members and pushes the root cell. The search must not be done.
 void StepBound(const BoundContext& context, const BoundLimits& limits, BoundSearch& search);
 
 }  // namespace howl

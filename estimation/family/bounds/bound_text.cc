@@ -151,8 +151,8 @@ bool ReadHead(std::istream& in, Head& head) {
   return in >> magic >> head.searches >> head.experiments && magic == kMagic;
 }
 
-// The text of the next search; nothing where it is not what was written. Where a length is damaged,
-// so are all that follow: where the next begins is not known.
+// The text of the next search; no value where it is not what was written. Where a length is
+// damaged, so are all that follow: where the next begins is not known.
 std::optional<std::string> NextSearch(std::istream& in) {
   std::size_t size = 0;
   std::uint64_t hash = 0;

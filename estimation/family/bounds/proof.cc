@@ -88,7 +88,7 @@ class Prover {
     return widest;
   }
 
-  // What contraction leaves of the cell's halves, split where it leaves least; nothing where the
+  // What contraction leaves of the cell's halves, split where it leaves least; no value where the
   // cell is too fine to split.
   std::optional<std::vector<Cell>> Split(Cell& cell) const {
     std::optional<std::vector<Cell>> best;

@@ -160,7 +160,7 @@ struct MemberDrawer::Impl {
   }
 
   // arg(N U_1), where the second mode adds at most its share s to it, (5b): arg G to within asin s.
-  // Nothing where the share says nothing.
+  // No value where the share says nothing.
   std::optional<Range> FirstModePhase(const Range& phase_rad) const {
     const double share = problem.test.second_mode_share_max;
     if (!(share < 1.0)) return std::nullopt;
