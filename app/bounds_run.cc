@@ -28,7 +28,7 @@ constexpr double kSecondsToSaveOne = 2e-5;
 
 std::filesystem::path StatePath(const Options& options) { return options.out / "bounds.state"; }
 
-// What the state belongs to: this config, seed and program.
+// Identifies what the state belongs to: this config, seed and program.
 std::string Key(const Config& config, const Options& options) {
   std::ifstream file(config.source, std::ios::binary);
   std::stringstream text;

@@ -1,4 +1,4 @@
-// Where a simulation comes from: the config's simulate.start and simulate.start_frequency_hz.
+// The start of a simulation by the config's simulate.start and simulate.start_frequency_hz.
 #ifndef HOWL_APP_SIMULATE_START_H_
 #define HOWL_APP_SIMULATE_START_H_
 

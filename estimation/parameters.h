@@ -21,7 +21,7 @@ inline constexpr std::array kParameterKinds = {ParameterKind::kOmega,  Parameter
                                                ParameterKind::kMOverN, ParameterKind::kTau};
 inline constexpr std::size_t kNumParameterKinds = kParameterKinds.size();
 
-// As in configs and files: "omega_hz", "xi", "N", "M", "M_over_N", "tau_s".
+// The name in configs and files: "omega_hz", "xi", "N", "M", "M_over_N", "tau_s".
 constexpr std::string_view ParameterName(ParameterKind kind) {
   constexpr std::array<std::string_view, kNumParameterKinds> kNames = {"omega_hz", "xi",   "N", "M",
                                                                        "M_over_N", "tau_s"};

@@ -42,7 +42,7 @@ static_assert(
     }(),
     "kResidualKinds lists the kinds in their order: names and specs are looked up by it");
 
-// As in configs.
+// The names in configs.
 constexpr std::string_view ResidualName(ResidualKind kind) {
   constexpr std::array<std::string_view, kNumResidualKinds> kNames = {
       "gain_equality",   "phase_equality", "limit_cycle_phase", "limit_cycle_gain",

@@ -15,7 +15,7 @@ namespace howl {
 struct Figure {
   std::string name;  // of its files
   std::string title;
-  std::string caption;  // what is seen, of which data
+  std::string caption;  // what the figure shows, of which data
   std::string
       paper_figure;  // the paper's figure that it answers to: "7"; empty where there is none
   std::string csv;

@@ -1,4 +1,4 @@
-// What `howl analyse` writes for a set of records:
+// The files that `howl analyse` writes for a set of records:
 //
 //   characteristics.csv  the paper's tables 2 and 3
 //   name,phi,frequency_hz,frequency_std_hz,phase_deg,phase_std_deg,gain,gain_std,
