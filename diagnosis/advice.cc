@@ -15,7 +15,7 @@ std::string Advice(const Diagnosis& diagnosis, bool model_free) {
     return "a stable operating point, or a loudspeaker's sweep, would give the transfer functions "
            "of both cuts without the cycle";
   }
-  // Alone or in a combination.
+  // True if the effect was found alone or in a combination.
   const auto has = [&](std::string_view id) {
     const auto names = [&](const std::string& effect) {
       return effect.find(id) != std::string::npos;

@@ -5,13 +5,13 @@
 namespace howl {
 namespace {
 
-// Wrong verdicts over all of their kind, on the rigs of the third and the fourth trial. Most of
-// what `none` misses is too small for the records.
+// The share of wrong verdicts among all of their kind, on the rigs of the third and the fourth
+// trial. Most effects that `none` misses are too small for the records.
 constexpr double kDoubtOfNone = 0.18;
 constexpr double kDoubtOfEffect = 0.08;
 constexpr double kDoubtOfModelFree = 0.02;
 constexpr double kDoubtOfUnknown = 0.07;
-// Of the doubt, what goes to the other two kinds; the rest to all effects alike.
+// The shares of the doubt that go to the other two kinds; the rest goes to all effects alike.
 constexpr double kToNone = 0.1;
 constexpr double kToUnknown = 0.35;
 

@@ -87,7 +87,7 @@ Search::Judgement Search::Judge() {
         TryDistinctEffects(at_, attempts_, units_, lines_, options_.threads);
     if (!combined.empty()) {
       const double p_value = attempts_[0].candidate.p_value;
-      // The best alone stays on top of a combination that may be spurious.
+      // The best alone keeps its place before a combination whose second may be spurious.
       const bool again = combined[0].candidate.effect == attempts_[0].candidate.effect;
       if (again) attempts_.erase(attempts_.begin());
       for (Attempt& each : combined) {
@@ -170,7 +170,7 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
   out.gap_floor = evidence.gap_floor;
   out.probability_none = belief.none;
   out.probability_unknown = (1.0 - belief.none) * belief.unknown;
-  // Against the first of a pair alone, what counts is what the second brings.
+  // The odds of a pair against its first effect alone depend on the gain of the second.
   const double temperature = Temperature(
       !attempts_.empty() && !attempts_[0].also.empty() ? attempts_[0].second_gain : evidence.gain);
   std::vector<double> weight;

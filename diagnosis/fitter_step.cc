@@ -18,8 +18,8 @@ constexpr std::size_t kFurtherStarts = 3;
 constexpr double kSameModeLogRatio = 0.3;
 constexpr int kRestartIterations = 4;
 constexpr double kRestartGain = 2.0;
-// Two modes the lower of which has no weight are one with a parameter more: that gains a nat or
-// two.
+// Two modes of which the lower has no weight are one mode with one parameter more, which gains a
+// nat or two.
 constexpr double kSecondModeGain = 20.0;
 constexpr int kSecondModeIterations = 8;  // the grid is farther from there
 
@@ -87,7 +87,7 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
       out.reduced_curvature.bottomRightCorner(d, d) +=
           h.bottomRightCorner(d, d) - out.mixed.transpose() * inner;
       out.reduced_gradient.tail(d) += g.tail(d) - inner.transpose() * out.local_gradient;
-      // Half the slope, as in g.
+      // Half the slope, as g is.
       const double leak_now = LeakJacobian(fit.values, at.acoustics, e);
       std::vector<double> moved = fit.values;
       for (Eigen::Index i = 0; i < d; ++i) {

@@ -10,8 +10,8 @@
 namespace howl {
 namespace {
 
-// What a second effect must bring. After a true first effect others bring 5 at most, while the
-// first's form fits (results/trial); it is never exact, so a share of what it brought counts too.
+// The gain that a second effect must bring. After a true first effect others bring 5 at most if the
+// first's form fits (results/trial). No form is exact, so a share of the first's gain counts too.
 constexpr double kSecondGain = 12.0;
 constexpr double kSecondShare = 0.003;
 constexpr double kNear = 4.0;  // temperatures of the odds (verdict.h)

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double kMost = 0.5;
 constexpr double kStart = 0.02;
-// Of the phase's waves over frequency: no base parameter bends a response like that.
+// Periods of the phase over frequency: no base parameter changes a response in such a way.
 constexpr double kShortestPeriod_hz = 150.0;
 constexpr double kLongestPeriod_hz = 700.0;
 
-// Over the whole range of operating points: no experiment tells of the next.
+// Turns of the phase over the whole range of operating points: no experiment tells of the next.
 constexpr double kFewestTurns = 3.0;
 constexpr double kMostTurns = 12.0;
 

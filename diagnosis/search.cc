@@ -36,15 +36,15 @@ std::vector<EffectForms> Units(const DiagnosisOptions& options) {
   return units;
 }
 
-// A reference has what its operating points have in their delays: what differs from it is the
-// rig's.
+// A reference contains the differences of its operating points' delays, so that what differs from
+// it is due to the rig.
 BaseModel ModelOf(const DiagnosisOptions& options) {
   BaseModel model = options.model;
   if (!options.reference.empty()) model.own_delays = false;
   return model;
 }
 
-// Starts of the search over all forms.
+// The number of starts of the search over all forms.
 std::size_t WorkOf(const EffectForms& forms) {
   std::size_t work = 0;
   for (const EffectPointer& form : forms) {

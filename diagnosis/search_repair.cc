@@ -92,7 +92,7 @@ void Search::RepairPressure() {
 }
 
 // The likelihood is that of what was recorded: samples that a fit declipped leave no residual under
-// that fit. So fits to records that each declipped itself can be compared.
+// that fit. Fits to records that each declipped itself can therefore be compared.
 Search::RedeclippedFit Search::Redeclip(const EffectFit& under_base) const {
   std::vector<DiagnosisExperiment> experiments = repair_->experiments;
   Declipped whole = DeclipAnew(repair_->recorded, records_, under_base, options_.threads);

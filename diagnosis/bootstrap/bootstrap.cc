@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kLevel = 0.05;
 constexpr std::size_t kFewReplicates = 8;
-// The best of twenty candidates is looked at, and eight replicates give its deviation roughly.
+// Six standard deviations, because the candidate is the best of twenty, and eight replicates give
+// its deviation only roughly.
 constexpr double kDeviations = 6.0;
 
 // The memory's key of a replicate: all that it depends on in addition to the records.

@@ -28,7 +28,7 @@ Attempt TryDeclaredLine(const AttemptContext& at, const DeclaredEffect& effect,
     out.candidate.parameters.push_back(WithoutError("rel", line.relative_amplitude, ""));
     out.candidate.parameters.push_back(WithoutError("hz", line.frequency_hz, "Hz"));
   }
-  // As many as a catalogue's line has.
+  // As many parameters as a line of the catalogue has.
   out.parameters = 2.0;
   return out;
 }

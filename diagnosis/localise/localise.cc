@@ -16,7 +16,7 @@ namespace {
 constexpr double kBandOfCycle = 0.2;  // width, of the cycle's frequency
 constexpr double kBandShare = 0.1;    // of the largest band's gain
 
-// In bands of both cuts, what the fit takes off the base's squares.
+// The decrease of the base's squares by the fit, in bands of both cuts.
 void FindBand(const AttemptContext& at, const EffectFit& fit, BlockSlack* out) {
   const std::vector<CutRecord>& records = *at.records;
   const double width = kBandOfCycle * records[0].at.cycle_frequency_hz;
