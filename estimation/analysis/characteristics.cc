@@ -96,8 +96,8 @@ double SecondDifferenceVariance(const std::vector<double>& x) {
   return sum / static_cast<double>(x.size());
 }
 
-// The phase of the cycle from p's fundamental, improved by every other component whose phase keeps
-// to it: component h of a channel shows h times the fundamental's phase plus a constant.
+// The phase of the cycle from p's fundamental, improved by every other component that is locked to
+// it: component h of a channel has h times the fundamental's phase plus a constant.
 void ImprovePhase(std::span<const std::pair<int, Complexes>> others, std::vector<double>& phase) {
   const std::vector<double> base = phase;
   double total = 1.0 / std::max(SecondDifferenceVariance(base), 1e-30);

@@ -37,7 +37,7 @@ bool GrowsUpwards(const ChangeTarget& target) {
   return target.kind == ChangeKind::kCondition ? !IsLeast(target.condition) : target.is_upper;
 }
 
-// More where the last round's search had missed a member.
+// The effort grows where the last round's search had missed a member.
 Effort EffortOf(int round) {
   return round == 0 ? Effort::kQuick : (round == 1 ? Effort::kUsual : Effort::kThorough);
 }
@@ -164,7 +164,7 @@ std::optional<double> ChangeSearch::FromOff() {
 }
 
 double ChangeSearch::Bisect(double wide, Effort effort) {
-  // A local search mostly ends at the edge: then one look suffices.
+  // A local search mostly ends at the edge; then one evaluation suffices.
   double tight = Less(wide, 1.0 - kSearched);
   if (HasMember(tight, effort)) {
     wide = Nearer(tight);
@@ -176,7 +176,7 @@ double ChangeSearch::Bisect(double wide, Effort effort) {
     if (middle == tight || middle == wide) break;
     if (HasMember(middle, effort)) {
       wide = Nearer(middle);
-      // A member short of where a search had found none: that search had missed it.
+      // A member at a value where a search had found none shows that the search had missed it.
       if (std::abs(wide - value_) <= std::abs(tight - value_)) tight = value_;
     } else {
       tight = middle;

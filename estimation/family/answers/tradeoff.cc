@@ -72,7 +72,7 @@ LocalLeast LeastXiLocally(FamilyProblem problem, const std::vector<Member>& star
   return result;
 }
 
-// Members to start local searches from: with all the spread that is asked for anywhere.
+// Members from which local searches start, with the largest spread that is asked for.
 std::vector<Member> LocalStarts(const FamilyProblem& problem, double omega_spread,
                                 std::uint64_t seed) {
   constexpr std::size_t kStarts = 6;

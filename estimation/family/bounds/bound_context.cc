@@ -25,7 +25,7 @@ BoundContext::BoundContext(const FamilyProblem& family, std::uint64_t seed_of_dr
   base = (drawer ? EnumerateMembers(problem, *drawer, kBaseMembers, seed)
                  : EnumerateMembers(problem, kBaseMembers, seed))
              .members;
-  // A family too thin for draws at random to meet.
+  // The family may be too thin for draws at random to meet.
   if (base.empty() && !root_empty) {
     if (std::optional<Member> member = FindMemberLocally(problem)) base.push_back(*member);
   }

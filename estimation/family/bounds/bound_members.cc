@@ -15,7 +15,7 @@ constexpr std::size_t kLocalStarts = 2;
 
 Range Around(const Interval& x) { return {x.lower(), x.upper()}; }
 
-// The best choice of ends so far, with some of them changed.
+// The focus of the best member so far, with some of its ends changed.
 DrawFocus Mutated(BoundSearch& search) {
   DrawFocus focus = search.focus;
   constexpr double kEnds[] = {0.0, 1.0, 0.5};

@@ -58,7 +58,7 @@ class WidestVariables {
   std::array<Scored, kTrials> widest_{};
 };
 
-// What a variable is about, of an experiment: the scale of one that has no end.
+// A typical size of a variable of an experiment, which is the scale of a variable without an end.
 double Typical(const Experiment& experiment, CellVariable variable) {
   switch (variable) {
     case kCellOmega:
@@ -108,7 +108,7 @@ void OfferAll(const BoundContext& context, const BoundQuantity& quantity, Cell& 
   }
 }
 
-// The farther of what the variable's halves reach; -infinity where neither holds a member.
+// The farther reach of the variable's two halves; -infinity where neither can hold a member.
 double ReachWhenSplit(const BoundContext& context, const BoundQuantity& quantity, Cell& cell,
                       Interval& variable) {
   const Interval whole = variable;

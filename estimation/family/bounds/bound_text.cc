@@ -132,7 +132,7 @@ bool Read(std::istream& in, std::size_t experiments, BoundSearch& search) {
   return true;
 }
 
-// So that a damaged length asks for no memory.
+// A limit on lengths, so that a damaged length does not claim memory.
 std::size_t BytesLeft(std::istream& in) {
   const std::istream::pos_type here = in.tellg();
   in.seekg(0, std::ios::end);

@@ -157,8 +157,8 @@ std::optional<Member> LocalSearch::FromTransfer() const {
   for (const Experiment& experiment : problem.experiments) {
     if (!experiment.transfer_ellipsoid) return std::nullopt;
     const TransferVector& centre = experiment.transfer_ellipsoid->Centre();
-    // Where a transfer says nothing of the second mode its fit ends anywhere, at the least of sizes
-    // too, and no search comes back from there.
+    // Where a transfer does not determine the second mode, its fit may end anywhere, even at the
+    // smallest size, from which no search comes back.
     const double ln_M = experiment.transfer_ellipsoid->IsDetermined(3)
                             ? centre(3)
                             : centre(2) + std::log(kUnknownMOverN);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kWellInside = 0.9;  // of every tolerance, as chains like to begin
 
-// A long bent valley takes more than one search: each begins where the last one ended, for as long
-// as that brings it nearer.
+// A member found by a row of local searches. A long bent valley takes more than one: each begins
+// where the last one ended, for as long as that reduces the violation.
 std::optional<Member> FindMemberInSteps(const FamilyProblem& problem, const LocalSearch& search,
                                         const Member& start) {
   constexpr int kMostSearches = 10;
@@ -35,8 +35,9 @@ std::optional<Member> FindMemberInSteps(const FamilyProblem& problem, const Loca
   return std::nullopt;
 }
 
-// From a member of the rest of the test the ellipsoid is drawn in by steps, where it is too long in
-// one direction and too thin in the others to be reached at once.
+// A member found from one that passes the rest of the test, by shrinking the transfers' tolerance
+// in steps: the ellipsoid may be too long in one direction and too thin in the others to be reached
+// at once.
 std::optional<Member> ByNarrowing(const FamilyProblem& problem, Member member) {
   constexpr double kStep = 0.25;
   double distance = 0.0;
