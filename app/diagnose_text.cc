@@ -38,7 +38,8 @@ std::string MovedText(const Diagnosis& diagnosis) {
   return text.empty() ? text : text + "\n";
 }
 
-// Said where the best candidate stands at a bound: its size is then the search's, not the data's.
+// The note where the best candidate is at a bound: its size then comes from the search, not from
+// the data.
 std::string BoundText(const Diagnosis& diagnosis) {
   if (diagnosis.candidates.empty()) return "";
   const Candidate& best = diagnosis.candidates.front();

@@ -10,8 +10,8 @@
 namespace howl {
 namespace {
 
-// What was recorded, before what is known of the instruments is taken out of it: a filter moves the
-// samples that were at the converter's end.
+// The record before known instruments are removed from it, because a filter moves the samples that
+// were at the converter's end.
 Record AsRecorded(const RecordSpec& spec, const Config& config, int line, const Record& record) {
   if (!spec.pressure_response && !spec.heat_release_response && spec.delay_s == 0.0) return record;
   RecordSpec plain = spec;

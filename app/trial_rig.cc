@@ -43,7 +43,7 @@ RigTemplate MakeRigTemplate(const Config& config, const Options& options) {
   rig_template.settle_s = times.settle_s;
   const std::vector<NamedRecord> records = LoadRecords(config);
   if (!records.empty()) {
-    // The shortest: a diagnosis is no better than that allows.
+    // The shortest duration, because it limits the diagnosis.
     rig_template.duration_s = 1e9;
     rig_template.sampling_hz = records.front().record.sampling_hz;
     for (const NamedRecord& each : records) {
@@ -58,7 +58,7 @@ RigTemplate MakeRigTemplate(const Config& config, const Options& options) {
   rig_template.sensor_noise = NotNegative(options, "--sensor-noise");
   const int all = static_cast<int>(rig_template.experiments.size());
   if (const auto wanted = options.Count("--experiments", 1, all)) {
-    // Spread over the range.
+    // The chosen experiments are spread over the range.
     std::vector<Experiment> chosen;
     for (int i = 0; i < *wanted; ++i) {
       const double place = *wanted > 1 ? static_cast<double>(i) * (all - 1) / (*wanted - 1) : 0.0;

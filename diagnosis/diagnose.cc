@@ -26,16 +26,16 @@ class SecondMemory final : public FitMemory {
   FitMemory* first_;
 };
 
-// ln 19, in nats: at 19 to 1 the effect is the better word.
+// ln 19, in nats: the effect is preferred to own delays at odds of 19 to 1.
 constexpr double kLogOddsToAccuse = 2.944438979166440;
 
 }  // namespace
 
 bool DelaysDiffer(double own_delays_gain) { return own_delays_gain > DetectionGain(true); }
 
-// Delays of their own that say as much as the best effect take its place: a rig is not accused of
-// what may be no more than its operating points' own delays. Where the effect says more, they are
-// asked for in addition to it.
+// Own delays that gain as much as the best effect replace it: a rig is not accused of what may be
+// no more than the different delays of its operating points. Where the effect gains more, own
+// delays are tried in addition to it.
 double Search::OwnDelaysGain() const {
   std::vector<CutRecord> records = records_;
   for (CutRecord& record : records) record.model.own_delays = true;

@@ -56,13 +56,13 @@ void ReadNumbers(const ConfigCursor& cursor, Experiment& experiment) {
   }
 }
 
-// simulate writes NAME.csv beside what the other commands write.
+// simulate writes NAME.csv into the folder of the other commands' results.
 void CheckName(const ConfigCursor& cursor, const std::string& name) {
   if (IsResultsName(name)) {
     cursor.FailAt("name", "\"" + name + "\" is the name of a file of results, " + name +
                               ".csv, expected another name");
   }
-  // In the name of a record's file this would be taken from the environment.
+  // In the name of a record's file `${` would be replaced from the environment.
   if (name.find("${") != std::string::npos) {
     cursor.FailAt("name", "\"" + name + "\" has ${, expected a name without it");
   }

@@ -28,7 +28,8 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
     high = std::max(high, point->frequency_hz.value);
   }
   const std::vector<double> grid = LinearGrid(0.6 * low, 1.5 * high, kGridPoints);
-  // Beside the fit, the member whose omega varies least: the paper's first qualitative condition.
+  // In addition to the fit, the member whose omega varies least, by the paper's first qualitative
+  // condition.
   std::optional<std::size_t> steady;
   if (input.members) steady = input.members->Thinned(2).front();
   CsvWriter csv("curve,frequency_hz,gain,phase_deg");

@@ -1,4 +1,4 @@
-// Figure 4 of the paper: the delay of (3) beside the period of the limit cycle.
+// Figure 4 of the paper: the delay of (3) with the period of the limit cycle.
 #include <cmath>
 
 #include "estimation/analysis/half_width.h"

@@ -44,7 +44,7 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   if (!(low < high)) return std::nullopt;
   const VanishingPhi vanishing = Vanishing(input);
   const double range = high - low;
-  // A crossing far away says only that the gain does not change: it is told, not drawn.
+  // A crossing far away shows only that the gain does not change, so it is stated and not drawn.
   const bool near = vanishing.available && std::isfinite(vanishing.phi) &&
                     vanishing.phi > low - 1.5 * range && vanishing.phi < high + 1.5 * range;
   double left = low - 0.06 * range;

@@ -38,7 +38,7 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   const double loop_gain = std::abs(slope) * std::abs(RateAt(model, reference->frequency_hz.value));
   const double max_hz = 4.2 * reference->frequency_hz.value;
   CsvWriter csv("curve,re,im,frequency_hz,label");
-  // Of the fit: members that run far away leave the picture.
+  // The range is that of the fit; members that go far beyond it leave the picture.
   double left = -1.2, right = 1.0, bottom = -1.0, top = 1.0;
   const auto add = [&](const std::string& curve, const LoopModel& loop, double step_deg) {
     for (const NyquistPoint& point : NyquistCurve(loop.Loop(), slope, max_hz, step_deg)) {
