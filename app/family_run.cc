@@ -131,13 +131,14 @@ void AskProfile(const Config& config, const Options& options, FamilyRun& run) {
 }
 
 void MeasureTransfer(const Options& options, FamilyRun& run) {
-  constexpr std::size_t kSeen = 400;
+  constexpr std::size_t kMembersWithout = 400;
   if (!run.problem.HasTransfer()) return;
   TransferReport report;
   report.volume =
       MeasureTransferVolume(run.problem, {.seed = options.seed, .threads = options.threads});
   report.without =
-      EnumerateMembers(WithoutTransfer(run.problem), kSeen, options.seed, options.threads).members;
+      EnumerateMembers(WithoutTransfer(run.problem), kMembersWithout, options.seed, options.threads)
+          .members;
   run.transfer = std::move(report);
 }
 

@@ -22,11 +22,11 @@
 
 namespace howl {
 
-enum class LoopGainReason : std::uint8_t { kSteeperInCycle, kMemory, kNoise, kNotSeen };
+enum class LoopGainReason : std::uint8_t { kSteeperInCycle, kMemory, kNoise, kNotExplained };
 std::string_view LoopGainReasonName(LoopGainReason reason);  // as in files
 
 struct LowLoopGain {
-  LoopGainReason reason = LoopGainReason::kNotSeen;
+  LoopGainReason reason = LoopGainReason::kNotExplained;
   double third_harmonic = 0.0;   // Re r_3
   double turn_deg = 0.0;         // arg r_3: zero where r_3 > 0 without memory
   double shape_gain = 1.0;       // 1 - 3 Re r_3 + 5 Re r_5
