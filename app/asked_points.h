@@ -10,8 +10,9 @@ namespace howl {
 
 inline constexpr std::size_t kMostAskedPoints = 10000;
 
-// As they stand, FROM:TO:STEP with FROM + k STEP up to TO. Throws UsageError for what is no number,
-// a step that is not positive, a range that runs down, and more points than kMostAskedPoints.
+// The points in the order given; FROM:TO:STEP gives FROM + k STEP up to TO. Throws UsageError for
+// what is no number, a step that is not positive, a range that runs down, and more points than
+// kMostAskedPoints.
 std::vector<double> ParseAskedPoints(const std::string& text);
 
 }  // namespace howl

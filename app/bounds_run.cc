@@ -28,7 +28,7 @@ constexpr double kSecondsToSaveOne = 2e-5;
 
 std::filesystem::path StatePath(const Options& options) { return options.out / "bounds.state"; }
 
-// What the state belongs to: this config, seed and program.
+// Identifies what the state belongs to: this config, seed and program.
 std::string Key(const Config& config, const Options& options) {
   std::ifstream file(config.source, std::ios::binary);
   std::stringstream text;
@@ -37,8 +37,8 @@ std::string Key(const Config& config, const Options& options) {
   return "howl.bounds " + std::string(Version()) + " " + std::to_string(hash);
 }
 
-// How many of the state's searches are damaged, which begin anew; nothing where there is no state
-// of this problem.
+// The number of the state's searches that are damaged and begin anew; no value where there is no
+// state of this problem.
 std::optional<std::size_t> LoadState(const std::filesystem::path& path, const std::string& key,
                                      Enclosure& enclosure) {
   std::ifstream file(path, std::ios::binary);
@@ -106,7 +106,7 @@ void RunBounds(const Config& config, const Options& options, Enclosure& enclosur
     was_shown = shown;
   }
   if (was_shown) std::fprintf(stderr, "\r%60s\r", "");
-  // A search that was over before its first save is not worth a file.
+  // A search that ended before its first save needs no file.
   if (was_saved) SaveState(path, key, enclosure);
 }
 

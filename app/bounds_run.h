@@ -17,7 +17,7 @@ void RunBounds(const Config& config, const Options& options, Enclosure& enclosur
 // Throws Interrupted when the user has asked for a stop: between the steps that follow the search.
 void StopIfInterrupted(const Options& options);
 
-// When the results are written.
+// Removes the state file; to be called when the results are written.
 void ForgetBounds(const Options& options);
 
 }  // namespace howl

@@ -1,4 +1,4 @@
-// What each command can do with a config, as far as it shows without a fit or a search.
+// What each command can do with a config, as far as that is known without a fit or a search.
 #ifndef HOWL_APP_CHECK_ABILITIES_H_
 #define HOWL_APP_CHECK_ABILITIES_H_
 

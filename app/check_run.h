@@ -1,4 +1,5 @@
-// What `howl check` finds, before it is printed and written: no fit, no search, nothing random.
+// The findings of `howl check` before they are printed and written. There is no fit or search in
+// it, and nothing random.
 #ifndef HOWL_APP_CHECK_RUN_H_
 #define HOWL_APP_CHECK_RUN_H_
 

@@ -1,4 +1,4 @@
-// Another program, run to its end.
+// Runs another program to its end.
 #ifndef HOWL_APP_CHILD_PROCESS_H_
 #define HOWL_APP_CHILD_PROCESS_H_
 
@@ -14,7 +14,7 @@ struct ChildResult {
   std::string err;
 };
 
-// `input` is the program's standard input. A wish to stop (interruption.h) ends the program too.
+// `input` is the program's standard input. An interruption (interruption.h) ends the program too.
 // May be called from several threads. Throws UserError where the program cannot be started.
 ChildResult RunChild(const std::vector<std::string>& words, const std::string& input);
 

@@ -21,7 +21,7 @@ struct Command {
   std::vector<OptionHelp> options;
   int (*run)(const Options&);
   bool writes_results = true;  // to the output folder, whose run.json then names the run
-  // What stands behind the command. "FILE..." is one or more, which are Options::files.
+  // The arguments after the command. "FILE..." is one file or more, which are Options::files.
   std::string operands = "CONFIG";
 
   bool TakesSeveral() const { return operands.ends_with("..."); }

@@ -36,7 +36,7 @@ namespace {
 
 constexpr int kMostOpenFiles = 8;  // a flag file that names itself has no end
 
-// What gflags' registry keeps pointers to, for as long as the program runs.
+// Objects to which gflags' registry keeps pointers as long as the program runs.
 struct OwnFlag {
   std::string name;
   std::string text;
@@ -82,7 +82,7 @@ std::vector<std::string> SplitAtCommas(const std::string& text) {
   return parts;
 }
 
-// Behind what an option that may be given several times has already.
+// Appends to the values that an option has already, if it may be given several times.
 std::string Joined(const OptionHelp& flag, const std::string& value) {
   if (!flag.value.ends_with("...")) return value;
   const std::string before =
@@ -100,7 +100,7 @@ std::string Expected(const OptionHelp& flag) {
 
 }  // namespace
 
-// Where a flag stands: on the command line, or at a line of a file.
+// The place of a flag: the command line, or a line of a file.
 struct CommandLine::Place {
   std::string file;
   int line = 0;
@@ -253,7 +253,7 @@ void CommandLine::ReadFile(const Place& place, const std::string& path) {
     if (first == std::string::npos || line[first] == '#') continue;
     line = line.substr(first, line.find_last_not_of(kBlank) + 1 - first);
     if (line[0] != '-') at.Fail(line, "expected --name=value, or a comment after #");
-    // --name value does as well.
+    // The form --name value is valid as well.
     const std::size_t blank = line.find_first_of(kBlank);
     const bool apart = blank < line.find('=');
     Read(at, apart ? line.substr(0, blank) : line, [&]() -> std::optional<std::string> {

@@ -2,8 +2,8 @@
 // within names, --noquiet; from a file (--flagfile), from the environment (--fromenv,
 // --tryfromenv); the later one holds.
 //
-// gflags' own parser ends the program with status 1 and several lines at a mistake. So the words
-// are taken apart here, each flag is checked, and gflags' registry then reads its value. A
+// At a mistake gflags' own parser ends the program with status 1 and several lines. Therefore the
+// words are parsed here, each flag is checked, and gflags' registry then reads its value. A
 // command's flags are registered once the command is known: those of others are mistakes, and two
 // commands may have flags of one name.
 #ifndef HOWL_APP_COMMAND_LINE_H_
@@ -26,8 +26,8 @@ const std::vector<OptionHelp>& CommonOptions();
 // The command of this name; throws UsageError, which names the nearest one.
 const Command& FindCommand(const std::string& name);
 
-// At most one in a process, for gflags has one registry. All throw UsageError, or UserError for
-// what stands in a flag file.
+// At most one object in a process, because gflags has one registry. All functions throw UsageError,
+// or UserError for a mistake in a flag file.
 class CommandLine {
  public:
   // `words` follow the program's name.
@@ -35,12 +35,12 @@ class CommandLine {
 
   // The next word that is no flag; the flags before it are set. Nothing at the end.
   std::optional<std::string> NextWord();
-  // From now on the command's own flags are known too.
+  // Registers the command's own flags.
   void SetCommand(const Command& command);
 
   bool WantsHelp() const;
   bool WantsVersion() const;
-  // After the last word.
+  // To be called after the last word.
   Options Finish(const std::vector<std::string>& operands) const;
 
  private:

@@ -1,4 +1,4 @@
-// A config's joint fit.
+// The joint fit of a config.
 #ifndef HOWL_APP_CONFIG_FIT_H_
 #define HOWL_APP_CONFIG_FIT_H_
 

@@ -34,7 +34,7 @@ void PrintSets(const Conflict& conflict) {
   }
 }
 
-// Relative to the value now.
+// The change relative to the present value.
 double Size(const SmallestChange& change) {
   if (change.target.IsSwitch() || change.value == 0.0) return 1.0;
   return std::abs(*change.pasted / change.value - 1.0);

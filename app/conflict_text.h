@@ -1,4 +1,4 @@
-// Why a family is empty, and what to change, on standard output.
+// Prints on standard output why a family is empty, and what to change.
 #ifndef HOWL_APP_CONFLICT_TEXT_H_
 #define HOWL_APP_CONFLICT_TEXT_H_
 

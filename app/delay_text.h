@@ -8,7 +8,7 @@
 
 namespace howl {
 
-// Empty where nothing was compared: fewer than three experiments with a phase.
+// Empty where branches were not compared because fewer than three experiments have a phase.
 std::string DelayText(const DelayChoice& choice);
 
 // Whether the records left the branch open and the config names none.

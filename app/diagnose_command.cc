@@ -40,7 +40,7 @@ std::vector<std::string> Withheld(const Options& options) {
   return ids;
 }
 
-// Nineteen tell one in twenty.
+// The least number of replicates, with which one in twenty can be resolved.
 std::size_t Replicates(const Options& options) {
   const std::optional<int> count = options.Count("--bootstrap", 19, 9999);
   if (count && options.Has("--reference")) {

@@ -11,18 +11,18 @@
 
 namespace howl {
 
-// Both signals of every experiment, long enough to be cut.
+// Reads both signals of every experiment, and checks that they are long enough for the two cuts.
 std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
 
 // The same of records that were read already: those of `config`, in its order.
 std::vector<DiagnosisExperiment> MakeDiagnosisExperiments(const Config& config,
                                                           std::vector<NamedRecord> records);
 
-// The loop that the config states: every command's. Delays are each experiment's own unless tau_s
-// is shared.
+// The loop that the config states for every command. Each experiment has a delay of its own unless
+// tau_s is shared.
 BaseModel BaseOf(const Config& config);
 
-// Whether `modes`, and the scope of tau_s, stand in it; if not, the records choose.
+// Whether the config states `modes`, and the scope of tau_s; if not, the records choose.
 bool StatesModes(const Config& config);
 bool StatesDelays(const Config& config);
 
@@ -31,8 +31,8 @@ void CheckReference(const Config& config, const Config& reference,
                     const std::vector<DiagnosisExperiment>& rig,
                     const std::vector<DiagnosisExperiment>& model);
 
-// What a state file belongs to: the config's text (it has the effects and the model), the effects
-// that are left out, and every number.
+// The bytes that identify what a state file belongs to: the config's text (it has the effects and
+// the model), the effects that are left out, and every number.
 std::string InputBytes(const Config& config, const std::vector<std::string>& withheld,
                        const std::vector<DiagnosisExperiment>& rig,
                        const std::vector<DiagnosisExperiment>& reference);

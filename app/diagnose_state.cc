@@ -88,7 +88,7 @@ std::optional<std::string> DiagnoseState::Recall(const std::string& key) {
 void DiagnoseState::Keep(const std::string& key, const std::string& bytes) {
   const std::lock_guard<std::mutex> hold(lock_);
   kept_.Take(key);
-  // A full disk costs the resuming, not the diagnosis.
+  // With a full disk the run cannot be resumed, but the diagnosis goes on.
   log_ << key << " " << bytes.size() << " " << Hash(key, bytes) << "\n"
        << bytes << "\n"
        << std::flush;

@@ -1,12 +1,12 @@
-// What a diagnosis has fitted so far, in DIR/diagnosis.state: an append-only log, so that a run
+// The fits that a diagnosis has finished, in DIR/diagnosis.state: an append-only log, so that a run
 // that was interrupted, or killed, goes on where it stopped. The first line names the format, the
 // build of the program (another may fit otherwise), and the inputs; a file of another build, or of
-// other inputs, or with one key twice, is not believed: it is begun anew. An entry is
+// other inputs, or with one key twice, is rejected and begun anew. An entry is
 //
 //   key, number of bytes, hash of key and bytes, in one line; the bytes; a line's end
 //
-// One whose hash is another is passed over, and fitted anew; what follows the last whole entry is
-// cut off.
+// An entry whose hash does not match is skipped and fitted anew; what follows the last whole entry
+// is cut off.
 #ifndef HOWL_APP_DIAGNOSE_STATE_H_
 #define HOWL_APP_DIAGNOSE_STATE_H_
 
@@ -31,7 +31,7 @@ class DiagnoseState final : public FitMemory {
   std::size_t recalled() const { return found_.size(); }  // entries at the start
   std::size_t damaged() const { return damaged_; }        // entries that were not believed
   bool refused() const { return refused_; }               // a file was there and was not believed
-  // When the results are written.
+  // Removes the file; to be called when the results are written.
   void Forget();
 
  private:

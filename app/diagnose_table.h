@@ -1,4 +1,4 @@
-// howl diagnose without records: what a table of characteristics says
+// howl diagnose without records: the diagnosis from a table of characteristics
 // (diagnosis/table_diagnosis.h).
 #ifndef HOWL_APP_DIAGNOSE_TABLE_H_
 #define HOWL_APP_DIAGNOSE_TABLE_H_

@@ -38,7 +38,8 @@ std::string MovedText(const Diagnosis& diagnosis) {
   return text.empty() ? text : text + "\n";
 }
 
-// Said where the best candidate stands at a bound: its size is then the search's, not the data's.
+// The note where the best candidate is at a bound: its size then comes from the search, not from
+// the data.
 std::string BoundText(const Diagnosis& diagnosis) {
   if (diagnosis.candidates.empty()) return "";
   const Candidate& best = diagnosis.candidates.front();
@@ -63,7 +64,7 @@ std::string MapText(const Diagnosis& diagnosis) {
   return text + "\n";
 }
 
-// The loop that the effects stand beside.
+// The base: the loop to which each effect is added.
 std::string BaseText(const Diagnosis& diagnosis) {
   std::string text = "base: ";
   text += diagnosis.model.modes == 1
@@ -117,9 +118,9 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
               diagnosis.gap_after, diagnosis.gap_floor);
   std::printf("%s", BaseText(diagnosis).c_str());
   std::printf("%s", MapText(diagnosis).c_str());
-  if (std::isfinite(diagnosis.shrinkage_no_meaning)) {
-    std::printf("an effect of no meaning, as free as the best, shrinks it by %.1f %%\n",
-                kPerCent * diagnosis.shrinkage_no_meaning);
+  if (std::isfinite(diagnosis.placebo_shrinkage)) {
+    std::printf("a placebo effect, as free as the best, shrinks it by %.1f %%\n",
+                kPerCent * diagnosis.placebo_shrinkage);
   }
   if (!diagnosis.bootstrap_gains.empty()) {
     std::printf("noise alone, in %zu rigs simulated from the refitted base, gains at most %.1f\n",

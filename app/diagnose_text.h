@@ -1,4 +1,5 @@
-// What a diagnosis says on the terminal: where, which, how much, how sure, what next.
+// Prints a diagnosis on the terminal: where the gap is, which effect causes it, how large and how
+// certain it is, and what to measure next.
 #ifndef HOWL_APP_DIAGNOSE_TEXT_H_
 #define HOWL_APP_DIAGNOSE_TEXT_H_
 
@@ -6,7 +7,7 @@
 
 namespace howl {
 
-// On standard output.
+// Writes to standard output.
 void PrintDiagnosis(const Diagnosis& diagnosis);
 
 }  // namespace howl

@@ -1,5 +1,5 @@
-// Questions that are asked of the family's members once they are drawn: predictions of what has no
-// closed expression, further experiments, and which measurement would tell most.
+// Questions to the family's members once they are drawn: predictions that have no closed
+// expression, further experiments, and which measurement would tell most.
 #ifndef HOWL_APP_FAMILY_QUESTIONS_H_
 #define HOWL_APP_FAMILY_QUESTIONS_H_
 
@@ -12,7 +12,7 @@
 
 namespace howl {
 
-// Evenly spaced in the list: a share of a uniform sample.
+// Members evenly spaced in the list, which are a part of a uniform sample.
 std::vector<Member> Thinned(std::span<const Member> members, std::size_t most);
 
 // Of each experiment with a flame slope: growth rate of the rest state (1/s),

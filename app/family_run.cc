@@ -14,7 +14,7 @@
 namespace howl {
 namespace {
 
-// A list this short is meant to be looked at: its members are chosen far apart from each other.
+// A list this short is meant for reading, so its members are chosen far apart from each other.
 constexpr std::size_t kShortList = 50;
 constexpr std::size_t kChooseFrom = 2000;
 constexpr std::size_t kPredictedMembers = 60;
@@ -131,17 +131,18 @@ void AskProfile(const Config& config, const Options& options, FamilyRun& run) {
 }
 
 void MeasureTransfer(const Options& options, FamilyRun& run) {
-  constexpr std::size_t kSeen = 400;
+  constexpr std::size_t kMembersWithout = 400;
   if (!run.problem.HasTransfer()) return;
   TransferReport report;
   report.volume =
       MeasureTransferVolume(run.problem, {.seed = options.seed, .threads = options.threads});
   report.without =
-      EnumerateMembers(WithoutTransfer(run.problem), kSeen, options.seed, options.threads).members;
+      EnumerateMembers(WithoutTransfer(run.problem), kMembersWithout, options.seed, options.threads)
+          .members;
   run.transfer = std::move(report);
 }
 
-// Of --falsify; empty without it.
+// The further experiments of --falsify; empty without it.
 std::vector<Experiment> LoadFurther(const Options& options) {
   const std::optional<std::string> other = options.Text("--falsify");
   return other ? LoadExperiments(LoadConfig(*other), options) : std::vector<Experiment>();
@@ -171,7 +172,7 @@ void ExplainNoMember(const Options& options, FamilyRun& run) {
 
 using BoundsRun = std::function<void(Enclosure&)>;
 
-// All but the trade-off. `run_bounds` runs the search to its end.
+// Computes all but the trade-off. `run_bounds` runs the search to its end.
 FamilyRun RunQuestions(const Config& config, const Options& options,
                        std::vector<Experiment> experiments, const BoundsRun& run_bounds) {
   FamilyRun run;
@@ -181,7 +182,7 @@ FamilyRun RunQuestions(const Config& config, const Options& options,
   }
   const std::vector<BoundedExpression> bounded = ParsePredictions(config, run.problem);
   if (const auto text = options.Text("--profile")) AskedQuantity(config, *text, run.problem);
-  // What is wrong with it is said before the search, which may take long.
+  // Its mistakes are reported before the search, which may take long.
   const std::vector<Experiment> further = LoadFurther(options);
   run.enclosure =
       std::make_unique<Enclosure>(run.problem, EncloseOptions{.width = config.family.width,

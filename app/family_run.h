@@ -1,4 +1,4 @@
-// What `howl family` finds, before it is written and printed.
+// The results of `howl family` before they are written and printed.
 #ifndef HOWL_APP_FAMILY_RUN_H_
 #define HOWL_APP_FAMILY_RUN_H_
 
@@ -47,7 +47,7 @@ void CheckPredictions(const Config& config, const FamilyProblem& problem);
 FamilyRun RunFamilyAnew(const Config& config, const Options& options,
                         std::vector<Experiment> experiments);
 
-// What is written of a run.
+// The results that are written of a run.
 FamilyReport ReportOf(const Config& config, const FamilyRun& run);
 
 }  // namespace howl

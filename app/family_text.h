@@ -1,4 +1,4 @@
-// What `howl family` prints.
+// Prints the results of `howl family`.
 #ifndef HOWL_APP_FAMILY_TEXT_H_
 #define HOWL_APP_FAMILY_TEXT_H_
 

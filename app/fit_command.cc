@@ -84,7 +84,7 @@ void PrintIdentifiability(const JointFit& fit) {
   }
 }
 
-// About 1/2 where the model and the stated standard deviations hold.
+// Cost per degree of freedom, about 1/2 where the model and the stated standard deviations hold.
 double CostPerDegreeOfFreedom(const JointFit& fit) {
   std::size_t residuals = 0;
   for (const FitResidual& residual : fit.residuals) residuals += residual.values.size();

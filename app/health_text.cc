@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kShownOfAKind = 4;
 constexpr std::size_t kIndent = 4;
-// A mistake explains what stands below it.
+// The order of the kinds: a mistake comes first, because it explains the findings below it.
 constexpr FindingKind kOrder[] = {
     FindingKind::kMistake,      FindingKind::kSampling,  FindingKind::kSamples,
     FindingKind::kNotConverged, FindingKind::kGuardRail, FindingKind::kBound,

@@ -1,4 +1,4 @@
-// The last lines of fit and analyse: what speaks against the numbers above them.
+// The last lines of fit and analyse: the findings that speak against the numbers above them.
 #ifndef HOWL_APP_HEALTH_TEXT_H_
 #define HOWL_APP_HEALTH_TEXT_H_
 
@@ -8,8 +8,8 @@
 
 namespace howl {
 
-// `sound` is said where there is no finding. The gravest come first; of a kind that has many, the
-// first few, and how many more there are in `file`.
+// `sound` is printed where there is no finding. The gravest findings come first; of a kind with
+// many only the first few are printed, with the number of those that are in `file`.
 std::string HealthText(const Health& health, const std::string& sound, const std::string& file);
 
 }  // namespace howl

@@ -1,5 +1,5 @@
-// What is worth knowing of the instruments that were taken out of the records: a table that ends
-// within the record's band, and a cycle at which the division is limited (remove_instruments.h).
+// Notes on the instruments that were removed from the records: a table that ends within the
+// record's band, and a cycle at which the division is limited (remove_instruments.h).
 #ifndef HOWL_APP_INSTRUMENT_TEXT_H_
 #define HOWL_APP_INSTRUMENT_TEXT_H_
 

@@ -15,8 +15,9 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<long long>::
 
 constexpr long long kAgainNs = 500'000'000;
 
-// The first asks for an end in order. A later one ends the program at once; one that follows at
-// once is the same request, since timeout(1) and a terminal tell a process and its group.
+// The first signal asks for an orderly end, and a later one ends the program at once. One that
+// follows within half a second is the same request, because timeout(1) and a terminal signal both a
+// process and its group.
 void OnSignal(int signal) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

@@ -1,4 +1,4 @@
-// Ctrl-C asks for a stop; long work looks here between units, saves what it has, and goes.
+// Ctrl-C asks for a stop; long work checks for it between units, saves what it has, and ends.
 #ifndef HOWL_APP_INTERRUPTION_H_
 #define HOWL_APP_INTERRUPTION_H_
 
@@ -7,7 +7,7 @@
 
 namespace howl {
 
-// As a shell reports a program that Ctrl-C ended.
+// The exit status with which a shell reports a program that Ctrl-C ended.
 inline constexpr int kInterrupted = 130;
 
 // Catches SIGINT and SIGTERM from now on; a second one, half a second later or more, ends the

@@ -38,7 +38,7 @@ std::string Reason(LoopGainReason reason, const std::vector<LowLoopGain>& all) {
       return "noise of p in the regressor (variance " +
              Range(all, &LowLoopGain::regressor_noise, 3) +
              " of its own) flattens the curve by more than can be taken out";
-    case LoopGainReason::kNotSeen:
+    case LoopGainReason::kNotExplained:
       break;
   }
   return "the records do not show why (the mean cycle of q alone gives " +
@@ -50,7 +50,7 @@ std::string Reason(LoopGainReason reason, const std::vector<LowLoopGain>& all) {
 std::string LowLoopGainText(const AnalysisSet& set) {
   std::string text;
   for (const LoopGainReason reason : {LoopGainReason::kSteeperInCycle, LoopGainReason::kMemory,
-                                      LoopGainReason::kNoise, LoopGainReason::kNotSeen}) {
+                                      LoopGainReason::kNoise, LoopGainReason::kNotExplained}) {
     std::vector<LowLoopGain> all;
     std::string names;
     for (const Analysis& analysis : set.analyses) {

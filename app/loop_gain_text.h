@@ -1,4 +1,4 @@
-// What analyse says of loop gains below one where the loop stands in a limit cycle.
+// The lines of analyse on loop gains below one where the loop is in a limit cycle.
 #ifndef HOWL_APP_LOOP_GAIN_TEXT_H_
 #define HOWL_APP_LOOP_GAIN_TEXT_H_
 

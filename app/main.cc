@@ -61,13 +61,14 @@ int PrintVersion() {
   return kDone;
 }
 
-// What glog has to say is asked for by --v or --vmodule, or it is an error.
+// glog prints what --v or --vmodule ask for, and errors.
 void LogAsAsked() {
   const bool asked = FLAGS_v > 0 || !FLAGS_vmodule.empty();
   FLAGS_minloglevel = asked ? google::GLOG_INFO : google::GLOG_ERROR;
 }
 
-// What runs, for messages of what is nobody's mistake: "howl: ", or the config and the command.
+// The prefix of messages about faults that are not the user's: "howl: ", or the config and the
+// command.
 std::string running = "howl: ";
 
 std::string NoMemory() {

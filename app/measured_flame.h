@@ -9,7 +9,7 @@
 
 namespace howl {
 
-// Nothing for an experiment that no record gave, or whose record has no flame curve.
+// No value for an experiment that no record gave, or whose record has no flame curve.
 std::optional<FlameShapeFit> MeasuredFlame(const ProblemInput& input, const Experiment& experiment);
 
 }  // namespace howl

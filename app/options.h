@@ -1,4 +1,5 @@
-// What the user typed: howl COMMAND CONFIG [--out DIR] [--threads N] [--seed S] [--quiet] ...
+// The command line that the user typed: howl COMMAND CONFIG [--out DIR] [--threads N] [--seed S]
+// [--quiet] ...
 #ifndef HOWL_APP_OPTIONS_H_
 #define HOWL_APP_OPTIONS_H_
 

@@ -1,4 +1,4 @@
-// What `howl predict` found, on the terminal.
+// Prints the results of `howl predict` on the terminal.
 #ifndef HOWL_APP_PREDICT_TEXT_H_
 #define HOWL_APP_PREDICT_TEXT_H_
 

@@ -10,7 +10,7 @@
 namespace howl {
 namespace {
 
-// Why a record gives fit and family nothing.
+// The reason why a record gives no experiment to fit and family.
 std::string Shortcoming(const Analysis& analysis, const AnalysisOptions& options) {
   if (!analysis.has_heat_release) return analysis.name + " has no heat release: left out";
   std::string text = analysis.name + " shows no limit cycle: left out";
@@ -108,7 +108,7 @@ FamilyProblem MakeFamilyProblem(const Config& config, std::vector<Experiment> ex
   const ModelSpec defaults = DefaultModelSpec();
   for (const ParameterKind kind : kParameterKinds) {
     const ParameterSpec& spec = config.model[kind];
-    // What is held at one value is the same for all experiments.
+    // A parameter that is held at one value is the same for all experiments.
     if (spec.fixed) problem.model[kind].scope = ParameterScope::kShared;
     if (spec.min != defaults[kind].min) problem.domain[kind].lo = spec.min;
     if (spec.max != defaults[kind].max) problem.domain[kind].hi = spec.max;

@@ -16,7 +16,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  // Not to be called from two threads at once. Takes the line away when all is done; a count that
+  // Must not be called from two threads at once. The line is removed when all is done; a count that
   // falls back begins the next stretch of work.
   void Show(std::size_t done, std::size_t total);
   void Clear();

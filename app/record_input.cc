@@ -10,8 +10,8 @@
 namespace howl {
 namespace {
 
-// What was recorded, before what is known of the instruments is taken out of it: a filter moves the
-// samples that were at the converter's end.
+// The record before known instruments are removed from it, because a filter moves the samples that
+// were at the converter's end.
 Record AsRecorded(const RecordSpec& spec, const Config& config, int line, const Record& record) {
   if (!spec.pressure_response && !spec.heat_release_response && spec.delay_s == 0.0) return record;
   RecordSpec plain = spec;
@@ -78,7 +78,8 @@ AnalysisOptions MakeAnalysisOptions(const Config& config, const Options& options
   analysis.characteristics.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
   analysis.transfer.min_frequency_hz = config.analysis.min_frequency_hz.value_or(0.0);
   analysis.transfer.max_frequency_hz = config.analysis.max_frequency_hz.value_or(0.0);
-  if (config.analysis.method == CharacteristicsMethod::kSeed) analysis.flame_curve.max_harmonic = 1;
+  if (config.analysis.method == CharacteristicsMethod::kPaper)
+    analysis.flame_curve.max_harmonic = 1;
   analysis.delay_branch = config.analysis.delay_branch;
   analysis.model = config.model;
   analysis.second_mode_share_max = config.family.test.second_mode_share_max;

@@ -32,8 +32,8 @@ Json FreshSolution(const Config& config, const Options& options,
   const JointProblem problem = MakeJointProblem(config, experiments);
   const JointFit fit = SolveConfig(config, options, problem);
   Json solution = SolutionJson(problem, fit, EstimateVanishingPhi(experiments));
-  // What depends on the linear algebra underneath moves with every library; what is listed for each
-  // point of a transfer is too long to keep.
+  // Left out are values that depend on the linear algebra library, and lists for each point of a
+  // transfer, which are too long to keep.
   solution.erase("identifiability");
   if (config.experiments.front().record) solution.erase("residuals");
   return solution;
@@ -51,7 +51,7 @@ Json FreshTradeoff(const Config& config, const Options& options,
   return tradeoff;
 }
 
-// The family without the searches' own course: bounds, members, predictions.
+// The family's bounds, members and predictions, without numbers that tell how the searches went.
 Json FreshFamily(const Config& config, const Options& options,
                  const std::vector<Experiment>& experiments) {
   const FamilyRun run = RunFamilyAnew(config, options, experiments);
@@ -79,11 +79,12 @@ Json FreshResults(const Config& config, const Options& options, bool with_family
 
 std::filesystem::path ReferencePath(const Options& options) {
   const std::filesystem::path folder = options.config.parent_path() / ".." / "results";
-  const std::string beside = (folder / options.config.stem()).lexically_normal().string();
-  return std::filesystem::path(options.Text("--reference").value_or(beside)) / "reference.json";
+  const std::string default_folder = (folder / options.config.stem()).lexically_normal().string();
+  return std::filesystem::path(options.Text("--reference").value_or(default_folder)) /
+         "reference.json";
 }
 
-// Nothing to compare with on a machine without the config's records.
+// No value on a machine without the config's records, where there is nothing to compare.
 std::optional<Config> LoadUnlessAbsent(const Options& options) {
   try {
     return LoadConfig(options.config);
@@ -101,7 +102,7 @@ int Run(const Options& options) {
   const std::optional<Config> read = LoadUnlessAbsent(options);
   if (!read) return kDone;
   const Config& config = *read;
-  // What is damaged is said before the work, not after it.
+  // Damage is reported before the work, not after it.
   Json reference;
   if (!updates) reference = ReadReference(path);
   const bool is_earlier = !updates && reference["schema"] == kReferenceSchemaBefore;

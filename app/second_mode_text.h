@@ -1,4 +1,4 @@
-// What fit prints of the loop's crossings, and of the branch of two modes that the fit is on.
+// The lines of fit on the loop's crossings, and on the branch of two modes on which the fit is.
 #ifndef HOWL_APP_SECOND_MODE_TEXT_H_
 #define HOWL_APP_SECOND_MODE_TEXT_H_
 

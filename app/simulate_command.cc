@@ -132,7 +132,8 @@ int Run(const Options& options) {
   }
   if (!options.quiet) {
     Print(experiments, rigs);
-    // Effects may put a stronger line there on purpose: only the bare loop is spoken of.
+    // Effects may put a stronger line there on purpose, so the note is printed for the bare loop
+    // only.
     for (std::size_t i = 0; i < records.size() && config.simulation.effects.empty(); ++i) {
       const std::string left = LeftItsCycle(rigs[i], records[i]);
       if (!left.empty()) {

@@ -38,8 +38,8 @@ SimulatedRig MakeRig(const Config& config, const Experiment& experiment, const L
 void AddEffects(const Config& config, const std::vector<Experiment>& experiments, double duration_s,
                 std::vector<SimulatedRig>* rigs);
 
-// Where a rig that began on a cycle is seen at another frequency: "its strongest line is at 776.0
-// Hz, not at the cycle's 224.0 Hz"; else empty.
+// A note where a rig that began on a cycle is found at another frequency: "its strongest line is at
+// 776.0 Hz, not at the cycle's 224.0 Hz"; else empty.
 std::string LeftItsCycle(const SimulatedRig& rig, const SimulatedRecord& record);
 
 }  // namespace howl

@@ -1,4 +1,4 @@
-// Where a simulation comes from: the config's simulate.start and simulate.start_frequency_hz.
+// The start of a simulation by the config's simulate.start and simulate.start_frequency_hz.
 #ifndef HOWL_APP_SIMULATE_START_H_
 #define HOWL_APP_SIMULATE_START_H_
 
@@ -11,7 +11,7 @@
 
 namespace howl {
 
-// The cycle nearest to the one that was observed; nothing where the loop has none.
+// The cycle nearest to the one that was observed; no value where the loop has none.
 std::optional<LimitCycle> ObservedCycle(const ClosedLoop& model, double frequency_hz);
 
 struct SimulationOrigin {

@@ -25,7 +25,7 @@ SweepOptions OptionsOf(const Config& config, const SimulationTimes& times) {
           .settle_s = times.settle_s};
 }
 
-// Where the branch through the cycle near `frequency_hz` attracts, within the swept range.
+// The ranges in which the branch through the cycle near `frequency_hz` attracts, within the sweep.
 std::vector<ParameterInterval> Attracts(const SweptRig& rig, const SweepSpec& sweep, double at,
                                         double frequency_hz) {
   const ParameterPath path = [&](double value) {
@@ -71,7 +71,7 @@ const char* Direction(const SweepSpec& sweep, bool back) {
 }  // namespace
 
 void CheckSweep(const Config& config, const SimulationTimes& times) {
-  // A line is told from the next one by a few of its cycles.
+  // A few cycles of a line are needed to tell it from the next one.
   constexpr double kLeastSamples = 256.0;
   const SweepSpec& sweep = *config.simulation.sweep;
   if (sweep.one_way_s * times.sampling_hz >= kLeastSamples * sweep.steps) return;

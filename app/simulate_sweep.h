@@ -1,5 +1,5 @@
-// The config's simulate.sweep: a parameter there and back in one run of each rig, where it jumps,
-// and where both cycles attract by harmonic balance.
+// The config's simulate.sweep: a parameter goes there and back in one run of each rig. Reported are
+// the values at which the rig jumps, and those at which both cycles attract by harmonic balance.
 #ifndef HOWL_APP_SIMULATE_SWEEP_H_
 #define HOWL_APP_SIMULATE_SWEEP_H_
 

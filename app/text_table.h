@@ -25,7 +25,7 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-// What every table and line with a ± says beside it.
+// The legend of every table and line that has a ±.
 inline constexpr const char* kPlusMinusLegend = "±: half of a 95 % interval";
 
 // `digits` significant digits, no exponent where it can be avoided; "-" for NaN.

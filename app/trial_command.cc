@@ -42,7 +42,7 @@ double Severity(const std::string& word) {
   return value;
 }
 
-// What the user typed, as it would be typed again: for the sheet.
+// The command line as it would be typed again, for the sheet.
 std::string CommandText(const Options& options) {
   std::string text = "howl trial " + options.config.string();
   for (const auto& [name, value] : options.own) text += " " + name + " " + value;
@@ -63,13 +63,13 @@ TrialRequest MakeRequest(const Options& options) {
     throw UsageError(std::string("--effects: ") + error.what());
   }
   const Config config = LoadConfig(options.config);
-  request.setting = MakeRigSetting(config, options);
+  request.rig_template = MakeRigTemplate(config, options);
   request.config_sha256 = Sha256OfFile(options.config).value_or("");
   request.command = CommandText(options);
   return request;
 }
 
-// One line that is written over; how long it still takes, once that can be told.
+// One progress line that is overwritten; it gives the remaining time once that can be estimated.
 Progress ShowProgress(const Options& options, const char* what) {
   if (options.quiet || isatty(STDERR_FILENO) == 0) return nullptr;
   return [what, start = Clock::now()](std::size_t done, std::size_t total) {

@@ -20,7 +20,7 @@ class Changes {
   void Add(const fs::path& path, const std::string& what) {
     lines_.push_back(path.lexically_relative(root_).string() + ": " + what);
   }
-  // The file's hash is to be `expected`.
+  // Checks that the file's hash is `expected`.
   void Compare(const fs::path& path, const std::string& expected, const std::string& since) {
     const std::optional<std::string> hash = Sha256OfFile(path);
     if (!hash) {

@@ -1,10 +1,9 @@
 // A trial's folder:
 //
-//   cases/NAME/         what the diagnosis sees: config.yaml and data/
-//   key/key.sealed      what was withheld, enciphered; nobody can read it without the seed
-//   seal.json           SHA-256 of the key, of its sealed form, and of every case; written, and its
-//   own
-//                       SHA-256 logged, before the first diagnosis starts
+//   cases/NAME/         the input of the diagnosis: config.yaml and data/
+//   key/key.sealed      the withheld effects, encrypted; nobody can read them without the seed
+//   seal.json           SHA-256 of the key, of its sealed form, and of every case; it is written,
+//                       and its own SHA-256 logged, before the first diagnosis starts
 //   diagnoses/NAME/     diagnosis.json
 //   log.jsonl           sealed, each diagnosis with its SHA-256, opened, scored (trial_log.h)
 //   key/key.json        the key, once it has been opened
@@ -34,10 +33,10 @@ struct TrialFolder {
   std::filesystem::path Log() const { return root / "log.jsonl"; }
 };
 
-// Over the names, sizes and contents of all files of a folder.
+// A hash over the names, sizes and contents of all files of a folder.
 std::string Sha256OfFolder(const std::filesystem::path& folder);
 
-// What is no longer as it was sealed, diagnosed, opened or scored: one line each.
+// A line for each file that is no longer as it was sealed, diagnosed, opened or scored.
 std::vector<std::string> FindChanges(const TrialFolder& folder, const TrialLog& log);
 
 }  // namespace howl

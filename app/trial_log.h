@@ -17,10 +17,10 @@ class TrialLog {
  public:
   explicit TrialLog(std::filesystem::path path);
 
-  // From several threads. On the disk when it returns.
+  // May be called from several threads. The line is on the disk when it returns.
   void Append(nlohmann::ordered_json entry);
   const std::vector<nlohmann::json>& entries() const { return entries_; }
-  // The first line whose predecessor is not what it was; 0 if all are.
+  // The first line whose predecessor was changed; 0 if there is none.
   std::size_t broken_line() const { return broken_line_; }
   std::optional<nlohmann::json> Find(const std::string& event) const;
 

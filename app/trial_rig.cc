@@ -33,47 +33,47 @@ std::optional<double> NotNegative(const Options& options, const std::string& nam
 
 }  // namespace
 
-RigSetting MakeRigSetting(const Config& config, const Options& options) {
-  RigSetting setting;
-  setting.experiments = LoadExperiments(config, options);
-  setting.operating_parameter = config.operating_parameter;
-  const SimulationTimes times = MakeSimulationTimes(config.simulation, setting.experiments);
-  setting.duration_s = times.duration_s;
-  setting.sampling_hz = times.sampling_hz;
-  setting.settle_s = times.settle_s;
+RigTemplate MakeRigTemplate(const Config& config, const Options& options) {
+  RigTemplate rig_template;
+  rig_template.experiments = LoadExperiments(config, options);
+  rig_template.operating_parameter = config.operating_parameter;
+  const SimulationTimes times = MakeSimulationTimes(config.simulation, rig_template.experiments);
+  rig_template.duration_s = times.duration_s;
+  rig_template.sampling_hz = times.sampling_hz;
+  rig_template.settle_s = times.settle_s;
   const std::vector<NamedRecord> records = LoadRecords(config);
   if (!records.empty()) {
-    // The shortest: a diagnosis is no better than that allows.
-    setting.duration_s = 1e9;
-    setting.sampling_hz = records.front().record.sampling_hz;
+    // The shortest duration, because it limits the diagnosis.
+    rig_template.duration_s = 1e9;
+    rig_template.sampling_hz = records.front().record.sampling_hz;
     for (const NamedRecord& each : records) {
-      setting.duration_s =
-          std::min(setting.duration_s,
+      rig_template.duration_s =
+          std::min(rig_template.duration_s,
                    static_cast<double>(each.record.pressure.size()) / each.record.sampling_hz);
     }
   }
-  RequirePositive(options, "--duration", &setting.duration_s);
-  RequirePositive(options, "--sampling", &setting.sampling_hz);
-  setting.combustion_noise = NotNegative(options, "--combustion-noise");
-  setting.sensor_noise = NotNegative(options, "--sensor-noise");
-  const int all = static_cast<int>(setting.experiments.size());
+  RequirePositive(options, "--duration", &rig_template.duration_s);
+  RequirePositive(options, "--sampling", &rig_template.sampling_hz);
+  rig_template.combustion_noise = NotNegative(options, "--combustion-noise");
+  rig_template.sensor_noise = NotNegative(options, "--sensor-noise");
+  const int all = static_cast<int>(rig_template.experiments.size());
   if (const auto wanted = options.Count("--experiments", 1, all)) {
-    // Spread over the range.
+    // The chosen experiments are spread over the range.
     std::vector<Experiment> chosen;
     for (int i = 0; i < *wanted; ++i) {
       const double place = *wanted > 1 ? static_cast<double>(i) * (all - 1) / (*wanted - 1) : 0.0;
-      chosen.push_back(setting.experiments[static_cast<std::size_t>(std::lround(place))]);
+      chosen.push_back(rig_template.experiments[static_cast<std::size_t>(std::lround(place))]);
     }
-    setting.experiments = std::move(chosen);
+    rig_template.experiments = std::move(chosen);
   }
-  return setting;
+  return rig_template;
 }
 
-std::string RigSpecYaml(const RigSetting& setting, const CasePlan& plan) {
+std::string RigSpecYaml(const RigTemplate& rig_template, const CasePlan& plan) {
   YAML::Emitter out;
   out.SetDoublePrecision(kExactDigits);
   out << YAML::BeginMap << YAML::Key << "experiments" << YAML::Value << YAML::BeginSeq;
-  for (const Experiment& each : setting.experiments) {
+  for (const Experiment& each : rig_template.experiments) {
     out << YAML::Flow << YAML::BeginMap;
     out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << each.name;
     out << YAML::Key << "phi" << YAML::Value << each.phi;
@@ -88,16 +88,16 @@ std::string RigSpecYaml(const RigSetting& setting, const CasePlan& plan) {
   }
   out << YAML::EndSeq;
   out << YAML::Key << "seed" << YAML::Value << plan.rig_seed;
-  out << YAML::Key << "duration_s" << YAML::Value << setting.duration_s;
-  out << YAML::Key << "sampling_hz" << YAML::Value << setting.sampling_hz;
-  out << YAML::Key << "settle_s" << YAML::Value << setting.settle_s;
-  out << YAML::Key << "operating_parameter" << YAML::Value << setting.operating_parameter;
+  out << YAML::Key << "duration_s" << YAML::Value << rig_template.duration_s;
+  out << YAML::Key << "sampling_hz" << YAML::Value << rig_template.sampling_hz;
+  out << YAML::Key << "settle_s" << YAML::Value << rig_template.settle_s;
+  out << YAML::Key << "operating_parameter" << YAML::Value << rig_template.operating_parameter;
   out << YAML::Key << "noise" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  if (setting.combustion_noise) {
-    out << YAML::Key << "combustion_relative" << YAML::Value << *setting.combustion_noise;
+  if (rig_template.combustion_noise) {
+    out << YAML::Key << "combustion_relative" << YAML::Value << *rig_template.combustion_noise;
   }
-  if (setting.sensor_noise) {
-    out << YAML::Key << "sensor_relative" << YAML::Value << *setting.sensor_noise;
+  if (rig_template.sensor_noise) {
+    out << YAML::Key << "sensor_relative" << YAML::Value << *rig_template.sensor_noise;
   }
   out << YAML::EndMap << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
@@ -124,10 +124,10 @@ std::vector<RigEffect> ListRigEffects() {
   return effects;
 }
 
-nlohmann::json MakeRig(const RigSetting& setting, const CasePlan& plan,
+nlohmann::json MakeRig(const RigTemplate& rig_template, const CasePlan& plan,
                        const std::filesystem::path& folder) {
-  const ChildResult made =
-      RunChild({RigProgram(), "/dev/stdin", "--out", folder.string()}, RigSpecYaml(setting, plan));
+  const ChildResult made = RunChild({RigProgram(), "/dev/stdin", "--out", folder.string()},
+                                    RigSpecYaml(rig_template, plan));
   if (made.status != 0) {
     throw UserError(RigProgram(), 0, "", "could not make " + plan.name + ": " + made.err);
   }

@@ -17,7 +17,7 @@
 namespace howl {
 
 // What all rigs of a trial have in common.
-struct RigSetting {
+struct RigTemplate {
   std::vector<Experiment> experiments;
   std::string operating_parameter;
   double duration_s = 3.2;
@@ -29,14 +29,14 @@ struct RigSetting {
 
 // From the config's characteristics, or from those of its records; with the records' length and
 // sampling rate where there are any, else with the config's `simulate:`; options come first.
-RigSetting MakeRigSetting(const Config& config, const Options& options);
+RigTemplate MakeRigTemplate(const Config& config, const Options& options);
 
-std::string RigSpecYaml(const RigSetting& setting, const CasePlan& plan);
+std::string RigSpecYaml(const RigTemplate& rig_template, const CasePlan& plan);
 
 std::vector<RigEffect> ListRigEffects();
 
 // Writes config.yaml and data/ to the folder; the key comes back.
-nlohmann::json MakeRig(const RigSetting& setting, const CasePlan& plan,
+nlohmann::json MakeRig(const RigTemplate& rig_template, const CasePlan& plan,
                        const std::filesystem::path& folder);
 
 }  // namespace howl

@@ -70,20 +70,20 @@ std::string TrialRequest::Passphrase() const {
                      std::to_string(options.cases);
   for (const std::string& effect : options.effects) text += " " + effect;
   for (const double severity : options.severities) text += " " + std::to_string(severity);
-  return text + "\n" + RigSpecYaml(setting, {});
+  return text + "\n" + RigSpecYaml(rig_template, {});
 }
 
 void MakeCases(const TrialFolder& folder, const TrialRequest& request, int threads,
                const Progress& progress, TrialLog& log) {
   const std::vector<RigEffect> effects = ListRigEffects();
   const std::vector<CasePlan> plans = PlanCases(request.options, effects);
-  // What an earlier run left before it could seal anything.
+  // Removes what an earlier run left before it could seal anything.
   fs::remove_all(folder.root / "cases");
   fs::remove_all(folder.root / "key");
   std::vector<nlohmann::json> keys(plans.size());
   std::vector<std::string> hashes(plans.size());
   RunUnits(plans.size(), threads, progress, [&](std::size_t i) {
-    keys[i] = MakeRig(request.setting, plans[i], folder.CaseFolder(plans[i].name));
+    keys[i] = MakeRig(request.rig_template, plans[i], folder.CaseFolder(plans[i].name));
     hashes[i] = Sha256OfFolder(folder.CaseFolder(plans[i].name));
   });
   StopIfAsked("while the cases were made");
@@ -149,7 +149,7 @@ void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progre
         RunChild({HowlProgram(), "diagnose", (folder.CaseFolder(name) / "config.yaml").string(),
                   "--out", out.string(), "--threads", "1", "--quiet"},
                  "");
-    // A terminal's Ctrl-C reaches the child as well, and may end it before this program knows.
+    // A terminal's Ctrl-C reaches the child as well, and may end it before this program notices.
     if (result.status < 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));
     if (IsInterrupted()) return;
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();

@@ -13,9 +13,9 @@
 
 namespace howl {
 
-// All that decides what the cases are, and that the key's passphrase is made of.
+// All that determines the cases, and from which the key's passphrase is made.
 struct TrialRequest {
-  RigSetting setting;
+  RigTemplate rig_template;
   TrialOptions options;
   std::string config_sha256;
   std::string command;  // what reproduces the trial
@@ -30,7 +30,7 @@ void MakeCases(const TrialFolder& folder, const TrialRequest& request, int threa
 // Runs the diagnoses that the log has not, each in a process of its own. Throws Interrupted.
 void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progress, TrialLog& log);
 
-// Deciphers the key; empty where the request is not the one that sealed it.
+// Decrypts the key; empty where the request is not the one that sealed it.
 std::string DecipherKey(const TrialFolder& folder, const TrialRequest& request);
 
 // Writes key.json and logs the opening.

@@ -30,8 +30,8 @@ int main(int argc, char** argv) {
       sum.covered += t.covered;
     }
     std::printf(
-        "%-26s phase rms: seed's method %.4f, default %.4f deg; missed: %d cycles, %d lines\n",
-        row.name.c_str(), result.seed_phase_rms_deg, result.tally[kPhase].Rms(),
+        "%-26s phase rms: paper's method %.4f, default %.4f deg; missed: %d cycles, %d lines\n",
+        row.name.c_str(), result.paper_phase_rms_deg, result.tally[kPhase].Rms(),
         result.cycles_missed, result.lines_missed);
   }
   for (int k = 0; k < kQuantities; ++k) {

@@ -1,4 +1,4 @@
-// Time of each analysis of one loop: the seed's, two modes, M/N = 0.6, up to 2 kHz.
+// Time of each analysis of one loop: the paper's, two modes, M/N = 0.6, up to 2 kHz.
 #include <benchmark/benchmark.h>
 
 #include "model/continuation.h"

@@ -10,15 +10,15 @@
 namespace howl {
 namespace {
 
-// Transfer functions are smooth over several bins: evaluated on every kStride-th and interpolated
-// by cubic Lagrange polynomials.
+// Transfer functions are smooth over several bins. They are therefore evaluated on every kStride-th
+// bin and interpolated by cubic Lagrange polynomials.
 constexpr Eigen::Index kStride = 4;
 constexpr double kLogStep = 1e-5;
 constexpr double kSameMode = 0.75;          // of one cycle's frequency over another's
 constexpr double kNeighbourLogOmega = 0.1;  // on the grid of starts
 constexpr double kNeighbourLogXi = 0.8;
 
-// Row i: of node i, for the bins between nodes 1 and 2.
+// Row i holds the weights of node i for the bins between nodes 1 and 2.
 Eigen::Matrix4d LagrangeWeights() {
   Eigen::Matrix4d weights;
   for (Eigen::Index k = 0; k < kStride; ++k) {
@@ -107,7 +107,7 @@ Eigen::MatrixXcd AcousticJacobian(const CutRecord& record, const Effect& effect,
                                   const Eigen::VectorXd& steps) {
   Eigen::MatrixXcd jacobian(record.acoustic_count, 4 + steps.size());
   const Eigen::VectorXcd& q = record.driving_heat_release;
-  // What moves about the means hardly changes how the residual moves with the locals.
+  // The movement about the means hardly changes the derivatives of the residual by the locals.
   const Eigen::VectorXcd r = RecordedTransfer(record, effect, x, locals);
   for (int i = 0; i < 4; ++i) {
     if (!IsFree(record.model, i)) {
@@ -203,7 +203,7 @@ std::vector<AcousticLocals> SecondModeStarts(const CutRecord& record, const Effe
 
 std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect& effect,
                                            EffectValues x, std::size_t count) {
-  // Where another mode carries the cycle, omega is known by their ratio.
+  // Where another mode carries the cycle, omega follows from the modes' ratio.
   constexpr std::array kOmegaIfCarried = {0.98, 1.0, 1.02};
   constexpr std::array kXiIfCarried = {0.1, 0.17};
   const CutReference& reference = record.reference;
@@ -221,7 +221,7 @@ std::vector<AcousticLocals> AcousticStarts(const CutRecord& record, const Effect
       }
     }
   }
-  // A reference's factors stand beside its own base: far from there they mislead.
+  // A reference's factors hold relative to its own base, and mislead far from that base.
   if (reference.acoustic.size() > 0) places = {reference.acoustics.head<2>()};
   return BestStarts(record, effect, x, places, count);
 }

@@ -51,7 +51,7 @@ Eigen::VectorXcd MovedDamping(const CutRecord& record, double omega, double xi, 
 }
 
 struct AcousticModulation {
-  // Sample by sample, less their means; empty where nothing moves.
+  // The changes at each sample, less their means; empty where nothing moves.
   Eigen::ArrayXd log_omega;
   Eigen::ArrayXd xi_add;
 };

@@ -7,7 +7,7 @@
 
 namespace howl {
 
-std::string Advice(const Diagnosis& diagnosis, bool seen) {
+std::string Advice(const Diagnosis& diagnosis, bool model_free) {
   if (diagnosis.kind == VerdictKind::kNone) {
     return "nothing to separate; longer records would lower the floor";
   }
@@ -15,7 +15,7 @@ std::string Advice(const Diagnosis& diagnosis, bool seen) {
     return "a stable operating point, or a loudspeaker's sweep, would give the transfer functions "
            "of both cuts without the cycle";
   }
-  // Alone or in a combination.
+  // True if the effect was found alone or in a combination.
   const auto has = [&](std::string_view id) {
     const auto names = [&](const std::string& effect) {
       return effect.find(id) != std::string::npos;
@@ -23,7 +23,8 @@ std::string Advice(const Diagnosis& diagnosis, bool seen) {
     return names(diagnosis.effect) || std::any_of(diagnosis.indistinguishable.begin(),
                                                   diagnosis.indistinguishable.end(), names);
   };
-  if (!seen && diagnosis.bootstrap_gains.empty() && diagnosis.candidates[0].gain < kNearNoise) {
+  if (!model_free && diagnosis.bootstrap_gains.empty() &&
+      diagnosis.candidates[0].gain < kNearNoise) {
     return "--bootstrap 19 tells whether noise alone, on a rig like this, gains as much";
   }
   const bool clipped_alone = diagnosis.effect == "p_clipping" || diagnosis.effect == "q_clipping";

@@ -8,8 +8,8 @@
 
 namespace howl {
 
-// seen: the effect is in the samples themselves, without a likelihood.
-std::string Advice(const Diagnosis& diagnosis, bool seen);
+// model_free: the effect was detected in the samples themselves, without a likelihood.
+std::string Advice(const Diagnosis& diagnosis, bool model_free);
 
 }  // namespace howl
 

@@ -9,8 +9,8 @@
 namespace howl {
 
 struct BaseModel {
-  int modes = 2;                               // 1: M is zero
-  double harmonic_ratio = kSeedHarmonicRatio;  // the second mode's frequency over the first's
+  int modes = 2;                                // 1: M is zero
+  double harmonic_ratio = kPaperHarmonicRatio;  // the second mode's frequency over the first's
   bool own_delays = false;
 };
 

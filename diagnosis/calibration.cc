@@ -5,17 +5,17 @@
 namespace howl {
 namespace {
 
-// Wrong verdicts over all of their kind, on the rigs of the third and the fourth trial. Most of
-// what `none` misses is too small for the records.
+// The share of wrong verdicts among all of their kind, on the rigs of the third and the fourth
+// trial. Most effects that `none` misses are too small for the records.
 constexpr double kDoubtOfNone = 0.18;
 constexpr double kDoubtOfEffect = 0.08;
-constexpr double kDoubtOfSeen = 0.02;
+constexpr double kDoubtOfModelFree = 0.02;
 constexpr double kDoubtOfUnknown = 0.07;
-// Of the doubt, what goes to the other two kinds; the rest to all effects alike.
+// The shares of the doubt that go to the other two kinds; the rest goes to all effects alike.
 constexpr double kToNone = 0.1;
 constexpr double kToUnknown = 0.35;
 
-double Doubt(const Diagnosis& diagnosis, bool seen) {
+double Doubt(const Diagnosis& diagnosis, bool model_free) {
   switch (diagnosis.kind) {
     case VerdictKind::kNone:
       return kDoubtOfNone;
@@ -24,13 +24,13 @@ double Doubt(const Diagnosis& diagnosis, bool seen) {
     case VerdictKind::kEffect:
       break;
   }
-  return seen ? kDoubtOfSeen : kDoubtOfEffect;
+  return model_free ? kDoubtOfModelFree : kDoubtOfEffect;
 }
 
 }  // namespace
 
-void Calibrate(bool seen, Diagnosis* diagnosis) {
-  const double doubt = Doubt(*diagnosis, seen);
+void Calibrate(bool model_free, Diagnosis* diagnosis) {
+  const double doubt = Doubt(*diagnosis, model_free);
   const double to_none = diagnosis->kind == VerdictKind::kNone ? 0.0 : kToNone;
   const double to_unknown = diagnosis->kind == VerdictKind::kUnknown ? 0.0 : kToUnknown;
   diagnosis->probability_none = (1.0 - doubt) * diagnosis->probability_none + doubt * to_none;

@@ -1,6 +1,6 @@
-// One mode or two where nobody states it: both bases are fitted, and the second mode stays where
-// what it takes off the likelihood exceeds the price of its coefficients by what noise does not
-// reach (verdict.h).
+// Chooses one mode or two where the config does not state it: both bases are fitted, and the second
+// mode stays if its gain exceeds the price of its coefficients by more than noise gives
+// (verdict.h).
 #ifndef HOWL_DIAGNOSIS_CHOOSE_MODES_H_
 #define HOWL_DIAGNOSIS_CHOOSE_MODES_H_
 

@@ -69,7 +69,7 @@ void FindIn(const std::vector<CutRecord>& records, const std::vector<Eigen::Vect
   }
 }
 
-// Lines are named by frequency: records of another length are another grid.
+// Lines are identified by frequency, because records of another length have another grid of bins.
 bool OnOneGrid(const std::vector<CutRecord>& records) {
   return std::all_of(records.begin(), records.end(),
                      [&](const CutRecord& record) { return record.bin_hz == records[0].bin_hz; });
@@ -171,8 +171,8 @@ LineOrigin ExplainLines(const std::vector<CutRecord>& records, const EffectFit& 
       }
       const std::complex<double> e_b = at.flame_residual[k];
       const double v_b = at.flame_noise[k];
-      // q from p at small amplitude, averaged over the cycle: what the base predicts around there
-      // over p. The line itself is part of both.
+      // The response of q to p at small amplitude, averaged over the cycle: the prediction around
+      // it over p. The line itself is part of both.
       const std::complex<double> f =
           (record.windowed_heat_release[k] - e_b) / record.windowed_pressure[k];
       const auto regress = [&](std::complex<double> a, std::complex<double> b) {

@@ -32,7 +32,7 @@ struct LineOrigin {
 
 std::vector<CoherentLine> FindCoherentLines(const std::vector<CutRecord>& records);
 
-// Those that cut A leaves over: combustion noise, which is in p and in q, hides none of them.
+// The lines in the residual of cut A, where combustion noise, which is in p and in q, hides none.
 std::vector<CoherentLine> FindLinesLeftOver(const std::vector<CutRecord>& records,
                                             const EffectFit& fit);
 

@@ -39,8 +39,8 @@ Eigen::VectorXd Hertz(Eigen::Index first, Eigen::Index count, double bin_hz) {
          bin_hz;
 }
 
-// Of signal squared plus quadrature squared: the square of the amplitude, with no ripple at twice
-// the cycle's frequency.
+// The square of the amplitude, as the square of the signal plus that of its quadrature, which has
+// no ripple at twice the cycle's frequency.
 Eigen::VectorXcd SquareSpectrum(const CutRecord& record, Eigen::VectorXcd spectrum) {
   const Eigen::VectorXd in_phase = InverseFft(spectrum, record.samples);
   spectrum *= std::complex<double>(0.0, -1.0);
@@ -54,7 +54,7 @@ double Amplitude(const CutRecord& record, const Eigen::VectorXcd& square_spectru
   return std::sqrt(square_spectrum[0].real() / static_cast<double>(record.samples));
 }
 
-// s times a low-pass: one up to `edge`, falling to zero over the next quarter.
+// s times a low-pass, which is one up to `edge` and falls to zero over the next quarter.
 Eigen::VectorXcd DerivativeFilter(const CutRecord& record, double edge_hz) {
   Eigen::VectorXcd filter(record.pressure_spectrum.size());
   for (Eigen::Index k = 0; k < filter.size(); ++k) {
@@ -65,7 +65,7 @@ Eigen::VectorXcd DerivativeFilter(const CutRecord& record, double edge_hz) {
   return filter;
 }
 
-// Half a cosine over the band's last part.
+// A weight that falls as half a cosine over the last part of the band.
 Eigen::VectorXd UpperTaper(Eigen::Index count) {
   Eigen::VectorXd taper(count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -131,7 +131,7 @@ void SetBand(double cycle_hz, CutRecord* record) {
 
 Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
                              Eigen::Index count) {
-  // Real and imaginary parts side by side, two numbers a bin.
+  // Real and imaginary parts are stored side by side, two numbers for each bin.
   const Eigen::Map<const Eigen::VectorXd> in(reinterpret_cast<const double*>(extended.data()),
                                              2 * extended.size());
   Eigen::VectorXcd out(count);

@@ -38,8 +38,8 @@ struct DiagnosisExperiment {
   Record record;
 };
 
-// What another record of the same loop, the reference, already has beside the base (reference.h).
-// Empty vectors are ones.
+// What another record of the same loop, the reference, already has in addition to the base
+// (reference.h). An empty vector stands for ones.
 struct CutReference {
   Eigen::VectorXcd acoustic;  // factor on K (extended band)
   Eigen::VectorXcd flame;     // factor on delay and flame (cut B's extended band)

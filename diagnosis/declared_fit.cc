@@ -28,7 +28,7 @@ struct Inverse {
   double mean_log_slope = 0.0;
 };
 
-// Nothing where the map does not rise, or does not reach the record's values.
+// No value where the map does not rise, or does not reach the record's values.
 std::optional<Inverse> TakeBack(const DeclaredEffect& effect, const std::vector<double>& values,
                                 const std::vector<double>& recorded) {
   double mean = 0.0;
@@ -40,7 +40,7 @@ std::optional<Inverse> TakeBack(const DeclaredEffect& effect, const std::vector<
   std::vector<double> table(kTable);
   for (int i = 0; i < kTable; ++i)
     table[static_cast<std::size_t>(i)] = effect.Map(-reach + i * step, values);
-  // The rising stretch around zero.
+  // The interval around zero on which the map rises.
   std::size_t low = kTable / 2;
   std::size_t high = low;
   while (low > 0 && table[low - 1] < table[low]) --low;
@@ -111,7 +111,7 @@ class MapSearch {
     return FitEffect(repaired->records, acoustic_, base_).acoustic_cost + repaired->slope_cost;
   }
 
-  // Pattern search from the best start: the step is halved where no neighbour is better.
+  // A pattern search from the best start, whose step is halved where no neighbour is better.
   std::vector<double> Search(double* cost) const {
     std::vector<double> best = Nulls();
     *cost = std::numeric_limits<double>::infinity();

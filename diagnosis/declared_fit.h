@@ -1,8 +1,8 @@
 // Declared effects (model/effects/declared_effect.h) that are no transfer functions.
 //
-// A static map of a recorded signal, y = m(x; theta): the record is taken back through the map and
-// the base refitted to it. A map of p compresses the scale of cut A's residual with it, so the
-// likelihood has the map's slope (change of variables):
+// A static map of a recorded signal, y = m(x; theta): the record is mapped back by the inverse and
+// the base refitted to it. A map of p compresses cut A's residual too, so the likelihood contains
+// the map's slope (change of variables):
 //
 //   cost(theta) = Whittle cost of cut A at m^-1(y) + 2 K / kBinCorrelation mean(log m'(x))   (p)
 //

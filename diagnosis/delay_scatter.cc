@@ -6,12 +6,13 @@
 namespace howl {
 namespace {
 
-// Of the widths that are tried: from where records seldom tell one delay from another.
+// The least width that is tried, below which records seldom tell one delay from another.
 constexpr double kLeast = 1e-5;
 constexpr double kMost = 1.0;  // some delays are thrice as long as others
 constexpr double kStep = 1.02;
 
-// By the likelihood of the optima alone, which are normal about the mean with s^2 + 1 / I_e.
+// The mean by the likelihood of the optima alone, which are normal about it with the variance
+// s^2 + 1 / I_e.
 double MeanAt(const std::vector<OwnDelay>& delays, double s) {
   double sum = 0.0;
   double weights = 0.0;

@@ -1,4 +1,4 @@
-// One diagnosis beside the base that the model states, or that the records choose.
+// One diagnosis with the base that the config's model states, or that is chosen by the records.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -26,16 +26,16 @@ class SecondMemory final : public FitMemory {
   FitMemory* first_;
 };
 
-// ln 19, in nats: at 19 to 1 the effect is the better word.
+// ln 19, in nats: the effect is preferred to own delays at odds of 19 to 1.
 constexpr double kLogOddsToAccuse = 2.944438979166440;
 
 }  // namespace
 
 bool DelaysDiffer(double own_delays_gain) { return own_delays_gain > DetectionGain(true); }
 
-// Delays of their own that say as much as the best effect take its place: a rig is not accused of
-// what may be no more than its operating points' own delays. Where the effect says more, they are
-// asked for in addition to it.
+// Own delays that gain as much as the best effect replace it: a rig is not accused of what may be
+// no more than the different delays of its operating points. Where the effect gains more, own
+// delays are tried in addition to it.
 double Search::OwnDelaysGain() const {
   std::vector<CutRecord> records = records_;
   for (CutRecord& record : records) record.model.own_delays = true;
@@ -43,10 +43,11 @@ double Search::OwnDelaysGain() const {
   const auto best = std::ranges::max_element(
       attempts_, {}, [](const Attempt& attempt) { return attempt.candidate.gain; });
   if (best == attempts_.end() || best->candidate.gain <= 0.0 || !ShowsInFlame(*best) ||
-      !best->repaired.empty() || best->refilled || GainOver(base, *best->fit) < kLogOddsToAccuse) {
+      !best->repaired.empty() || best->redeclipped ||
+      GainOver(base, *best->fit) < kLogOddsToAccuse) {
     return base_.cost() - base.cost();
   }
-  return best->fit->cost() - Settle(records, base, *best->fit).cost();
+  return best->fit->cost() - ConvergedFit(records, base, *best->fit).cost();
 }
 
 Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,

@@ -18,21 +18,21 @@ namespace howl {
 namespace {
 
 constexpr double kClassProbability = 0.02;
-// A second transfer function that brings as much as it must was seen to leave at least this share
-// of it as slack beside the first (results/trial): less is not worth the search.
+// Where a second transfer function brings as much as it must, the fit of the first alone leaves at
+// least this share of that as slack (results/trial). With less slack the search does not pay.
 constexpr double kSlackOfASecond = 0.3;
 
-// Of clipped q with a second that its rough repair may feign as well, over clipped q alone: one of
-// 38 was true (results/trial).
-constexpr double kFeignedOdds = 0.03;
+// Odds of clipped q with a second effect over clipped q alone, where the second may be an artefact
+// of the rough repair of q: one of 38 such seconds was true (results/trial).
+constexpr double kSpuriousOdds = 0.03;
 
 bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
-  return !first.seen && first.also.empty() &&
+  return !first.model_free && first.also.empty() &&
          after.acoustic_excess + after.flame_excess > kSlackOfASecond * LeastCompeting(first);
 }
 
 bool Better(const Attempt& a, const Attempt& b) {
-  return a.seen != b.seen ? a.seen : a.candidate.gain > b.candidate.gain;
+  return a.model_free != b.model_free ? a.model_free : a.candidate.gain > b.candidate.gain;
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ Diagnosis Search::Run() {
   }
   MeasureGaps();
   std::stable_sort(attempts_.begin(), attempts_.end(), Better);
-  if (!attempts_.empty() && attempts_[0].refilled) records_ = *attempts_[0].refilled;
+  if (!attempts_.empty() && attempts_[0].redeclipped) records_ = *attempts_[0].redeclipped;
   gain_of_noise_ = GainOfNoiseForTheBest();
   Judgement at = Judge();
   Diagnosis out = Conclude(at.evidence, at.belief);
@@ -68,12 +68,13 @@ Diagnosis Search::Run() {
     out.together = at.together->candidate.effect;
     attempts_.insert(attempts_.begin() + 1, std::move(*at.together));
   }
-  const bool seen = (repair_ && out.kind == VerdictKind::kNone) ||
-                    (!attempts_.empty() && (attempts_[0].seen || attempts_[0].without_lines));
+  const bool model_free =
+      (repair_ && out.kind == VerdictKind::kNone) ||
+      (!attempts_.empty() && (attempts_[0].model_free || attempts_[0].without_lines));
   out.candidates = Candidates();
   if (repair_) AddClipping(&out);
-  out.advice = Advice(out, seen);
-  Calibrate(seen, &out);
+  out.advice = Advice(out, model_free);
+  Calibrate(model_free, &out);
   return out;
 }
 
@@ -86,7 +87,7 @@ Search::Judgement Search::Judge() {
         TryDistinctEffects(at_, attempts_, units_, lines_, options_.threads);
     if (!combined.empty()) {
       const double p_value = attempts_[0].candidate.p_value;
-      // The best alone stays on top of a combination that may be feigned.
+      // The best alone keeps its place before a combination whose second may be spurious.
       const bool again = combined[0].candidate.effect == attempts_[0].candidate.effect;
       if (again) attempts_.erase(attempts_.begin());
       for (Attempt& each : combined) {
@@ -105,8 +106,8 @@ Search::Judgement Search::Judge() {
     if (at.together) at.belief.unknown = std::max(at.belief.unknown, kUnexplainedFact);
   }
   if (at.belief.none <= 0.5 && !attempts_.empty()) {
-    at.shrinkage_no_meaning = ShrinkageByNoMeaning(attempts_[0]);
-    if (IsNoBetterThanNoMeaning(attempts_[0].candidate.shrinkage, at.shrinkage_no_meaning)) {
+    at.placebo_shrinkage = PlaceboShrinkage(attempts_[0]);
+    if (IsNoBetterThanPlacebo(attempts_[0].candidate.shrinkage, at.placebo_shrinkage)) {
       at.belief.unknown = std::max(at.belief.unknown, kUnexplainedFact);
     }
   }
@@ -121,7 +122,7 @@ void Search::Describe(const Judgement& at, Diagnosis* out) {
   out->slack_flame_before = before.flame_excess;
   out->slack_acoustic_after = at.after.acoustic_excess;
   out->slack_flame_after = at.after.flame_excess;
-  out->shrinkage_no_meaning = at.shrinkage_no_meaning;
+  out->placebo_shrinkage = at.placebo_shrinkage;
   const bool no_lines = lines_.empty();
   GapSide left;
   if (only_clipping) {
@@ -169,18 +170,18 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
   out.gap_floor = evidence.gap_floor;
   out.probability_none = belief.none;
   out.probability_unknown = (1.0 - belief.none) * belief.unknown;
-  // Against the first of a pair alone, what counts is what the second brings.
+  // The odds of a pair against its first effect alone depend on the gain of the second.
   const double temperature = Temperature(
       !attempts_.empty() && !attempts_[0].also.empty() ? attempts_[0].second_gain : evidence.gain);
   std::vector<double> weight;
   double total = 0.0;
   for (const Attempt& attempt : attempts_) {
     const double behind = attempts_[0].candidate.gain - attempt.candidate.gain;
-    // What is seen in the samples leaves no room for another alone.
-    const bool out_of_question = attempts_[0].seen && !weight.empty() && attempt.also.empty();
-    weight.push_back(out_of_question          ? 0.0
-                     : attempt.may_be_feigned ? kFeignedOdds
-                                              : std::exp(-behind / temperature));
+    // If the best was detected in the samples, no other single effect can replace it.
+    const bool out_of_question = attempts_[0].model_free && !weight.empty() && attempt.also.empty();
+    weight.push_back(out_of_question           ? 0.0
+                     : attempt.may_be_spurious ? kSpuriousOdds
+                                               : std::exp(-behind / temperature));
     total += weight.back();
   }
   for (std::size_t i = 0; i < attempts_.size(); ++i) {

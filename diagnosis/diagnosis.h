@@ -1,13 +1,14 @@
-// The gap between model and rig: how wide, where, which effect causes it, how far it shrinks.
+// The gap between model and rig: how wide it is, where it lies, which effect causes it, and how far
+// that effect shrinks it.
 //
 // Gap: for each experiment and cut the mean of |E|^2 / V less one, V being the noise (sensor noise
 // of cut A without a model; combustion noise of cut B by the best fit); the root of the mean of its
 // positive parts. 0: the residuals are noise. Held out: tau and an effect's parameters come from
 // the other experiments.
 //
-// Verdict: `none` while no effect and no free slack takes more off the likelihood than noise does;
-// `unknown` if what free slack still takes off after the best effect is not small against what the
-// effect took; else the best effect, with those that come close to it.
+// Verdict: `none` while neither an effect nor free slack gains more log-likelihood than noise
+// gives; `unknown` if the gain that free slack still has after the best effect is not small against
+// the effect's own gain; else the best effect, with those that come close to it.
 #ifndef HOWL_DIAGNOSIS_DIAGNOSIS_H_
 #define HOWL_DIAGNOSIS_DIAGNOSIS_H_
 
@@ -45,7 +46,8 @@ struct Candidate {
   double shrinkage = 0.0;
   double shrinkage_low = 0.0;  // 95 %, over the experiments
   double shrinkage_high = 0.0;
-  // For the largest of the catalogue: by the bootstrap; else by chi-square, roughly.
+  // Of the largest gain in the catalogue: by the bootstrap if there was one, else roughly by
+  // chi-square.
   double p_value = 1.0;
   double probability = 0.0;
   std::vector<EstimatedParameter> parameters;
@@ -62,11 +64,13 @@ struct Place {
 struct Diagnosis {
   VerdictKind kind = VerdictKind::kNone;
   std::string effect;  // empty unless kEffect; "a+b": two at once
-  // Seen in the samples and taken out of them before the search: p_clipping; else empty. It leads
-  // `effect` and every candidate; an unknown is then what is left once it is repaired.
+  // p_clipping where it was detected in the samples and taken out of them before the search; else
+  // empty. It comes first in `effect` and in every candidate; a verdict of unknown is then about
+  // what is left once it is repaired.
   std::string repaired;
   std::vector<std::string> indistinguishable;
-  // Unknown: two effects of the catalogue that together would leave little; empty if none do.
+  // With the verdict unknown: two effects of the catalogue that together would leave little; empty
+  // if there are none.
   std::string together;
   double probability_none = 0.0;
   double probability_unknown = 0.0;
@@ -74,30 +78,30 @@ struct Diagnosis {
   double gap_before = 0.0;
   double gap_after = 0.0;
   double gap_floor = 0.0;
-  // By effects that mean nothing, as free as the best (no_meaning.h): the median. NaN where the
-  // best is no transfer function.
-  double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
+  // Median shrinkage of the gap by placebo effects with as many parameters as the best candidate
+  // (placebo.h); NaN where the best is no transfer function.
+  double placebo_shrinkage = std::numeric_limits<double>::quiet_NaN();
   std::vector<GapCell> map;           // before and after the best effect
   std::vector<Candidate> candidates;  // the most probable first
-  BaseModel model;                    // what the effects stand beside
-  // What a second mode takes off the likelihood, its coefficients paid for, where it was asked by
-  // that (choose_modes.h); NaN where the model states its modes.
+  BaseModel model;                    // the base to which effects were added
+  // The gain in log-likelihood by a second mode, less the price of its coefficients, where the
+  // records choose the modes (choose_modes.h); NaN where the model states them.
   double second_mode_gain = std::numeric_limits<double>::quiet_NaN();
-  // What own delays take off the likelihood beside the best effect, or none, where that was asked;
-  // NaN where the model states it.
+  // The gain in log-likelihood by own delays, given the best effect or none, where the records
+  // choose the delays; NaN where the model states them.
   double own_delays_gain = std::numeric_limits<double>::quiet_NaN();
   double delay_scatter = 0.0;  // of log tau over the experiments, in the best fit
-  // Of the loop, where the verdict is an effect whose fit has them.
+  // The loop's parameters that moved, where the verdict is an effect whose fit has them.
   std::vector<MovedParameter> base_parameters;
-  // What free slack takes off the likelihood, before and after the best effect, in cuts A and B.
+  // The gain in log-likelihood by free slack before and after the best effect, in cuts A and B.
   double slack_acoustic_before = 0.0;
   double slack_flame_before = 0.0;
   double slack_acoustic_after = 0.0;
   double slack_flame_after = 0.0;
-  // Ascending: the largest gain of each replicate of the bootstrap, if there was one.
+  // The largest gain of each replicate of the bootstrap, ascending; empty if there was none.
   std::vector<double> bootstrap_gains;
   std::string advice;
-  bool stopped = false;  // before the end: the rest is empty
+  bool stopped = false;  // the run was stopped before its end, and the rest is empty
 };
 
 struct DiagnosisOptions {
@@ -111,14 +115,14 @@ struct DiagnosisOptions {
   std::vector<EffectPointer> further;  // effects of the user's own
   // Records that take the model's place (reference.h); none: the base alone is the model.
   std::vector<DiagnosisExperiment> reference;
-  // In starts of the search, of which an effect has a few or many.
+  // Progress in starts of the search, of which an effect has a few or many.
   std::function<void(std::size_t done, std::size_t total)> progress;
   std::function<void(std::size_t done, std::size_t total)> bootstrap_progress;
   FitMemory* memory = nullptr;    // of an interrupted run of the same inputs
   std::function<bool()> stopped;  // asked between effects
 };
 
-// The same for all numbers of threads; nothing in it is random but the bootstrap.
+// The diagnosis is the same for any number of threads; nothing in it is random but the bootstrap.
 Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
                    const DiagnosisOptions& options);
 

@@ -20,9 +20,9 @@ constexpr int kLaterRoundIterations = 8;
 constexpr int kMostRounds = 30;
 constexpr int kIdleRounds = 2;
 constexpr int kMostRestarts = 3;
-constexpr double kSettled = 0.1;  // nats between two rounds
+constexpr double kConverged = 0.1;  // nats between two rounds
 constexpr std::size_t kStartsKept = 2;
-constexpr int kApproachIterations = 4;
+constexpr int kPreliminaryIterations = 4;
 
 class NoEffect final : public NamedEffect {
  public:
@@ -40,11 +40,11 @@ EffectPointer BaseEffect() {
 
 namespace {
 
-// Descents at fixed noise and refits of it in turn, until they find nothing more. Where noise is a
-// millionth of the signal, the first rounds still lower the cost by thousands; where the model is
-// far from the rig the cost may go to and fro by some nats, for a descent looks at the squares
-// alone, and a refit at the noise alone: the best of the rounds is kept. A round that leaves the
-// cost where it was would leave it there again.
+// Descents at fixed noise alternate with refits of the noise until neither lowers the cost. Where
+// noise is a millionth of the signal, the first rounds still lower the cost by thousands. Where the
+// model is far from the rig the cost may oscillate by some nats, because a descent lowers the
+// squares alone and a refit the noise's cost alone; therefore the best of the rounds is kept.
+// A round that leaves the cost where it was would leave it there again.
 void Alternate(Fitter* fitter, EffectFit* fit) {
   EffectFit best = *fit;
   double least = std::numeric_limits<double>::infinity();
@@ -55,7 +55,7 @@ void Alternate(Fitter* fitter, EffectFit* fit) {
     fitter->RefitScatter(fit);
     fitter->RefitNoise(fit);
     VLOG(3) << fit->effect->id() << ", round " << round << ": cost " << fit->cost();
-    idle = fit->cost() < least - kSettled ? 0 : idle + 1;
+    idle = fit->cost() < least - kConverged ? 0 : idle + 1;
     if (fit->cost() < least) {
       least = fit->cost();
       best = *fit;
@@ -67,29 +67,30 @@ void Alternate(Fitter* fitter, EffectFit* fit) {
   fitter->SetNoise(*fit);
 }
 
-// To the end, from here and from further starts of the experiments' own parameters, which are
-// judged by where they end: a noise that was fitted to a bad place hides how bad it is. Again where
-// one was better: it may be the others' place too.
-void SettleLocals(Fitter* fitter, EffectFit* fit) {
+// Alternates until convergence from here and from further starts of the experiments' own
+// parameters. The starts are judged by where they end, because a noise that was fitted at a bad
+// start hides how bad it is. Where a start led to a better end the search is repeated, because
+// other experiments may be better off there too.
+void ConvergeLocals(Fitter* fitter, EffectFit* fit) {
   Alternate(fitter, fit);
   for (int restart = 0; restart < kMostRestarts; ++restart) {
     EffectFit other = *fit;
     if (!fitter->RestartLocals(&other)) break;
     fitter->RefitNoise(&other);
     Alternate(fitter, &other);
-    if (!(other.cost() < fit->cost() - kSettled)) break;
+    if (!(other.cost() < fit->cost() - kConverged)) break;
     *fit = std::move(other);
   }
   fitter->SetNoise(*fit);
 }
 
-EffectFit SettledBase(const std::vector<CutRecord>& records,
-                      const std::vector<FlameColumns>& columns, EffectFit fit) {
+EffectFit ConvergedBase(const std::vector<CutRecord>& records,
+                        const std::vector<FlameColumns>& columns, EffectFit fit) {
   Fitter fitter(records, *fit.effect, &columns);
   fitter.SetNoise(fit);
   fitter.Descend(&fit, kLaterRoundIterations);
   fitter.RefitNoise(&fit);
-  SettleLocals(&fitter, &fit);
+  ConvergeLocals(&fitter, &fit);
   fitter.Finish(&fit, nullptr);
   return fit;
 }
@@ -106,13 +107,14 @@ EffectFit BaseFromGrid(const std::vector<CutRecord>& records,
     at.acoustic_noise = Eigen::VectorXd::Ones(records[e].acoustic_count);
     at.flame_noise = Eigen::VectorXd::Ones(records[e].flame_count);
   }
-  return SettledBase(records, columns, std::move(fit));
+  return ConvergedBase(records, columns, std::move(fit));
 }
 
 }  // namespace
 
-// Two modes contain one: whatever the grid led to, they fit no worse than one mode alone, from
-// whose fit they begin as well, and which is theirs where no second mode is any better.
+// A model with two modes contains the model with one, so it must fit no worse, whatever the grid
+// led to. It is therefore fitted from the one-mode fit as well, and takes that fit itself where no
+// second mode is better.
 EffectFit FitBase(const std::vector<CutRecord>& records) {
   const std::vector<FlameColumns> columns = BaseColumns(records);
   EffectFit fit = BaseFromGrid(records, columns);
@@ -120,8 +122,8 @@ EffectFit FitBase(const std::vector<CutRecord>& records) {
   std::vector<CutRecord> one = records;
   for (CutRecord& record : one) record.model.modes = 1;
   EffectFit one_mode = BaseFromGrid(one, columns);
-  for (const EffectFit& other : {SettledBase(records, columns, one_mode), one_mode}) {
-    if (other.cost() < fit.cost() - kSettled) fit = other;
+  for (const EffectFit& other : {ConvergedBase(records, columns, one_mode), one_mode}) {
+    if (other.cost() < fit.cost() - kConverged) fit = other;
   }
   return fit;
 }
@@ -158,10 +160,10 @@ void KeepBest(std::size_t count, EffectFits* fits) {
   if (fits->size() > count) fits->pop_back();
 }
 
-EffectFit SettleBest(EffectFits fits, const EffectFit& base, Fitter* fitter) {
+EffectFit ConvergeBest(EffectFits fits, const EffectFit& base, Fitter* fitter) {
   for (EffectFit& fit : fits) {
     fitter->SetNoise(fit);
-    SettleLocals(fitter, &fit);
+    ConvergeLocals(fitter, &fit);
   }
   EffectFit best = *std::min_element(fits.begin(), fits.end(), Cheaper);
   fitter->SetNoise(best);
@@ -190,9 +192,9 @@ EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& 
     }
   };
   follow(StartValues(*effect, {}), true);
-  // Found beside the base: nothing else needs to move first.
+  // Scanned starts were found with all else at the base's values, which need not be refitted first.
   follow(ScannedStarts(effect, base, &fitter), false);
-  return SettleBest(std::move(kept), base, &fitter);
+  return ConvergeBest(std::move(kept), base, &fitter);
 }
 
 double GainOver(const EffectFit& base, const EffectFit& fit) {
@@ -201,19 +203,19 @@ double GainOver(const EffectFit& base, const EffectFit& fit) {
                          fit.values.size());
 }
 
-EffectFit Approach(const std::vector<CutRecord>& records, const EffectPointer& combined,
-                   const EffectFit& base, const EffectFit& first) {
+EffectFit PreliminaryFit(const std::vector<CutRecord>& records, const EffectPointer& combined,
+                         const EffectFit& base, const EffectFit& first) {
   const std::vector<FlameColumns> columns = ColumnsFor(records, *combined);
   Fitter fitter(records, *combined, &columns);
   EffectFits kept;
   for (const std::vector<double>& values : StartValues(*combined, first.values)) {
     fitter.SetNoise(first);
     EffectFit fit = StartOf(records, combined, base, values, true);
-    // Where the second changes little, the first's own parameters are nearer.
+    // Where the second effect changes little, the first's fit has the nearer local parameters.
     EffectFit near = fit;
     near.experiments = first.experiments;
     if (fitter.Evaluate(&near) < fitter.Evaluate(&fit)) fit = std::move(near);
-    fitter.Descend(&fit, kApproachIterations);
+    fitter.Descend(&fit, kPreliminaryIterations);
     fitter.RefitScatter(&fit);
     fitter.RefitNoise(&fit);
     kept.push_back(std::move(fit));
@@ -222,22 +224,22 @@ EffectFit Approach(const std::vector<CutRecord>& records, const EffectPointer& c
   return std::move(kept[0]);
 }
 
-EffectFit Settle(const std::vector<CutRecord>& records, const EffectFit& base,
-                 const EffectFit& approached) {
-  const std::vector<FlameColumns> columns = ColumnsFor(records, *approached.effect);
-  Fitter fitter(records, *approached.effect, &columns);
-  return SettleBest({approached}, base, &fitter);
+EffectFit ConvergedFit(const std::vector<CutRecord>& records, const EffectFit& base,
+                       const EffectFit& preliminary) {
+  const std::vector<FlameColumns> columns = ColumnsFor(records, *preliminary.effect);
+  Fitter fitter(records, *preliminary.effect, &columns);
+  return ConvergeBest({preliminary}, base, &fitter);
 }
 
 namespace {
 
-// Where the others leave the shared parameters loose, what they predict is loose too: under the
-// covariance V + J C J', C being that of the parameters from the others,
+// Where the other experiments leave the shared parameters uncertain, their prediction is uncertain
+// too: it has the covariance V + J C J', where C is that of the parameters from the others, and
 //
 //   r' (V + J C J')^-1 r = min over d of |r - J d|^2 / V + d' C^-1 d.
 //
-// The minimum is the fit to all; the way to it costs shift' rest shift. The part of the shift that
-// costs the held-out experiment as much.
+// The minimum is the fit to all experiments; the shift to it costs the others shift' rest shift.
+// Returned is the fraction of the shift that costs the held-out experiment as much.
 double Contradiction(const Eigen::MatrixXd& rest, const Eigen::MatrixXd& own,
                      const Eigen::VectorXd& shift) {
   const double to_the_rest = shift.dot(rest * shift);
@@ -267,7 +269,7 @@ ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fi
   }
   Fitter fitter(records, *fit.effect, nullptr);
   fitter.SetNoise(moved);
-  // Its own parameters, in all cuts that the effect or the moved delay reach.
+  // The experiment's own parameters are refitted in all cuts that the effect or the delay changes.
   fitter.DescendLocals(&moved, experiment);
   return moved.experiments[experiment];
 }

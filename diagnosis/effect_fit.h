@@ -3,11 +3,11 @@
 //   minimise  sum over experiments of  sum |E_A|^2 / V_A + sum |E_B|^2 / V_B
 //
 // over omega, xi, N, M and the flame's coefficients of each experiment, and over tau and the
-// effect's parameters, which all experiments share; an experiment's delay may lie beside the shared
-// one, at a price (delay_scatter.h). Gauss-Newton with damping; an experiment's own
-// parameters are eliminated (Schur complement), so each leaves a small gradient and curvature in
-// the shared ones, from which leaving that experiment out costs one small solve. The noise spectra
-// V are refitted between rounds (noise_fit.h).
+// effect's parameters, which all experiments share; an experiment's delay may differ from the
+// shared one at a price (delay_scatter.h). The method is Gauss-Newton with damping. An experiment's
+// own parameters are eliminated (Schur complement), so that each experiment contributes a small
+// gradient and curvature in the shared ones; leaving an experiment out then costs one small solve.
+// The noise spectra V are refitted between rounds (noise_fit.h).
 #ifndef HOWL_DIAGNOSIS_EFFECT_FIT_H_
 #define HOWL_DIAGNOSIS_EFFECT_FIT_H_
 
@@ -42,7 +42,7 @@ struct EffectFit {
   std::vector<ExperimentFit> experiments;
   double acoustic_cost = 0.0;  // Whittle, per independent bin
   double flame_cost = 0.0;
-  double delay_cost = 0.0;              // of the delays beside tau: ScatterCost
+  double delay_cost = 0.0;              // of the delays that differ from tau: ScatterCost
   double freedom_cost = 0.0;            // the part of it that is FreedomCost
   std::vector<double> standard_errors;  // tau, then the parameters
   double cost() const { return acoustic_cost + flame_cost + delay_cost; }
@@ -56,26 +56,27 @@ EffectPointer BaseEffect();
 
 EffectFit FitBase(const std::vector<CutRecord>& records);
 
-// From several starts, beginning at the base's fit.
+// The best fit from several starts, of which the first is the base's fit.
 EffectFit FitEffect(const std::vector<CutRecord>& records, const EffectPointer& effect,
                     const EffectFit& base);
 
-// What the effect takes off the cost; freedom of the delays that it costs itself is not its merit
-// (delay_scatter.h).
+// How much the effect lowers the cost. A lower cost of the delays' freedom is not counted where the
+// effect has that freedom itself (delay_scatter.h).
 double GainOver(const EffectFit& base, const EffectFit& fit);
 
-// A combination whose first part was fitted already, in two parts, so that many combinations can be
-// compared before the best are followed to the end.
+// The fit of a combination whose first effect was fitted already comes in two stages, so that many
+// combinations can be compared before the best of them are fitted until they converge.
 //
-// A few steps from each start of the second's parameters, at the noise that the first left over;
-// the best of where they lead.
-EffectFit Approach(const std::vector<CutRecord>& records, const EffectPointer& combined,
-                   const EffectFit& base, const EffectFit& first);
-EffectFit Settle(const std::vector<CutRecord>& records, const EffectFit& base,
-                 const EffectFit& approached);
+// PreliminaryFit takes a few steps from each start of the second effect's parameters, at the noise
+// that the first effect's fit left over, and returns the best of the ends. ConvergedFit goes on
+// from a preliminary fit.
+EffectFit PreliminaryFit(const std::vector<CutRecord>& records, const EffectPointer& combined,
+                         const EffectFit& base, const EffectFit& first);
+EffectFit ConvergedFit(const std::vector<CutRecord>& records, const EffectFit& base,
+                       const EffectFit& preliminary);
 
-// The experiment's residuals with tau and the effect's parameters as the other experiments have
-// them, as far as these determine them; its own parameters refitted.
+// The experiment's residuals with tau and the effect's parameters from the other experiments, as
+// far as those determine them; the experiment's own parameters are refitted.
 ExperimentFit HeldOut(const std::vector<CutRecord>& records, const EffectFit& fit,
                       std::size_t experiment);
 std::vector<ExperimentFit> HoldOutEach(const std::vector<CutRecord>& records, const EffectFit& fit);

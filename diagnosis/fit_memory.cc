@@ -78,7 +78,7 @@ class Reader {
   std::size_t position_ = 0;
 };
 
-// One list of the fields for both ways.
+// One list of the fields serves both reading and writing.
 template <typename Fit, typename Visit>
 bool VisitNumbers(Fit& fit, const Visit& visit) {
   bool good = visit(fit.values) && visit(fit.tau_s) && visit(fit.delay_scatter) &&
@@ -129,7 +129,7 @@ std::optional<EffectFit> FromBytes(const std::string& bytes, const std::vector<C
 
 namespace {
 
-// FitEffect, unless the memory has it.
+// The fit by FitEffect, unless the memory has it.
 EffectFit FitOrRecall(FitMemory* memory, const std::string& key,
                       const std::vector<CutRecord>& records, const EffectPointer& effect,
                       const EffectFit& base) {

@@ -1,4 +1,5 @@
-// Finished fits kept for a run that was interrupted: the same bits as fitting again.
+// Finished fits are kept, so that an interrupted run can go on: a kept fit is bit for bit what a
+// new fit would be.
 #ifndef HOWL_DIAGNOSIS_FIT_MEMORY_H_
 #define HOWL_DIAGNOSIS_FIT_MEMORY_H_
 
@@ -26,8 +27,8 @@ class FitMemory {
   FitMemory& operator=(const FitMemory&) = default;
 };
 
-// The keys that a run has asked for, or kept: a CHECK that none comes twice. Not for several
-// threads at once.
+// The keys that a run has asked for, or kept, with a CHECK that none comes twice. It is not safe to
+// use from several threads at once.
 class UniqueKeys {
  public:
   explicit UniqueKeys(const char* verb) : verb_(verb) {}
@@ -38,9 +39,9 @@ class UniqueKeys {
   std::set<std::string> taken_;
 };
 
-// Every number of the fit, but not its effect.
+// The bytes of every number of the fit, but not of its effect.
 std::string ToBytes(const EffectFit& fit);
-// Nothing where the bytes are no fit of this effect to these records.
+// No value where the bytes are no fit of this effect to these records.
 std::optional<EffectFit> FromBytes(const std::string& bytes, const std::vector<CutRecord>& records,
                                    const EffectPointer& effect);
 

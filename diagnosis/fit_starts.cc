@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kScannedStarts = 3;
 constexpr Eigen::Index kSlopeStride = 7;
 
-// The lower median: where a higher mode takes over, its cycles are not the delay's.
+// The lower median, because the cycles of operating points where a higher mode takes over do not
+// tell the delay.
 double TypicalCycle(const std::vector<CutRecord>& records) {
   std::vector<double> cycles_hz;
   for (const CutRecord& record : records) cycles_hz.push_back(record.at.cycle_frequency_hz);
@@ -64,7 +65,8 @@ double StartDelay(const std::vector<CutRecord>& records, const std::vector<Flame
       cost += std::log(solution.residual.cwiseAbs2().dot(weight));
       falling -= SlopeSign(columns[e], solution.coefficients);
     }
-    // Half a period away a rising flame fits nearly as well; heat release falls as v rises.
+    // Half a period away a rising characteristic fits nearly as well, but heat release falls as v
+    // rises.
     if (falling <= 0.0) continue;
     if (cost < best) {
       best = cost;

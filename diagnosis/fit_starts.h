@@ -10,21 +10,22 @@ namespace howl {
 
 using StartList = std::vector<std::vector<double>>;
 
-// The flame's columns of all records where no effect bends its input.
+// The flame's columns of all records, where no effect changes the flame's input.
 std::vector<FlameColumns> BaseColumns(const std::vector<CutRecord>& records);
 
-// The delay by which Phi(v) explains q best, on a grid that no resonance of the objective escapes.
+// The delay with which Phi(v) explains q best, on a grid fine enough for all minima of the
+// objective.
 double StartDelay(const std::vector<CutRecord>& records, const std::vector<FlameColumns>& columns);
 
-// tau_s of the base, less the lag that the effect adds at the cycle.
+// The base's tau_s, less the lag that the effect adds at the cycle.
 double CorrectedDelay(const std::vector<CutRecord>& records, const Effect& effect, EffectValues x,
                       double tau_s);
 
-// All combinations of the parameters' starts, the first ones as `first` has them.
+// All combinations of the parameters' starts; the first parameters have the values in `first`.
 StartList StartValues(const Effect& effect, const std::vector<double>& first);
 
-// Where a weak effect would take off most: of the scanned values the best few that are no
-// neighbours, with the next parameter at its best.
+// Starts where a weak effect would gain most: the best few of the scanned values that are no
+// neighbours, each with the next parameter at its best.
 StartList ScannedStarts(const EffectPointer& effect, const EffectFit& base, Fitter* fitter);
 
 }  // namespace howl

@@ -108,8 +108,8 @@ void Fitter::RefitNoise(EffectFit* fit) {
     fit->flame_cost += FlameCost(records_[e], at.flame_residual, at.flame_noise);
   }
   SetNoise(*fit);
-  // One delay for all costs nothing, and what the price is computed from need not be there yet.
-  // Without cut B it stays as it was, with the delays.
+  // One delay for all costs nothing, and the numbers that the price needs may not be known yet.
+  // Without cut B the price stays as it was, with the delays.
   if (flame_) {
     const bool scatters = fit->delay_scatter > 0.0;
     const std::vector<OwnDelay> delays = scatters ? OwnDelays(*fit) : std::vector<OwnDelay>();

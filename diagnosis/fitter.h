@@ -15,11 +15,11 @@ namespace howl {
 
 inline constexpr double kDescentConverged = 1e-3;  // of the cost, in units of a log-likelihood
 
-// Search coordinate u of a parameter: log x or x. d x / d u.
+// d x / d u, where u is the parameter's search coordinate, log x or x.
 double ScaleOf(const EffectParameter& parameter, double x);
-// Of x, for a derivative by difference.
+// The step in x for a derivative by differences.
 double DifferenceStep(const EffectParameter& parameter, double x);
-// x moved by a step of u, no farther than a descent may go at once, within the bounds.
+// x after a step in u, which is limited to what a descent may go at once and to the bounds.
 double SteppedValue(const EffectParameter& parameter, double x, double step);
 
 class Fitter {
@@ -37,33 +37,34 @@ class Fitter {
 
   void SetNoise(const EffectFit& fit);
 
-  // Residuals at the fit's parameters; the flame's coefficients are solved for.
+  // Computes the residuals at the fit's parameters; the flame's coefficients are solved for.
   double Evaluate(EffectFit* fit);
   double EvaluateOne(EffectFit* fit, std::size_t e);
 
   // Damped Gauss-Newton at fixed noise. Returns the squares' sum.
   double Descend(EffectFit* fit, int iterations);
 
-  // Between descents: how far the experiments' own delays scatter, the shared one in their middle.
-  // Weights must be those of noise, not ones.
+  // For use between descents: estimates how far the experiments' own delays scatter, and puts the
+  // shared delay in their middle. The weights must be those of noise, not ones.
   void RefitScatter(EffectFit* fit);
   void RefitNoise(EffectFit* fit);
 
-  // What a parameter would take off at most, to first order, the others but tau and the locals held
-  // where they are; and its value there.
+  // The largest gain that a parameter alone could have, to first order, and its value there. Only
+  // tau and the locals are free with it.
   struct Score {
     double gain = 0.0;
     double value = 0.0;
   };
   Score ScoreOf(EffectFit* fit, std::size_t parameter);
 
-  // The reduced gradients and curvatures, and standard errors from them.
+  // Fills in the reduced gradients and curvatures, and the standard errors that follow from them.
   void Finish(EffectFit* fit, const EffectFit* base);
 
-  // The experiment's own parameters at fixed shared ones.
+  // Fits the experiment's own parameters at fixed shared ones.
   void DescendLocals(EffectFit* fit, std::size_t e);
 
-  // Cut A's from further starts too; the best are kept. True if that was better than before.
+  // Fits cut A's locals from further starts too and keeps the best. True if they are better than
+  // before.
   bool RestartLocals(EffectFit* fit);
 
   const std::vector<FlameColumns>& columns() const { return columns_; }
@@ -86,15 +87,15 @@ class Fitter {
   };
 
   // With a leak, the residuals are (E_A, E_B) = M (P, Q) with |det M| = |1 - leak R| instead of
-  // one: recorded p stands on both sides. The likelihood needs - log |det M|^2, or the leak is
-  // biased by what combustion noise sends to p at once.
+  // one, because recorded p is in both. The likelihood needs the term - log |det M|^2; without it
+  // the leak is biased by the combustion noise that reaches p at once.
   double LeakJacobian(EffectValues x, const AcousticLocals& locals, std::size_t e) const;
 
   double AcousticSquares(EffectFit* fit, std::size_t e) const;
-  // What cut B says of an experiment's own delay; after Evaluate.
+  // The own delay that cut B alone would give an experiment; for use after Evaluate.
   OwnDelay OwnDelayOf(const EffectFit& fit, std::size_t e) const;
   std::vector<OwnDelay> OwnDelays(const EffectFit& fit) const;
-  // Takes the own delay out of cut B's normal equations in tau and the effect's parameters.
+  // Eliminates the own delay from cut B's normal equations in tau and the effect's parameters.
   void EliminateDelay(const EffectFit& fit, std::size_t e, Eigen::MatrixXd* curvature,
                       Eigen::VectorXd* gradient, Reduced* out) const;
   // shared: the step of tau and the effect's parameters.

@@ -68,7 +68,7 @@ void Fitter::EliminateDelay(const EffectFit& fit, std::size_t e, Eigen::MatrixXd
                             Eigen::VectorXd* gradient, Reduced* out) const {
   const double s = fit.delay_scatter;
   if (s == 0.0) return;
-  // In log delay what tau's column is times tau, and the price.
+  // The column of log delay is tau's column times tau; the price is added.
   out->delay_mixed = fit.tau_s * curvature->col(0);
   out->delay_curvature = fit.tau_s * out->delay_mixed[0] + 0.5 / (s * s);
   out->delay_gradient = fit.tau_s * (*gradient)[0] + 0.5 * fit.experiments[e].log_delay / (s * s);
@@ -76,8 +76,8 @@ void Fitter::EliminateDelay(const EffectFit& fit, std::size_t e, Eigen::MatrixXd
   *gradient -= out->delay_mixed * (out->delay_gradient / out->delay_curvature);
 }
 
-// Not damped: where a law of the delays takes the place of their scatter, each has to follow it to
-// within its record's error, many times less than the step.
+// The step is not damped: where a law of the delays replaces their scatter, each delay has to
+// follow it to within its record's error, which is many times less than the step.
 void Fitter::StepDelay(const Reduced& part, const Eigen::VectorXd& shared,
                        ExperimentFit* at) const {
   if (part.delay_curvature == 0.0) return;

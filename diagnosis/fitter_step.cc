@@ -19,8 +19,8 @@ constexpr std::size_t kFurtherStarts = 3;
 constexpr double kSameModeLogRatio = 0.3;
 constexpr int kRestartIterations = 4;
 constexpr double kRestartGain = 2.0;
-// Two modes the lower of which has no weight are one with a parameter more: that gains a nat or
-// two.
+// Two modes of which the lower has no weight are one mode with one parameter more, which gains a
+// nat or two.
 constexpr double kSecondModeGain = 20.0;
 constexpr int kSecondModeIterations = 8;  // the grid is farther from there
 
@@ -88,7 +88,7 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
       out.reduced_curvature.bottomRightCorner(d, d) +=
           h.bottomRightCorner(d, d) - out.mixed.transpose() * inner;
       out.reduced_gradient.tail(d) += g.tail(d) - inner.transpose() * out.local_gradient;
-      // Half the slope, as in g.
+      // Half the slope, as g is.
       const double leak_now = LeakJacobian(fit.values, at.acoustics, e);
       std::vector<double> moved = fit.values;
       for (Eigen::Index i = 0; i < d; ++i) {
@@ -235,13 +235,13 @@ bool Fitter::RestartLocals(EffectFit* fit) {
   for (std::size_t e = 0; e < records_.size(); ++e) {
     std::vector<AcousticLocals> starts =
         AcousticStarts(records_[e], effect_, fit->values, kFurtherStarts);
-    // As the other experiments have it, beside their own cycle.
+    // Starts at the other experiments' acoustics, moved by the ratio of the cycles' frequencies.
     for (std::size_t other = 0; other < records_.size(); ++other) {
       if (other == e) continue;
       AcousticLocals start = fit->experiments[other].acoustics;
       const double ratio =
           records_[e].at.cycle_frequency_hz / records_[other].at.cycle_frequency_hz;
-      // Farther apart they are cycles of two modes.
+      // Cycles that are farther apart are cycles of two different modes.
       if (std::abs(std::log(ratio)) < kSameModeLogRatio) start[0] += std::log(ratio);
       starts.push_back(start);
     }

@@ -1,5 +1,5 @@
 // The flame's characteristic without a shape assumed: cubic B-splines on even knots over the range
-// of v, linear in the coefficients. One of them is left out, since a constant in q is not seen.
+// of v, linear in the coefficients. One of them is left out, since no constant in q is recorded.
 #ifndef HOWL_DIAGNOSIS_FLAME_BASIS_H_
 #define HOWL_DIAGNOSIS_FLAME_BASIS_H_
 

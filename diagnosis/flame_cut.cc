@@ -22,13 +22,13 @@ double DelayOf(const CutRecord& record, const Effect& effect, EffectValues x, do
   return tau_s * effect.DelayFactor(record.at, x);
 }
 
-// At its null a delay that could move is a delay like any other.
+// A delay that may move is at its null value a constant delay.
 bool DelayMoves(const Effect& effect, EffectValues x) {
   return effect.ModulatesDelay() && effect.DelayPerAmplitude(x) != 0.0;
 }
 
-// e^(-tau s) on the first `count` bins of the extended band: sines of every kPhasors-th bin alone,
-// turned on by the same few angles.
+// e^(-tau s) on the first `count` bins of the extended band. Sines are computed for every
+// kPhasors-th bin alone, and rotated by the same few angles for the others.
 Eigen::VectorXcd DelayOnBand(const CutRecord& record, Eigen::Index count, double tau_s) {
   const double step = -kRadPerSPerHz * record.bin_hz * tau_s;
   std::array<Response, kPhasors> turns;
@@ -45,7 +45,7 @@ Eigen::VectorXcd DelayOnBand(const CutRecord& record, Eigen::Index count, double
   return out;
 }
 
-// v in time. `delayed` by the experiment's delay, with its slow part.
+// v in time; if `delayed`, by the experiment's delay with its slow part.
 Eigen::VectorXd FlameInput(const CutRecord& record, const Effect& effect, EffectValues x,
                            double tau_s) {
   Eigen::VectorXcd spectrum = record.pressure_spectrum.cwiseProduct(record.derivative_filter);
@@ -67,8 +67,9 @@ Eigen::VectorXd FlameInput(const CutRecord& record, const Effect& effect, Effect
     second[k] = s * first[k];
   }
   const AmplitudeSense sense = effect.DelaySense(x).value_or(AmplitudeSense{});
-  // The amplitude when the flame's feed set out: that of the time of burning knows the combustion
-  // noise of that time, which p answers at once, and would explain some of it.
+  // The amplitude is that of the time when the mixture left the nozzle. The amplitude at the time
+  // of burning depends on the combustion noise of that time, to which p responds at once, and would
+  // explain some of it.
   const Eigen::ArrayXd amplitude = SquaredAmplitude(record, sense, tau).sqrt();
   const double mean =
       sense.of_rate ? record.at.relative_rate_amplitude : record.at.relative_amplitude;

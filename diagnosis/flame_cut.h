@@ -1,13 +1,13 @@
-// Cut B: delay and flame driven by measured p (seed, section 3.2, and the places of
+// Cut B: delay and flame driven by measured p (the paper, section 3.2, and the places of
 // model/effects/effect.h):
 //
 //   E_B = Q - leak P - HeatReleaseInstrument FlameOut e^(-tau s) Phi(v)
 //   v   = FlameIn / PressureInstrument s P      in the time domain
 //
-// Phi without memory commutes with the delay, so its columns are computed once and the delay is a
-// phase; an effect that bends the wave form before the flame computes them again. A delay that
-// moves with the amplitude enters by v(t - tau - d) to second order in the slow part d(t - tau), by
-// the amplitude when the feed set out.
+// Phi has no memory and commutes with the delay, so its columns are computed once and the delay is
+// a phase; an effect that changes the wave form before the flame needs them computed again. A delay
+// that moves with the amplitude enters by v(t - tau - d), to second order in the slow part d(t -
+// tau), which is that of the amplitude when the mixture left the nozzle.
 #ifndef HOWL_DIAGNOSIS_FLAME_CUT_H_
 #define HOWL_DIAGNOSIS_FLAME_CUT_H_
 
@@ -27,7 +27,7 @@ struct FlameColumns {
 FlameColumns MakeFlameColumns(const CutRecord& record, const Effect& effect, EffectValues x,
                               double tau_s);
 
-// What stands before the columns, on the extended band.
+// The factor that multiplies the columns, on the extended band.
 Eigen::VectorXcd FlameMultiplier(const CutRecord& record, const Effect& effect, EffectValues x,
                                  double tau_s);
 
@@ -46,7 +46,7 @@ Eigen::MatrixXcd FlameJacobian(const CutRecord& record, const Effect& effect, Ef
                                double tau_s, const FlameColumns& columns,
                                const FlameSolution& solution, const Eigen::VectorXd& steps);
 
-// Phi(v) as recorded q would show it, in time: for what fluctuates slowly.
+// Phi(v) in time, as recorded q would show it, from which slow fluctuations are estimated.
 Eigen::VectorXd PredictedHeatRelease(const CutRecord& record, const Effect& effect, EffectValues x,
                                      double tau_s, const FlameColumns& columns,
                                      const Eigen::VectorXd& coefficients);

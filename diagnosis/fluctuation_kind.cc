@@ -18,7 +18,7 @@ constexpr double kSwitchingParameters = 4.0;
 constexpr double kLeastStd = 0.005;  // of the grid, up to 1.5
 constexpr int kStds = 20;
 constexpr int kExpectations = 60;
-// Beside the noise; with more the levels are no levels.
+// Variance in addition to the noise: with more than this the two levels are not constant levels.
 constexpr double kMostExcess = 0.04;
 constexpr double kLargestDrop = 0.99;
 constexpr double kLargestLeave = 0.6;
@@ -46,8 +46,8 @@ Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& columns, const Eigen::Vector
   return gram.ldlt().solve(columns.transpose() * y);
 }
 
-// - log-likelihood of one experiment, the regression solved for: the Kalman filter whitens y and
-// the columns alike.
+// Minus the log-likelihood of one experiment at the best regression: the Kalman filter whitens y
+// and the columns alike.
 double ColouredCost(const GainSeries& series, const Eigen::MatrixXd& columns, double a,
                     double variance) {
   const Eigen::Index n = columns.rows();
@@ -86,7 +86,7 @@ class Switcher {
       columns_.push_back(Columns(series));
       const Eigen::Map<const Eigen::VectorXd> y(series.gain.data(), columns_.back().rows());
       Eigen::VectorXd b = Eigen::VectorXd::Zero(kTerms);
-      // Half the time on either level.
+      // The start has half the time on either level.
       b[0] = y.mean() / (1.0 - 0.5 * drop);
       coefficients_.push_back(b);
       excess_ += 0.05 * drop * drop / static_cast<double>(experiments.size());
@@ -117,7 +117,7 @@ class Switcher {
     return leave_[from] * (to == kTransit ? kThroughTransit : 1.0 - kThroughTransit);
   }
 
-  // One expectation and maximisation; the cost before it.
+  // One step of expectation and maximisation; returns the cost before it.
   double Step() {
     now_.drop = drop_;
     now_.leave_low_per_step = leave_[kLow];
@@ -204,7 +204,7 @@ class Switcher {
   std::vector<Eigen::MatrixXd> columns_;
   std::vector<Eigen::VectorXd> coefficients_;
   double drop_;
-  double excess_ = 0.0;  // variance beside the noise
+  double excess_ = 0.0;  // variance in addition to the noise
   std::array<double, 2> leave_ = {0.15, 0.15};
   SwitchingFluctuation now_;
 };

@@ -5,10 +5,10 @@
 //   g_i = h(A_i) (1 or 1 - drop) + noise           two levels
 //   h(A) = b_0 + b_1 u + b_2 u^2,    u = A - mean A
 //
-// C: the residual of cut B over the flame's predicted fundamental, A: that fundamental's slow
-// amplitude. h, of each experiment: a gain that drops lets the cycle decay, and the flame's curve,
-// fitted to both levels at once, has bent to fit. Noise: combustion noise has no sense of the
-// cycle's phase, so Im C tells its variance.
+// C is the residual of cut B over the flame's predicted fundamental, and A that fundamental's slow
+// amplitude. Each experiment has an h of its own, because a gain that drops lets the cycle decay,
+// and the flame's curve was fitted to both levels at once. The noise is combustion noise, which is
+// independent of the cycle's phase, so that Im C tells its variance.
 #ifndef HOWL_DIAGNOSIS_FLUCTUATION_KIND_H_
 #define HOWL_DIAGNOSIS_FLUCTUATION_KIND_H_
 

@@ -15,7 +15,8 @@ namespace {
 constexpr double kCarrierBand = 0.35;    // of the cycle's frequency, on each side
 constexpr double kLowPass = 1.0 / 12.0;  // of the cycle's frequency
 constexpr double kStepsPerPeriod = 2.0;
-// To tell the kinds apart: values whose noise is independent, and jumps that few of them straddle.
+// The spacing of the values from which the kinds are told apart: their noise must be independent,
+// and few of them may straddle a jump.
 constexpr double kKindLowPass = 1.0 / 10.0;
 constexpr double kKindStepsPerPeriod = 1.0 / 0.7;
 constexpr double kEnds = 0.03;  // of the record, left out
@@ -23,7 +24,7 @@ constexpr double kLeastAmplitude = 0.02;
 
 using Series = std::vector<std::complex<double>>;
 
-// Analytic signal of what lies near the cycle.
+// The analytic signal of the part near the cycle's frequency.
 std::vector<std::complex<double>> Analytic(const CutRecord& record, const Eigen::VectorXcd& band) {
   Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.pressure_spectrum.size());
   const double f0 = record.at.cycle_frequency_hz;
@@ -40,7 +41,7 @@ std::vector<std::complex<double>> Analytic(const CutRecord& record, const Eigen:
   return out;
 }
 
-// The residual over the reference, C, and the reference's slow amplitude, 1 in the mean square.
+// C, the residual over the reference, and the reference's slow amplitude, whose mean square is 1.
 struct Demodulated {
   double step_s = 0.0;
   std::ptrdiff_t first = 0;  // sample of the first value
@@ -48,7 +49,8 @@ struct Demodulated {
   Series ratio;                   // C
   std::vector<double> amplitude;  // A
 
-  // D = A C: over the mean amplitude, not the present one, the noise is as large at all times.
+  // D = A C is relative to the mean amplitude and not to the present one, so that the noise is as
+  // large at all times.
   std::complex<double> Scaled(std::size_t i) const { return amplitude[i] * ratio[i]; }
 };
 

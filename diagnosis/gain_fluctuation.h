@@ -4,8 +4,8 @@
 //   D(t) = lowpass(e_B conj(a)) / sqrt(lowpass(|a|^2) mean(|a|^2)),   a: analytic signal of Phi(v)
 //   near the cycle
 //
-// Combustion noise has no sense of the cycle's phase: it moves Re D and Im D alike. A fluctuating
-// gain moves Re D alone. Its kind: fluctuation_kind.h.
+// Combustion noise is independent of the cycle's phase and moves Re D and Im D alike. A fluctuating
+// gain moves Re D alone. fluctuation_kind.h tells which kind of fluctuation it is.
 #ifndef HOWL_DIAGNOSIS_GAIN_FLUCTUATION_H_
 #define HOWL_DIAGNOSIS_GAIN_FLUCTUATION_H_
 

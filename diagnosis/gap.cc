@@ -56,9 +56,9 @@ GapParts ComputeGapParts(const std::vector<CutRecord>& records,
 double Gap(const GapParts& parts) { return Gap(parts, parts.acoustic.size()); }
 
 double GapFloor(const std::vector<CutRecord>& records) {
-  // V comes from the same record: what is left of the mean's scatter is the part that V's own
-  // freedom takes up, three terms for each block of 48 bins in cut A and a few for all in cut B.
-  // The mean positive part of a normal deviate is 0.4 standard deviations.
+  // V is fitted to the same record, so that only the part of the mean's scatter is left that V's
+  // own freedom absorbs: three terms for each block of 48 bins in cut A, and a few for all in cut
+  // B. The mean positive part of a normal deviate is 0.4 standard deviations.
   double sum = 0.0;
   for (const CutRecord& record : records) {
     const double a = static_cast<double>(record.acoustic_count) / kBinCorrelation;

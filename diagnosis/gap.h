@@ -18,20 +18,20 @@ struct BinRange {
   Eigen::Index last = 0;  // one beyond
 };
 
-// Mean of |E|^2 / V less one over some bins; NaN where none counts. share: what a bin counts for;
-// empty: one. `without_masked`: lines are not counted.
+// The mean of |E|^2 / V less one over some bins; NaN where none counts. share: the weight of each
+// bin; empty: ones. without_masked: lines are not counted.
 double MeanExcess(const CutRecord& record, const BinRange& bins, const Eigen::VectorXcd& residual,
                   const Eigen::VectorXd& variance, const Eigen::VectorXd& share,
                   bool without_masked);
 
-// flame_noise: V_B of each experiment. `without_masked`: lines are not counted.
+// flame_noise: V_B of each experiment. without_masked: lines are not counted.
 GapParts ComputeGapParts(const std::vector<CutRecord>& records,
                          const std::vector<ExperimentFit>& residuals,
                          const std::vector<Eigen::VectorXd>& flame_noise, bool without_masked);
 
 double Gap(const GapParts& parts);
 
-// The gap of noise alone.
+// The gap that noise alone has.
 double GapFloor(const std::vector<CutRecord>& records);
 
 struct Interval {

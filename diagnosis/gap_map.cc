@@ -53,7 +53,7 @@ double IndependentBins(const CutRecord& record, const BinRange& bins, bool flame
   return squares > 0.0 ? sum * sum / squares / kBinCorrelation : 0.0;
 }
 
-// That noise alone has as large a mean of |E|^2 / V, less one.
+// The probability that noise alone has as large a mean of |E|^2 / V, less one.
 double NoisePValue(double excess, double bins) {
   if (std::isnan(excess) || bins <= 0.0) return 1.0;
   return boost::math::gamma_q(bins, bins * std::max(0.0, 1.0 + excess));

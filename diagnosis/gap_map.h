@@ -1,10 +1,10 @@
-// The gap by signal, band and experiment, where it is held out as the whole gap is (gap.h): in each
-// band the root of the mean of |E|^2 / V less one, or zero where that is negative.
+// The held-out gap (gap.h) by signal, band and experiment: in each band the root of the mean of
+// |E|^2 / V less one, or zero where that is negative.
 //
 // "p": cut A, pressure from measured heat release; "q": cut B, heat release from measured pressure.
-// Bands in Hz, evenly spaced in the logarithm. Of noise alone n |E|^2 / V, summed over n
-// independent bins, is gamma-distributed with shape n; which cells are more than that is decided
-// for the whole map by Benjamini and Hochberg (1995).
+// Bands are in Hz, evenly spaced in the logarithm. With noise alone the sum of |E|^2 / V over n
+// independent bins is gamma-distributed with shape n; the procedure of Benjamini and Hochberg
+// (1995) decides for the whole map which cells exceed that.
 #ifndef HOWL_DIAGNOSIS_GAP_MAP_H_
 #define HOWL_DIAGNOSIS_GAP_MAP_H_
 
@@ -22,7 +22,7 @@ struct GapCell {
   double high_hz = 0.0;
   double before = 0.0;
   double after = 0.0;  // NaN where nothing was tried
-  // More than noise, among all cells of the map, at a false discovery rate of 5 %.
+  // True where the cell holds more than noise, at a false discovery rate of 5 % over the map.
   bool before_found = false;
   bool after_found = false;
 };

@@ -1,5 +1,5 @@
-// Parameters of the loop that differ between the fit without an effect and the fit with it: one
-// that had absorbed the effect is a symptom of it.
+// Parameters of the loop that differ between the fit without an effect and the fit with it: such a
+// parameter had absorbed part of the effect and is a symptom of it.
 #ifndef HOWL_DIAGNOSIS_MOVED_PARAMETERS_H_
 #define HOWL_DIAGNOSIS_MOVED_PARAMETERS_H_
 
@@ -16,11 +16,12 @@ struct MovedParameter {
   double with = 0.0;
 };
 
-// tau, then omega, xi, N and M of each experiment.
+// Compares tau, then omega, xi, N and M of each experiment.
 std::vector<MovedParameter> MovedParameters(const std::vector<CutRecord>& records,
                                             const EffectFit& without, const EffectFit& with);
 
-// The `most` that move farthest, by at least a share `least` of themselves; the farthest first.
+// The `most` parameters that move farthest, by at least the share `least` of their value; the
+// farthest first.
 std::vector<MovedParameter> FarthestMoved(std::vector<MovedParameter> moved, std::size_t most,
                                           double least);
 

@@ -1,4 +1,4 @@
-// The spectra of what the cuts leave over, by Whittle's likelihood: minimises
+// Fits the spectra of the cuts' residuals by Whittle's likelihood, which minimises
 // sum(log V_k + |E_k|^2 / V_k).
 //
 //   cut A   V = sigma_p^2 + |R|^2 sigma_q^2      white sensor noise on both channels

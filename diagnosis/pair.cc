@@ -12,29 +12,29 @@
 namespace howl {
 namespace {
 
-// Two transfer functions compete: the second mends what is inexact in the first. What moves with
-// the amplitude is known to some orders only.
+// Two transfer functions compete, because the second corrects what is inexact in the first. Effects
+// that move with the amplitude are modelled to some orders only, so a second must bring more there.
 constexpr double kCompetingShare = 0.01;
 constexpr double kCompetingShareOfMoving = 0.03;
-constexpr std::size_t kFollowed = 3;  // of the seconds, to the end
-// A fluctuating gain spreads the cycle's line: effects that smooth the flame's answer fit that.
-// What they gain grows as the square of what the fluctuation gains: at most 1.1e-3 times that, and
-// 0.37 of the fluctuation's, in 60 rigs with nothing else (results/trial).
-constexpr double kFeignedByFluctuation = 1.5e-3;  // over the square
-constexpr double kFeignedShare = 0.45;
+constexpr std::size_t kFollowed = 3;  // seconds that are fitted until they converge
+// A fluctuating gain spreads the cycle's line, and effects that smooth the flame's response fit
+// that spread. In 60 rigs with a fluctuating gain alone (results/trial) their spurious gain was at
+// most 1.1e-3 of the square of the fluctuation's gain, and at most 0.37 of that gain.
+constexpr double kSpuriousByFluctuation = 1.5e-3;  // over the square of the fluctuation's gain
+constexpr double kSpuriousShare = 0.45;
 constexpr double kBiasGainAtThirtyLevels = 300.0;
 constexpr double kBiasInAcoustics = 0.02;  // of that
 
 bool IsLine(const Attempt& attempt) { return attempt.kind == EffectKind::kLine; }
 
 bool Detected(const Attempt& attempt) {
-  return attempt.seen || attempt.candidate.gain > DetectionGain(ShowsInFlameAlone(attempt));
+  return attempt.model_free || attempt.candidate.gain > DetectionGain(ShowsInFlameAlone(attempt));
 }
 
-// What fluctuates once the transfer function is right.
-std::vector<Attempt> WithFluctuation(const Setting& at, const Attempt& transfer,
+// Fluctuations of the gain given the transfer function.
+std::vector<Attempt> WithFluctuation(const AttemptContext& at, const Attempt& transfer,
                                      const std::vector<EffectForms>& units) {
-  std::vector<Attempt> gains = FluctuationsBeside(at, *transfer.fit, units);
+  std::vector<Attempt> gains = FluctuationsGiven(at, *transfer.fit, units);
   if (gains.empty() || gains[0].candidate.gain < LeastSecond(transfer)) return {};
   for (Attempt& gain : gains) {
     for (std::size_t e = 0; e < gain.held_out.size(); ++e) {
@@ -46,10 +46,11 @@ std::vector<Attempt> WithFluctuation(const Setting& at, const Attempt& transfer,
   return gains;
 }
 
-// Steps in p feign no fluctuating gain (results/trial). They are noise of p: little to cut A, but
-// in cut B p drives the flame, and errors there bias what is fitted by their variance. Effects that
-// are fitted to cut B gain by the bias squared: as the step's fourth power.
-std::vector<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
+// Seconds given coarse quantisation of p. The steps in p give no spurious fluctuating gain
+// (results/trial). They are noise of p and do little harm in cut A, but in cut B p drives the
+// flame, and errors in it bias what is fitted by their variance. Effects that are fitted to cut B
+// gain the square of that bias, which grows as the fourth power of the step.
+std::vector<Attempt> SecondsGivenQuantisation(const std::vector<Attempt>& attempts) {
   std::vector<Attempt> gains = NearBestOf(attempts, IsGain);
   if (!gains.empty() && gains[0].candidate.gain > DetectionGain(true)) {
     return JoinAll(attempts[0], std::move(gains));
@@ -66,7 +67,8 @@ std::vector<Attempt> BesideQuantisation(const std::vector<Attempt>& attempts) {
 
 }  // namespace
 
-std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Attempt>& attempts,
+std::vector<Attempt> TryDistinctEffects(const AttemptContext& at,
+                                        const std::vector<Attempt>& attempts,
                                         const std::vector<EffectForms>& units,
                                         const std::vector<CoherentLine>& lines, int threads) {
   if (attempts.empty()) return {};
@@ -78,24 +80,25 @@ std::vector<Attempt> TryDistinctEffects(const Setting& at, const std::vector<Att
     std::vector<Attempt> two = TryDistinctEffects(at, rest, units, lines, threads);
     if (!two.empty()) return JoinAll(*line, std::move(two));
     if (rest.empty() || !Detected(rest[0])) return {};
-    // What is seen in the samples has no twin.
-    rest.resize(rest[0].seen ? 1 : rest.size());
+    // An effect that was detected in the samples is not to be confused with another.
+    rest.resize(rest[0].model_free ? 1 : rest.size());
     return JoinAll(*line, NearBest(std::move(rest)));
   }
-  if (top.seen) {
-    const Attempt* other =
-        BestOf(attempts, [&](const Attempt& attempt) { return attempt.seen && &attempt != &top; });
+  if (top.model_free) {
+    const Attempt* other = BestOf(
+        attempts, [&](const Attempt& attempt) { return attempt.model_free && &attempt != &top; });
     if (other) return JoinAll(top, {*other});
-    return top.repaired.empty() ? BesideQuantisation(attempts)
-                                : BesideClipping(at, attempts, units, lines, threads);
+    return top.repaired.empty() ? SecondsGivenQuantisation(attempts)
+                                : SecondsGivenClipping(at, attempts, units, lines, threads);
   }
   if (IsGain(top)) {
     const double gain = top.candidate.gain;
-    const double beside = std::max(
-        LeastSecond(top), std::min(kFeignedShare * gain, kFeignedByFluctuation * gain * gain));
+    const double least_in_flame_cut = std::max(
+        LeastSecond(top), std::min(kSpuriousShare * gain, kSpuriousByFluctuation * gain * gain));
     const Attempt* other = BestOf(attempts, [&](const Attempt& attempt) {
       return IsTransfer(attempt) &&
-             attempt.candidate.gain >= (ChangesAcousticCut(attempt) ? LeastSecond(top) : beside);
+             attempt.candidate.gain >=
+                 (ChangesAcousticCut(attempt) ? LeastSecond(top) : least_in_flame_cut);
     });
     return other ? WithFluctuation(at, *other, units) : std::vector<Attempt>();
   }
@@ -109,32 +112,33 @@ double LeastCompeting(const Attempt& first) {
   return std::max(LeastSecond(first), share * first.candidate.gain);
 }
 
-std::optional<Attempt> TryTransferPair(const Setting& at, const Attempt& first,
+std::optional<Attempt> TryTransferPair(const AttemptContext& at, const Attempt& first,
                                        const std::vector<EffectForms>& units, int threads) {
   if (!IsTransfer(first)) return std::nullopt;
-  std::vector<std::optional<EffectFit>> approached(units.size());
+  std::vector<std::optional<EffectFit>> preliminary(units.size());
   RunUnits(units.size(), threads, [&](std::size_t i) {
     const EffectForms& forms = units[i];
     if (forms[0]->kind() != EffectKind::kTransfer || forms[0]->id() == first.fit->effect->id()) {
       return;
     }
     for (const EffectPointer& form : forms) {
-      EffectFit fit = Approach(*at.records, Combine(first.fit->effect, form), *at.base, *first.fit);
-      if (!approached[i] || fit.cost() < approached[i]->cost()) approached[i] = std::move(fit);
+      EffectFit fit =
+          PreliminaryFit(*at.records, Combine(first.fit->effect, form), *at.base, *first.fit);
+      if (!preliminary[i] || fit.cost() < preliminary[i]->cost()) preliminary[i] = std::move(fit);
     }
   });
   std::vector<EffectFit> seconds;
-  for (std::optional<EffectFit>& fit : approached) {
+  for (std::optional<EffectFit>& fit : preliminary) {
     if (fit) seconds.push_back(std::move(*fit));
   }
   std::stable_sort(seconds.begin(), seconds.end(),
                    [](const auto& a, const auto& b) { return a.cost() < b.cost(); });
   std::vector<std::optional<Attempt>> tried(std::min(seconds.size(), kFollowed));
   RunUnits(tried.size(), threads, [&](std::size_t i) {
-    tried[i] = FromFit(at, Settle(*at.records, *at.base, seconds[i]));
+    tried[i] = FromFit(at, ConvergedFit(*at.records, *at.base, seconds[i]));
   });
   std::vector<Attempt> best = NearBestPaid(std::move(tried));
-  const double least = std::max(LeastCompeting(first), NoiseBesideReference(at));
+  const double least = std::max(LeastCompeting(first), NoiseGivenReference(at));
   if (best.empty() || best[0].candidate.gain - first.candidate.gain < least) {
     return std::nullopt;
   }

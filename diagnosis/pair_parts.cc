@@ -10,8 +10,8 @@
 namespace howl {
 namespace {
 
-// What a second effect must bring. After a true first effect others bring 5 at most, while the
-// first's form fits (results/trial); it is never exact, so a share of what it brought counts too.
+// The gain that a second effect must bring. After a true first effect others bring 5 at most if the
+// first's form fits (results/trial). No form is exact, so a share of the first's gain counts too.
 constexpr double kSecondGain = 12.0;
 constexpr double kSecondShare = 0.003;
 constexpr double kNear = 4.0;  // temperatures of the odds (verdict.h)
@@ -44,7 +44,7 @@ Attempt Join(const Attempt& first, Attempt second) {
   out.also.insert(out.also.begin(), out.candidate.block);
   out.candidate = JoinCandidates(first.candidate, std::move(out.candidate));
   out.parameters += first.parameters;
-  out.seen = out.seen || first.seen;
+  out.model_free = out.model_free || first.model_free;
   out.confirmed = out.confirmed || first.confirmed;
   out.without_lines = out.without_lines || first.without_lines;
   return out;
@@ -77,8 +77,8 @@ std::vector<Attempt> NearBestPaid(std::vector<std::optional<Attempt>> tried) {
   return NearBest(std::move(attempts));
 }
 
-std::vector<Attempt> FluctuationsBeside(const Setting& at, const EffectFit& fit,
-                                        const std::vector<EffectForms>& units) {
+std::vector<Attempt> FluctuationsGiven(const AttemptContext& at, const EffectFit& fit,
+                                       const std::vector<EffectForms>& units) {
   const GainFluctuation fluctuation = EstimateGainFluctuation(*at.records, fit);
   std::vector<std::optional<Attempt>> tried;
   for (const EffectForms& forms : units) {

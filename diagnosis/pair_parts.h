@@ -1,4 +1,4 @@
-// What the search for a second effect (pair.h) is made of.
+// The parts of the search for a second effect (pair.h).
 #ifndef HOWL_DIAGNOSIS_PAIR_PARTS_H_
 #define HOWL_DIAGNOSIS_PAIR_PARTS_H_
 
@@ -19,10 +19,11 @@ inline bool ChangesAcousticCut(const Attempt& attempt) {
   return attempt.fit && attempt.fit->effect->ChangesAcousticCut();
 }
 
-// The least that a second must bring beside this first.
+// The least gain that a second effect must bring given this first.
 double LeastSecond(const Attempt& first);
 
-// The first that fits; attempts: the best first. Null if none does.
+// The first attempt for which the predicate is true; null if there is none. attempts: the best
+// first.
 template <typename Predicate>
 const Attempt* BestOf(const std::vector<Attempt>& attempts, Predicate&& is) {
   const auto found = std::find_if(attempts.begin(), attempts.end(), is);
@@ -35,10 +36,10 @@ Attempt Join(const Attempt& first, Attempt second);
 
 std::vector<Attempt> JoinAll(const Attempt& first, std::vector<Attempt> seconds);
 
-// Those that the data can hardly tell from the best; attempts: the best first.
+// The attempts that the data can hardly tell from the best; attempts: the best first.
 std::vector<Attempt> NearBest(std::vector<Attempt> attempts);
 
-// Of `attempts` (the best first) the best that fits, and those near it that fit too.
+// Of `attempts` (the best first) the best with a true predicate, and those with one near it.
 template <typename Predicate>
 std::vector<Attempt> NearBestOf(const std::vector<Attempt>& attempts, Predicate&& is) {
   std::vector<Attempt> fitting;
@@ -46,17 +47,19 @@ std::vector<Attempt> NearBestOf(const std::vector<Attempt>& attempts, Predicate&
   return NearBest(std::move(fitting));
 }
 
-// Parameters paid for, the best first, and those near it; empty if none was tried.
+// With the price of parameters subtracted: the best first, then those near it; empty if none was
+// tried.
 std::vector<Attempt> NearBestPaid(std::vector<std::optional<Attempt>> tried);
 
-// How the flame's gain fluctuates under this fit: the best of its kinds, and those near it.
-std::vector<Attempt> FluctuationsBeside(const Setting& at, const EffectFit& fit,
-                                        const std::vector<EffectForms>& units);
+// Fluctuations of the flame's gain given this fit: the best kind first, then those near it.
+std::vector<Attempt> FluctuationsGiven(const AttemptContext& at, const EffectFit& fit,
+                                       const std::vector<EffectForms>& units);
 
-// Seconds beside clipped q, the best of `attempts` (pair_clipping.cc).
-std::vector<Attempt> BesideClipping(const Setting& at, const std::vector<Attempt>& attempts,
-                                    const std::vector<EffectForms>& units,
-                                    const std::vector<CoherentLine>& lines, int threads);
+// Second effects given clipped q, which is the best of `attempts` (pair_clipping.cc).
+std::vector<Attempt> SecondsGivenClipping(const AttemptContext& at,
+                                          const std::vector<Attempt>& attempts,
+                                          const std::vector<EffectForms>& units,
+                                          const std::vector<CoherentLine>& lines, int threads);
 
 }  // namespace howl
 

@@ -44,13 +44,13 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
     Raise(slack.block, std::max(0.0, slack.gain), &scores);
   }
   for (const Score& score : scores) most_gain = std::max(most_gain, score.gain);
-  // What is seen in a channel's samples needs no likelihood.
+  // A defect that was detected in a channel's samples needs no likelihood.
   for (const BlockSlack& slack : blocks) {
-    if (slack.seen) Raise(slack.block, 2.0 * most_gain + 10.0 * kTemperature, &scores);
+    if (slack.model_free) Raise(slack.block, 2.0 * most_gain + 10.0 * kTemperature, &scores);
   }
   double total = 0.0;
   if (kind == VerdictKind::kEffect) {
-    // Where the probable effects act.
+    // The blocks in which the probable effects act.
     for (Score& score : scores) {
       score.gain = 0.0;
       for (const Attempt& attempt : attempts) {
@@ -65,7 +65,7 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
   } else {
     double top = 0.0;
     for (const Score& score : scores) top = std::max(top, score.gain);
-    // Models are never exact: distances count by their share of the largest gain too.
+    // No model is exact, so distances count by their share of the largest gain too.
     const double temperature = kTemperature + kTemperatureShare * top;
     for (Score& score : scores) {
       score.gain = std::exp((score.gain - top) / temperature);
@@ -73,7 +73,7 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
     }
   }
   if (total <= 0.0) return {};
-  // The band and the experiments, from the slack's map.
+  // The band and the experiments come from the slack's map.
   double low = records[0].frequency(0);
   double high = records[0].frequency(records[0].acoustic_count - 1);
   double most = 0.0;

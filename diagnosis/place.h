@@ -10,8 +10,8 @@
 
 namespace howl {
 
-// Blocks by the probability of the effects that act there; where no effect explains the gap, by
-// what the effects and the free slack of each block would take off it.
+// Blocks are ranked by the probability of the effects that act there; where no effect explains the
+// gap, by what the effects and the free slack of each block would take off it.
 std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
                               const std::vector<Attempt>& attempts, VerdictKind kind,
                               const Slack& before, const std::vector<BlockSlack>& blocks);

@@ -7,7 +7,8 @@
 namespace howl {
 namespace {
 
-// Keeps its twiddle factors; one for each thread, since it is not safe to share.
+// The transform keeps its twiddle factors. Each thread has one of its own, because it is not safe
+// to share.
 Eigen::FFT<double>& ThreadFft() {
   thread_local Eigen::FFT<double> fft(Eigen::FFT<double>::impl_type(),
                                       Eigen::FFT<double>::HalfSpectrum);

@@ -42,7 +42,7 @@ std::vector<DiagnosisExperiment> Half(const std::vector<DiagnosisExperiment>& ex
   return out;
 }
 
-// What a free complex factor a band still takes off, added to the band's grid points.
+// The gain that a free complex factor in each band still has, added to the band's grid points.
 class BandGains {
  public:
   explicit BandGains(Eigen::Index grid) : sum_(Eigen::VectorXd::Zero(grid)), count_(sum_) {}
@@ -112,7 +112,7 @@ struct SelfTest {
   }
 };
 
-// Model-free V_A: what the record's own smooth transfer from q to p leaves over.
+// V_A without a model: the variance that the record's own smooth transfer from q to p leaves over.
 void SetSensorNoise(const std::vector<DiagnosisExperiment>& experiments,
                     std::vector<CutRecord>* records, const EffectFit& base) {
   const std::vector<ReferencePoint> own = DescribeReference(experiments, *records, base);
@@ -141,7 +141,7 @@ double Samples(const std::vector<DiagnosisExperiment>& experiments) {
   return sum;
 }
 
-// The bias by noise in q is the same in reference and rig, and no evidence.
+// The bias by noise in q is the same in reference and rig, and therefore no evidence.
 std::vector<CutRecord> CutAsRecorded(const std::vector<DiagnosisExperiment>& experiments,
                                      const BaseModel& model) {
   std::vector<CutRecord> records = MakeCutRecords(experiments, model);
@@ -210,7 +210,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
   const double data_ratio = DataRatio(rig, reference);
   const double length_ratio =
       data_ratio * static_cast<double>(reference.size()) / static_cast<double>(rig.size());
-  // Lengths of the predicted and the predicting record, over one another, in the self-test.
+  // The ratio of the lengths of the predicted and the predicting record in the self-test.
   double fluctuation_scale = data_ratio;
   if (paired && halves) {
     std::vector<CutRecord> part[2];
@@ -253,7 +253,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
     out.fluctuation_gain = fluctuation_scale * (*most + 2.0 * (*most - *least));
   }
 
-  // The reference's own flags, seen as the rig's are.
+  // The reference's own flags are found as the rig's are.
   for (std::size_t e = 0; e < own.size(); ++e) {
     PutReference(out.points[e], &own[e]);
     own[e].reference.acoustic_share = Share(own[e], out.acoustic_kappa, own[e].acoustic_count);

@@ -1,20 +1,20 @@
 // Diagnosis against a reference: records of another simulator, or of the rig itself at another
 // time, take the model's place, and the question is which effect turns them into the rig's.
 //
-// What the reference has beside the base is put into the rig's cuts as fixed factors, smooth in
+// What the reference has in addition to the base enters the rig's cuts as fixed factors, smooth in
 // frequency u = f / f_cycle (Gaussian kernel w of width kKernelWidth):
 //
 //   C_A(u) = sum w conj(R Q) P / V_A  /  sum w |R Q|^2 / V_A        K = C_A G Instruments
 //   C_B(u) = sum w conj(X) Q / V_B  /  sum w |X|^2 / V_B            X: what the base predicts of q
 //
-// with the shape of the noise that is left over. An experiment takes them from the reference's one
-// of its name or operating parameter; between operating points they are interpolated.
+// with the shape of the noise that is left over. An experiment takes them from the reference's
+// point with the same name or operating parameter; between operating points they are interpolated.
 //
 // How well a reference predicts at all is measured on itself: each half of every record from the
 // other half (or each operating point from its neighbours, where the rig's points are not among the
-// reference's). In a band where such a prediction takes kappa off the likelihood in place of the 1
-// of noise, a bin counts for 1 / kappa. So what already differs from one time to another, or from
-// one operating point to the next, is not evidence.
+// reference's). Noise alone would give 1 in log-likelihood a band; where such a prediction gives
+// kappa instead, a bin counts for 1 / kappa. What already differs from one time to another, or from
+// one operating point to the next, is therefore no evidence.
 #ifndef HOWL_DIAGNOSIS_REFERENCE_H_
 #define HOWL_DIAGNOSIS_REFERENCE_H_
 
@@ -34,7 +34,7 @@ struct ReferencePoint {
   Eigen::VectorXcd flame;
   Eigen::VectorXd acoustic_shape;
   Eigen::VectorXd flame_shape;
-  AcousticLocals locals = AcousticLocals::Zero();  // of the base, which the factors stand beside
+  AcousticLocals locals = AcousticLocals::Zero();  // of the base, to which the factors are relative
   double tau_s = 0.0;
 };
 
@@ -52,12 +52,12 @@ struct ReferenceModel {
   double quantisation_levels = 0.0;  // 0: not quantised
 };
 
-// What the records have beside the base fitted to them.
+// What the records have in addition to the base that is fitted to them.
 std::vector<ReferencePoint> DescribeReference(const std::vector<DiagnosisExperiment>& experiments,
                                               const std::vector<CutRecord>& records,
                                               const EffectFit& base);
 
-// The point of that name or operating parameter, or what lies between its neighbours.
+// The point of that name or operating parameter, or the interpolation between its neighbours.
 ReferencePoint PointAt(const std::vector<ReferencePoint>& points, const std::string& name,
                        double phi);
 
@@ -68,7 +68,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
                                const std::vector<DiagnosisExperiment>& rig,
                                std::vector<CutRecord>* records);
 
-// Samples of the rig over those of the reference: gains grow with them.
+// The number of the rig's samples over that of the reference's: gains grow in that ratio.
 double DataRatio(const std::vector<DiagnosisExperiment>& rig,
                  const std::vector<DiagnosisExperiment>& reference);
 
@@ -79,7 +79,7 @@ std::vector<CutRecord> RemakeCutRecords(const std::vector<DiagnosisExperiment>& 
                                         const std::vector<CutRecord>& like,
                                         const std::vector<CoherentLine>& lines);
 
-// Lines that the reference has not, or has four times weaker.
+// The lines that the reference does not have, or has four times weaker.
 std::vector<CoherentLine> NewLines(const std::vector<CoherentLine>& lines,
                                    const std::vector<CoherentLine>& known);
 

@@ -1,6 +1,7 @@
-// What saturation alone feigns, against a reference. A saturated signal is put back, or fitted as
-// it is, under the reference's response; where that is not the base's form, what is inexact there
-// looks like another effect. The same is seen where the reference itself is cut off alike.
+// The spurious evidence of other effects that saturation alone gives against a reference. A
+// saturated signal is declipped, or fitted as it is, under the reference's response. Where that
+// response is not of the base's form, its errors look like another effect. They show as well when
+// the reference itself is clipped alike, which is how they are measured.
 #ifndef HOWL_DIAGNOSIS_REFERENCE_CLIPPING_H_
 #define HOWL_DIAGNOSIS_REFERENCE_CLIPPING_H_
 
@@ -10,8 +11,8 @@
 
 namespace howl {
 
-// The reference with one signal cut off at either end, so that as many of its samples lie on the
-// plateaus as of the rig's in the mean. rig: as recorded.
+// The reference with one signal clipped at either end, so that the share of its samples on the
+// plateaus is the mean share of the rig's. rig: as recorded.
 std::vector<DiagnosisExperiment> ClippedAlike(std::vector<DiagnosisExperiment> reference,
                                               const std::vector<CutRecord>& rig, bool pressure);
 

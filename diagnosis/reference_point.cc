@@ -36,7 +36,7 @@ void Smooth(const CutRecord& record, Eigen::Index count, Eigen::Index grid,
   }
 }
 
-// Beyond the band: as at its ends.
+// Beyond the band the factor is that at the band's end.
 template <typename Vector>
 void FillEnds(const std::vector<double>& weight, Vector* values) {
   const auto n = static_cast<Eigen::Index>(weight.size());
@@ -67,7 +67,7 @@ struct Cut {
   Eigen::VectorXd shape;
 };
 
-// target ~ C(u) predicted, V: noise.
+// Fits target ~ C(u) predicted with the noise V.
 Cut Describe(const CutRecord& record, const Eigen::VectorXcd& target,
              const Eigen::VectorXcd& predicted, const Eigen::VectorXd& variance,
              Eigen::Index grid) {
@@ -114,9 +114,9 @@ Cut Describe(const CutRecord& record, const Eigen::VectorXcd& target,
 }
 
 // Estimates of one factor at several operating points carry noise, and a prediction with a noisy
-// factor is too large. So each is drawn to what the points share, as far as they do not differ by
-// more than their noise, and what they share to zero where it is no more than noise (empirical
-// Bayes, over kPooledReach of u).
+// factor is too large. Each estimate is therefore shrunk towards the points' mean, as far as the
+// points do not differ by more than their noise, and the mean towards zero where it is no more than
+// noise (empirical Bayes, over kPooledReach of u).
 void Pool(std::vector<Cut>* cuts) {
   const Eigen::Index grid = (*cuts)[0].factor.size();
   const auto points = static_cast<double>(cuts->size());

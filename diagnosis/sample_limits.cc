@@ -27,7 +27,7 @@ std::vector<double> Levels(const Eigen::VectorXd& x) {
   return values;
 }
 
-// Many samples just below the extreme, few a little further down.
+// True where many samples lie just below the extreme and few a little further down.
 bool EdgeAt(const Eigen::VectorXd& x, double range) {
   const double top = SampleQuantile(x, kTop);
   const double width = kEdgeWidth * 0.5 * range;
@@ -64,7 +64,8 @@ struct Plateau {
   bool noisy = false;
 };
 
-// Where the samples near the top are densest: the middle of the shortest interval with a share.
+// The level where the samples near the top are densest: the middle of the shortest interval that
+// holds a share of them.
 double DensestNear(const Eigen::VectorXd& x, double top, double reach) {
   std::vector<double> near;
   for (const double value : x) {
@@ -83,18 +84,19 @@ double DensestNear(const Eigen::VectorXd& x, double top, double reach) {
   return level;
 }
 
-// Of the signal's upper end, if it has one.
+// The plateau at the signal's upper end, if it has one.
 Plateau FindPlateau(const Eigen::VectorXd& x, double range, bool edges) {
   if (RepeatedExtreme(x, range)) return {x.maxCoeff() - kSameValue * range, x.maxCoeff(), false};
   if (!edges) return {};
   const double top = SampleQuantile(x, kTop);
   const double level = DensestNear(x, top, kNearTop * 0.5 * range);
-  // As far below the level as the noise reaches above it.
+  // The plateau reaches as far below the level as the noise reaches above it.
   const double floor = 2.0 * level - top;
   return {floor, floor, true};
 }
 
-// With the neighbours where there is noise: whether these are held is not to be told by the noise.
+// The plateau's samples with their neighbours where there is noise, because the noise hides whether
+// the neighbours are held.
 Eigen::ArrayXd SamplesOn(const Plateau& plateau, const Eigen::VectorXd& x) {
   Eigen::ArrayXd on = (x.array() > plateau.floor).cast<double>();
   if (!plateau.noisy) return on;

@@ -1,4 +1,4 @@
-// What an instrument's range and steps leave in the samples themselves, seen without any model: a
+// What an instrument's range and steps leave in the samples themselves, detected without a model: a
 // density that ends in an edge, an extreme value that repeats, few levels.
 #ifndef HOWL_DIAGNOSIS_SAMPLE_LIMITS_H_
 #define HOWL_DIAGNOSIS_SAMPLE_LIMITS_H_
@@ -10,19 +10,20 @@
 
 namespace howl {
 
-// Where saturation holds the signal at either end of its range. Noise that came after it spreads
-// the samples about the level.
+// The plateaus on which saturation holds the signal at either end of its range. Noise that was
+// added after the saturation spreads the samples about the level.
 struct Plateaus {
   Eigen::ArrayXd upper;  // one there, zero elsewhere
   Eigen::ArrayXd lower;
-  // No farther out than where it is held: a truth beyond is not what was recorded.
+  // The levels are no farther out than where the signal is held, because a true value beyond them
+  // was not recorded as it was.
   double upper_level = 0.0;
   double lower_level = 0.0;
 };
 
 Plateaus FindPlateaus(const Eigen::VectorXd& x);
 
-// In most records: the density of the signal's values ends in an edge.
+// True if in most records the density of the signal's values ends in an edge.
 bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure);
 
 struct FewLevels {

@@ -1,5 +1,5 @@
-// h x = g with h scaled to a diagonal of ones and damped by that much: normal equations whose
-// unknowns have unlike units.
+// Solves h x = g with h scaled to a diagonal of ones, to which `damping` is added. It serves normal
+// equations whose unknowns have unlike units.
 #ifndef HOWL_DIAGNOSIS_SCALED_SOLVE_H_
 #define HOWL_DIAGNOSIS_SCALED_SOLVE_H_
 
@@ -8,7 +8,7 @@
 
 namespace howl {
 
-// g: one right-hand side a column.
+// g: one right-hand side in each column.
 inline Eigen::MatrixXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::MatrixXd& g,
                                    double damping) {
   const Eigen::VectorXd scale = h.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();

@@ -36,15 +36,15 @@ std::vector<EffectForms> Units(const DiagnosisOptions& options) {
   return units;
 }
 
-// A reference has what its operating points have in their delays: what differs from it is the
-// rig's.
+// A reference contains the differences of its operating points' delays, so that what differs from
+// it is due to the rig.
 BaseModel ModelOf(const DiagnosisOptions& options) {
   BaseModel model = options.model;
   if (!options.reference.empty()) model.own_delays = false;
   return model;
 }
 
-// Starts of the search over all forms.
+// The number of starts of the search over all forms.
 std::size_t WorkOf(const EffectForms& forms) {
   std::size_t work = 0;
   for (const EffectPointer& form : forms) {
@@ -88,9 +88,9 @@ void Search::TakeLinesLeftOver() {
   base_ = FitBase(records_);
 }
 
-// Gains are squares of misfits: what clipping feigns may lie in line with what chance leaves, so
-// it is taken off the misfit.
-void Search::TakeOffWhatClippingFeigns(bool pressure) {
+// A gain is the square of a misfit. The spurious misfit that clipping gives may add to a chance
+// misfit in phase, so it is subtracted from the misfit and not from the gain.
+void Search::SubtractSpuriousGain(bool pressure) {
   DiagnosisOptions options = options_;
   options.memory = nullptr;
   options.progress = {};
@@ -104,8 +104,8 @@ void Search::TakeOffWhatClippingFeigns(bool pressure) {
     if (!attempt.fit || gain <= 0.0) continue;
     for (const Attempt& other : alike.attempts_) {
       if (other.candidate.effect != attempt.candidate.effect) continue;
-      const double feigned = ratio * std::max(other.candidate.gain, 0.0);
-      gain = std::pow(std::max(std::sqrt(gain) - std::sqrt(feigned), 0.0), 2);
+      const double spurious = ratio * std::max(other.candidate.gain, 0.0);
+      gain = std::pow(std::max(std::sqrt(gain) - std::sqrt(spurious), 0.0), 2);
     }
   }
 }
@@ -113,9 +113,9 @@ void Search::TakeOffWhatClippingFeigns(bool pressure) {
 void Search::TryAll() {
   TryEach();
   if (!reference_ || Stopped()) return;
-  if (repair_) TakeOffWhatClippingFeigns(true);
+  if (repair_) SubtractSpuriousGain(true);
   if (!reference_->heat_release_sharp_edge && HasSharpEdge(records_, false)) {
-    TakeOffWhatClippingFeigns(false);
+    SubtractSpuriousGain(false);
   }
 }
 
@@ -146,7 +146,7 @@ void Search::TryEach() {
     attempt.candidate.p_value = PValue(attempt.candidate.gain, attempt.parameters, units_.size());
     PayForParameters(&attempt);
   }
-  RefillBest();
+  RedeclipBest();
 }
 
 std::optional<double> Search::LargestGain() {
@@ -169,9 +169,9 @@ double Search::GainOfNoiseForTheBest() const {
   if (!bootstrap_gains_.empty()) return BootstrapDetectionGain(bootstrap_gains_);
   if (attempts_.empty()) return 0.0;
   const Attempt& best = attempts_[0];
-  if (reference_) return ShowsInFlameAlone(best) && !best.leaks ? NoiseBesideReference(at_) : 0.0;
+  if (reference_) return ShowsInFlameAlone(best) && !best.leaks ? NoiseGivenReference(at_) : 0.0;
   const double gain = best.candidate.gain;
-  if (best.seen || !ShowsInFlame(best) || gain < DetectionGain(false) || gain > kNearNoise) {
+  if (best.model_free || !ShowsInFlame(best) || gain < DetectionGain(false) || gain > kNearNoise) {
     return 0.0;
   }
   const auto unit = std::find_if(units_.begin(), units_.end(), [&](const EffectForms& forms) {

@@ -18,8 +18,8 @@
 
 namespace howl {
 
-// p's saturation is seen without a model, and taken out of the samples before anything else is
-// searched for: what the records then still have beside the base is another effect's.
+// Saturation of p is detected without a model and taken out of the samples before the search for
+// anything else. What the base does not explain in the repaired records is due to another effect.
 struct PressureRepair {
   Candidate clipping;
   std::vector<CutRecord> recorded;
@@ -29,61 +29,64 @@ struct PressureRepair {
   std::vector<DiagnosisExperiment> experiments;  // repaired
 };
 
-// Own delays show in cut B alone.
+// True where the gain by own delays is evidence that the experiments' delays differ; that shows in
+// cut B alone.
 bool DelaysDiffer(double own_delays_gain);
 
 class Search {
  public:
   Search(const std::vector<DiagnosisExperiment>& experiments, const DiagnosisOptions& options);
   Diagnosis Run();
-  // The best candidate's, or less than nothing; no value if stopped.
+  // The gain of the best candidate, which may be negative; no value if the run was stopped.
   std::optional<double> LargestGain();
 
  private:
   void TakeLinesLeftOver();
   void RepairPressure();
-  // With p's plateaus filled in under the fit itself, instead of the base.
-  struct RefilledFit {
+  // A fit to records that were declipped under the fit itself instead of under the base.
+  struct RedeclippedFit {
     EffectFit fit;
     std::shared_ptr<const std::vector<CutRecord>> records;
   };
-  RefilledFit Refill(const EffectFit& under_base) const;
-  Attempt Refilled(const Attempt& attempt, const EffectForms& forms) const;
-  void RefillBest();
+  RedeclippedFit Redeclip(const EffectFit& under_base) const;
+  Attempt Redeclipped(const Attempt& attempt, const EffectForms& forms) const;
+  void RedeclipBest();
   void TryEach();
-  // Against a reference: what saturation alone brings a transfer function is no evidence of it.
-  void TakeOffWhatClippingFeigns(bool pressure);
+  // With a reference, the gain that saturation alone gives a transfer function is no evidence of
+  // it.
+  void SubtractSpuriousGain(bool pressure);
   void TryAll();
   void Bootstrap();
-  // By the bootstrap if there was one; else, where the best is weak, by a few replicates of it.
+  // From the bootstrap if there was one; else, where the best is weak, from a few replicates with
+  // the best's unit alone.
   double GainOfNoiseForTheBest() const;
   Attempt Try(const EffectForms& forms) const;
   bool Stopped() const { return options_.stopped && options_.stopped(); }
 
-  // V_B of the gap: the least that any fit leaves over.
+  // The gap takes the least V_B that any fit leaves over.
   void MeasureGaps();
   void MeasureGap(Attempt* attempt) const;
-  double ShrinkageByNoMeaning(const Attempt& best) const;
-  // With the best attempt, if there is any; `after`: the slack that it leaves.
+  double PlaceboShrinkage(const Attempt& best) const;
+  // The evidence with the best attempt, if there is any; `after` becomes the slack that it leaves.
   Evidence Look(const Attempt* top, Slack* after) const;
 
-  // What the evidence comes to, once combinations were tried.
+  // What the evidence amounts to once combinations were tried.
   struct Judgement {
     Evidence evidence;
     Belief belief;
     Slack after;
     std::optional<Attempt> together;
-    double shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
+    double placebo_shrinkage = std::numeric_limits<double>::quiet_NaN();
   };
   Judgement Judge();
   bool Detected() const;
-  // What delays of the experiments' own take off beside the best attempt.
+  // The gain by a delay of its own for each experiment, given the best attempt.
   double OwnDelaysGain() const;
   Diagnosis Conclude(const Evidence& evidence, const Belief& belief);
-  // Where, how much, and what the base had absorbed.
+  // Fills in where the error is, how large it is, and what the base had absorbed of it.
   void Describe(const Judgement& at, Diagnosis* out);
   std::vector<Candidate> Candidates() const;
-  // The clipping that was repaired, before whatever was found beside it.
+  // Puts the clipping that was repaired before whatever else was found.
   void AddClipping(Diagnosis* diagnosis);
 
   const DiagnosisOptions& options_;
@@ -93,7 +96,7 @@ class Search {
   std::optional<ReferenceModel> reference_;
   EffectFit base_;
   std::optional<PressureRepair> repair_;
-  Setting at_;
+  AttemptContext at_;
   Slack slack_before_;
   LineOrigin origin_;
   GainFluctuation fluctuation_;

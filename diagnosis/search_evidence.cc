@@ -2,7 +2,7 @@
 #include <limits>
 #include <string>
 
-#include "diagnosis/no_meaning.h"
+#include "diagnosis/placebo.h"
 #include "diagnosis/search.h"
 #include "estimation/parallel.h"
 #include "model/random_stream.h"
@@ -10,8 +10,8 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kNoMeaningDraws = 11;
-constexpr std::uint64_t kNoMeaningSeed = 20;
+constexpr std::size_t kPlaceboDraws = 11;
+constexpr std::uint64_t kPlaceboSeed = 20;
 
 }  // namespace
 
@@ -40,22 +40,23 @@ void Search::MeasureGap(Attempt* attempt) const {
   candidate.shrinkage_high = interval.high;
 }
 
-double Search::ShrinkageByNoMeaning(const Attempt& best) const {
+double Search::PlaceboShrinkage(const Attempt& best) const {
   if (!best.fit || !best.also.empty() || !best.repaired.empty()) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   const Effect& effect = *best.fit->effect;
-  std::vector<double> shrinkage(kNoMeaningDraws);
+  std::vector<double> shrinkage(kPlaceboDraws);
   RunUnits(shrinkage.size(), options_.threads, [&](std::size_t i) {
     Attempt attempt =
+        // The name under which stored states of interrupted runs know the placebos' fits.
         TryTransfer(at_, "no_meaning." + std::to_string(i),
-                    {NoMeaning(effect.parameters().size(), effect.ChangesAcousticCut(),
-                               effect.ChangesFlameCut(), DeriveSeed(kNoMeaningSeed, i))});
+                    {PlaceboEffect(effect.parameters().size(), effect.ChangesAcousticCut(),
+                                   effect.ChangesFlameCut(), DeriveSeed(kPlaceboSeed, i))});
     MeasureGap(&attempt);
     shrinkage[i] = attempt.candidate.shrinkage;
   });
-  std::nth_element(shrinkage.begin(), shrinkage.begin() + kNoMeaningDraws / 2, shrinkage.end());
-  return shrinkage[kNoMeaningDraws / 2];
+  std::nth_element(shrinkage.begin(), shrinkage.begin() + kPlaceboDraws / 2, shrinkage.end());
+  return shrinkage[kPlaceboDraws / 2];
 }
 
 Evidence Search::Look(const Attempt* top, Slack* after) const {
@@ -85,14 +86,14 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
   out.unexplained_samples =
       (ShowsLimits(at_, true) || ShowsLimits(at_, false)) &&
       std::none_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
-        return attempt.seen || (attempt.kind == EffectKind::kDeclaredMap &&
-                                attempt.candidate.gain > DetectionGain(false));
+        return attempt.model_free || (attempt.kind == EffectKind::kDeclaredMap &&
+                                      attempt.candidate.gain > DetectionGain(false));
       });
   out.gain_of_noise = gain_of_noise_;
   if (!top) return out;
   out.gain = std::max(0.0, top->candidate.gain);
   out.gap_after = top->candidate.gap_after;
-  out.seen = top->seen;
+  out.model_free = top->model_free;
   out.form_is_wrong = top->fit && !top->fit->effect->IsOwnCause(top->fit->values);
   out.confirmed = top->confirmed;
   out.flame_alone = ShowsInFlameAlone(*top);

@@ -17,8 +17,8 @@ namespace howl {
 namespace {
 
 constexpr const char* kPressureClipping = "p_clipping";
-constexpr int kMostRefills = 10;
-constexpr double kLeastRefill = 0.5;  // of log-likelihood
+constexpr int kMostDeclippings = 10;
+constexpr double kConvergedGain = 0.5;  // change of log-likelihood below which it ends
 
 void SetPressures(const std::vector<Eigen::VectorXd>& pressures,
                   std::vector<DiagnosisExperiment>* experiments) {
@@ -39,8 +39,8 @@ double MeanFraction(const std::vector<CutRecord>& recorded, const std::vector<Cu
   return sum / static_cast<double>(recorded.size());
 }
 
-// Half each, a block that both have once.
-std::vector<Place> BesideOneAnother(std::vector<Place> places, std::vector<Place> others) {
+// Both lists with half the share each; a block that both have is listed once.
+std::vector<Place> MergedPlaces(std::vector<Place> places, std::vector<Place> others) {
   if (others.empty()) return places;
   for (Place& place : places) place.share *= 0.5;
   for (Place& other : others) {
@@ -88,56 +88,56 @@ void Search::RepairPressure() {
   repair_ = std::move(repair);
   at_.experiments = &repair_->experiments;
   at_.recorded = &repair_->recorded;
-  at_.refit = [this](const EffectFit& fit) { return Refill(fit).fit; };
+  at_.refit = [this](const EffectFit& fit) { return Redeclip(fit).fit; };
 }
 
-// The likelihood is that of what was recorded: what each fit fills in leaves nothing over, so fits
-// to fillings of their own compare.
-Search::RefilledFit Search::Refill(const EffectFit& under_base) const {
+// The likelihood is that of what was recorded: samples that a fit declipped leave no residual under
+// that fit. Fits to records that each declipped itself can therefore be compared.
+Search::RedeclippedFit Search::Redeclip(const EffectFit& under_base) const {
   std::vector<DiagnosisExperiment> experiments = repair_->experiments;
   Declipped whole = DeclipAnew(repair_->recorded, records_, under_base, options_.threads);
   auto records = std::make_shared<std::vector<CutRecord>>();
   EffectFit fit = under_base;
-  for (int i = 0; i < kMostRefills; ++i) {
+  for (int i = 0; i < kMostDeclippings; ++i) {
     SetPressures(whole.pressure, &experiments);
     *records = RemakeCutRecords(experiments, repair_->recorded, lines_);
     const double before = fit.cost();
-    fit = Settle(*records, base_, whole.fit);
-    if (std::abs(before - fit.cost()) < kLeastRefill) break;
+    fit = ConvergedFit(*records, base_, whole.fit);
+    if (std::abs(before - fit.cost()) < kConvergedGain) break;
     whole = DeclipAt(repair_->recorded, *records, fit, options_.threads);
   }
   return {std::move(fit), std::move(records)};
 }
 
-// The best form under the base's filling need not be the best under its own.
-Attempt Search::Refilled(const Attempt& attempt, const EffectForms& forms) const {
-  std::vector<RefilledFit> each(forms.size());
+// The best form on records that the base declipped need not be the best on records of its own.
+Attempt Search::Redeclipped(const Attempt& attempt, const EffectForms& forms) const {
+  std::vector<RedeclippedFit> each(forms.size());
   RunUnits(forms.size(), options_.threads, [&](std::size_t i) {
     const bool fitted = forms[i] == attempt.fit->effect;
-    each[i] = Refill(fitted ? *attempt.fit : FitEffect(records_, forms[i], base_));
+    each[i] = Redeclip(fitted ? *attempt.fit : FitEffect(records_, forms[i], base_));
   });
-  RefilledFit& refilled = *std::min_element(
+  RedeclippedFit& redeclipped = *std::min_element(
       each.begin(), each.end(),
-      [](const RefilledFit& a, const RefilledFit& b) { return a.fit.cost() < b.fit.cost(); });
-  Setting at = at_;
-  at.records = refilled.records.get();
-  Attempt out = FromFit(at, std::move(refilled.fit));
+      [](const RedeclippedFit& a, const RedeclippedFit& b) { return a.fit.cost() < b.fit.cost(); });
+  AttemptContext at = at_;
+  at.records = redeclipped.records.get();
+  Attempt out = FromFit(at, std::move(redeclipped.fit));
   PayForParameters(&out);
   out.candidate.p_value = attempt.candidate.p_value;
-  out.refilled = std::move(refilled.records);
+  out.redeclipped = std::move(redeclipped.records);
   return out;
 }
 
-void Search::RefillBest() {
+void Search::RedeclipBest() {
   if (!repair_ || Stopped()) return;
   double best = 0.0;
   for (const Attempt& attempt : attempts_) best = std::max(best, attempt.candidate.gain);
-  const double least = std::max(DetectionGain(false), kWorthRefilling * best);
+  const double least = std::max(DetectionGain(false), kWorthRedeclipping * best);
   RunUnits(attempts_.size(), options_.threads, [&](std::size_t i) {
     Attempt& attempt = attempts_[i];
     if (attempt.fit && attempt.fit->effect->ChangesAcousticCut() &&
         attempt.candidate.gain > least) {
-      attempt = Refilled(attempt, units_[i]);
+      attempt = Redeclipped(attempt, units_[i]);
     }
   });
 }
@@ -149,9 +149,9 @@ void Search::AddClipping(Diagnosis* diagnosis) {
   alone.candidate = repair_->clipping;
   alone.held_out = at_.base_held_out;
   alone.candidate.probability = 1.0;
-  diagnosis->where = BesideOneAnother(
-      FindPlaces(records_, {alone}, VerdictKind::kEffect, repair_->recorded_slack, {}),
-      std::move(diagnosis->where));
+  diagnosis->where =
+      MergedPlaces(FindPlaces(records_, {alone}, VerdictKind::kEffect, repair_->recorded_slack, {}),
+                   std::move(diagnosis->where));
 
   alone.candidate.probability = diagnosis->probability_none;
   for (Attempt& attempt : attempts_) {
@@ -178,7 +178,7 @@ void Search::AddClipping(Diagnosis* diagnosis) {
   }
   for (std::string& other : diagnosis->indistinguishable) other = CombinedId(id, other);
   if (!diagnosis->together.empty()) diagnosis->together = CombinedId(id, diagnosis->together);
-  diagnosis->shrinkage_no_meaning = std::numeric_limits<double>::quiet_NaN();
+  diagnosis->placebo_shrinkage = std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace howl

@@ -19,8 +19,8 @@ constexpr std::size_t kFewestBlocks = 3;
 constexpr double kFlat = 1.8;
 constexpr Eigen::Index kLineReach = 3;
 constexpr double kLineRatio = 6.0;
-// Where a signal is hardly more than its noise, what the median's scatter lets through is noise,
-// and a regressor with noise looks like a low-pass; a regressor that misses a weak part does not.
+// Where a signal is hardly more than its noise, the scatter of the median lets noise through. A
+// regressor with noise looks like a low-pass, but one that misses a weak part does not.
 constexpr double kLeastPressureRatio = 2.0;
 constexpr double kLeastHeatReleaseRatio = 3.0;
 
@@ -33,7 +33,7 @@ Eigen::VectorXd Shrinkage(const Eigen::VectorXcd& spectrum, double noise_varianc
   power.segment(kTapReach, count) = ApplyWindow(spectrum, count).cwiseAbs2();
   Eigen::VectorXd out(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    // Beside a line, whose own bins are few, the median is what the neighbours have.
+    // Near a line, which has few bins, the median is that of the neighbours.
     const Eigen::Index near = std::max<Eigen::Index>(k - kLineReach, 0);
     const double own = power.segment(near, std::min(k + kLineReach + 1, n) - near).mean();
     const double typical = LocalPower(power, k, kSmoothing);
@@ -43,8 +43,8 @@ Eigen::VectorXd Shrinkage(const Eigen::VectorXcd& spectrum, double noise_varianc
   return out;
 }
 
-// White noise is what a spectrum falls to and no further: the quietest quarter of wide blocks, if
-// it is flat; else nothing is known of it, and zero.
+// White noise is the level to which a spectrum falls and no further: that of the quietest quarter
+// of wide blocks, if it is flat. Else nothing is known of it, and zero is returned.
 double NoiseFloor(const Eigen::VectorXcd& spectrum) {
   const Eigen::Index count = spectrum.size() - 2 * kTapReach;
   const Eigen::VectorXd power = ApplyWindow(spectrum, count).cwiseAbs2();
@@ -80,7 +80,7 @@ SensorNoise EstimateSensorNoise(const CutRecord& record) {
     }
     const auto p = record.windowed_pressure.segment(start, size);
     const Eigen::VectorXcd c = columns.colPivHouseholderQr().solve(p);
-    // Terms that the fit takes up, counted in independent bins.
+    // The degrees of freedom that the fit absorbs, counted in independent bins.
     const double left = 1.0 - std::min(0.8, static_cast<double>(terms) * kBinCorrelation /
                                                 static_cast<double>(size));
     residual.segment(start, size) = (p - columns * c) / std::sqrt(left);

@@ -5,8 +5,8 @@
 // The flame is driven by the derivative of recorded p, whose noise would bias its response towards
 // zero where the signal is weak, and look like a low-pass. So p is first replaced by its
 // expectation given the record: times 1 - sigma_p^2 / S_pp (Wiener). A regression on that is not
-// biased. So is q, which drives the acoustics, where its spectrum shows that it falls to its noise:
-// behind a low-pass.
+// biased. q, which drives the acoustics, is replaced likewise where its spectrum falls to its
+// noise, as it does behind a low-pass.
 #ifndef HOWL_DIAGNOSIS_SENSOR_NOISE_H_
 #define HOWL_DIAGNOSIS_SENSOR_NOISE_H_
 

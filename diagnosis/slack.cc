@@ -60,7 +60,7 @@ double Excess(const std::vector<SlackBand>& bands) {
   return std::max(0.0, sum - 4.0 * std::sqrt(static_cast<double>(bands.size())));
 }
 
-// Delays beside tau, half a period of the band's upper edge apart.
+// Offsets from tau, half a period of the band's upper edge apart.
 std::vector<double> Offsets(const CutRecord& record, double tau_s) {
   const double step = 0.5 / record.frequency(record.flame_count - 1);
   std::vector<double> offsets;
@@ -69,8 +69,8 @@ std::vector<double> Offsets(const CutRecord& record, double tau_s) {
   return offsets;
 }
 
-// Around each bin, as a variance. A gain that fluctuates spreads the cycle's
-// line over a few hertz; the smooth V does not know of it, and slack would fit its chance pattern.
+// The typical power around each bin, as a variance. A gain that fluctuates spreads the cycle's line
+// over a few hertz, which the smooth V does not contain, and slack would fit its chance pattern.
 Eigen::VectorXd TypicalPower(const Eigen::VectorXcd& residual) {
   const Eigen::VectorXd power = residual.cwiseAbs2();
   Eigen::VectorXd out(power.size());
@@ -83,7 +83,7 @@ struct Normal {
   Eigen::VectorXd right;
 };
 
-// What least squares takes off the cost.
+// The decrease of the cost by least squares.
 double Gain(const Normal& at) { return at.right.dot(SolveScaled(at.gram, at.right, 1e-6).col(0)); }
 
 }  // namespace
@@ -103,7 +103,7 @@ Slack ComputeSlack(const std::vector<CutRecord>& records, const EffectFit& fit) 
     v_a.push_back(&at.acoustic_noise);
     const Eigen::Index n = records[i].flame_count;
     Eigen::VectorXcd x = records[i].windowed_heat_release.head(n) - at.flame_residual;
-    // The flame's part alone: a leak has no delay that the filter may shorten.
+    // X is the flame's part alone, because a leak has no delay that the filter may shorten.
     x -= fit.effect->PressureLeak(records[i].at.cycle_frequency_hz, records[i].at, fit.values) *
          records[i].windowed_pressure.head(n);
     Eigen::VectorXd weight =

@@ -9,7 +9,8 @@
 //
 //   E_B ~ sum over j of c_j e^(-delta_j s) X,    tau + delta_j > 0
 //
-// Slack fits anything and explains nothing: a ceiling, and the place of what no effect explains.
+// Slack fits anything and explains nothing. It serves as a ceiling for effects, and tells the place
+// of what no effect explains.
 #ifndef HOWL_DIAGNOSIS_SLACK_H_
 #define HOWL_DIAGNOSIS_SLACK_H_
 
@@ -31,7 +32,7 @@ struct SlackBand {
 struct Slack {
   std::vector<SlackBand> acoustic;
   std::vector<double> flame_by_experiment;  // cut B: the gain in each experiment
-  // Gains less what noise alone gives, not below zero.
+  // The gains less what noise alone gives, but not below zero.
   double acoustic_excess = 0.0;
   double flame_excess = 0.0;
 };

@@ -25,7 +25,7 @@ struct ClippingFit {
   // is as large there, unless the record is cut off.
   double plateau_noise = 1.0;
   std::vector<Eigen::VectorXd> repaired;  // the signals with the bumps given back, without mean
-  bool sharp_edge = false;  // the amplitude density ends in an edge: seen without any model
+  bool sharp_edge = false;  // the amplitude density ends in an edge, which needs no model
 };
 
 ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,

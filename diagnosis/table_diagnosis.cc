@@ -43,7 +43,7 @@ class Point {
     for (int i = 0; i < kXis; ++i) {
       const double xi =
           limits_.xi_min * std::pow(limits_.xi_max / limits_.xi_min, i / (kXis - 1.0));
-      // About what N is: a second mode beyond it is not one.
+      // About the size of N, beyond which a mode is not the second.
       const double scale = 4.0 * gain_ * xi * kRadPerSPerHz * f_;
       const double most = limits_.modes == 1 ? 0.0 : std::min(limits_.M_max, scale);
       for (int k = 0; k <= (limits_.modes == 1 ? 0 : kSecondModes); ++k) {
@@ -113,7 +113,7 @@ class Point {
       const double half = limits_.line_sigmas * line.frequency_std_hz;
       const double low = error_deg(line.frequency_hz - half);
       const double high = error_deg(line.frequency_hz + half);
-      // It rises with frequency; a wrapped angle falls by 360 degrees instead.
+      // A crossing rises with frequency; at a wrap the angle falls by 360 degrees instead.
       return low <= 0.0 && high >= 0.0 && high - low < 180.0;
     });
   }
@@ -126,7 +126,7 @@ class Point {
   double tau_s_;
 };
 
-// The longest run of lags that agree, its ends by bisection.
+// The longest run of lags that agree, with its ends found by bisection.
 LagInterval Interval(const std::function<bool(double)>& agrees) {
   LagInterval best;
   const int count = static_cast<int>(2.0 * kLargestLag_deg / kLagStep_deg);

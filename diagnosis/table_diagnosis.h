@@ -1,8 +1,8 @@
-// What published characteristics alone say of the lag of the q sensor, without a record.
+// The lag of the q sensor that published characteristics alone allow, without a record.
 //
 // A sensor that makes recorded q lag true q by lambda at the cycle f makes p seem to lead by as
-// much, and q too small if it is a first-order low-pass. With Delta and g as published (seed,
-// table 2):
+// much, and q too small if it is a first-order low-pass. With Delta and g as published (the
+// paper, table 2):
 //
 //   arg G(f) = Delta - lambda,    |G(f)| = g cos lambda
 //   tau = (270 deg + Delta - lambda) / (360 deg f)                                   (3)
@@ -31,7 +31,7 @@ namespace howl {
 
 struct TableLimits {
   int modes = 2;
-  double harmonic_ratio = kSeedHarmonicRatio;
+  double harmonic_ratio = kPaperHarmonicRatio;
   double omega_min_hz = 0.0;
   double xi_min = 1e-3;
   double xi_max = 1.0;
@@ -62,11 +62,11 @@ struct TableDiagnosis {
   Diagnosis diagnosis;                       // verdict: unknown
 };
 
-// Of this experiment, at its own cycle.
+// lag_deg: the lag of this experiment at its own cycle.
 double DelayAtLag(const Experiment& experiment, double lag_deg);
 bool AgreesAtLag(const Experiment& experiment, double lag_deg, const TableLimits& limits);
 
-// At least one experiment has a line.
+// At least one experiment must have a line.
 TableDiagnosis DiagnoseTable(const std::vector<Experiment>& experiments, const TableLimits& limits);
 
 }  // namespace howl

@@ -9,10 +9,10 @@ namespace {
 // Log-likelihoods are of Gaussian noise whose spectrum is itself fitted. On blind rigs with no
 // effect (results/trial) the largest gain was 3 in cut A.
 constexpr double kDetectionGain = 8.0;
-// Cut B's regressor is recorded p, whose sensor noise is taken out only in the mean: where p's
-// noise is near a hundredth of its amplitude, rigs with no effect reach 16.
+// Cut B's regressor is recorded p, whose sensor noise is corrected for only in the mean. Where that
+// noise is near a hundredth of p's amplitude, rigs with no effect reach 16.
 constexpr double kFlameDetectionGain = 16.0;
-// Rigs with no effect stay below once the floor.
+// Rigs with no effect stay below the floor itself.
 constexpr double kGapOverFloor = 2.2;
 constexpr double kGapOverFloorWidth = 0.15;
 constexpr double kDetectionWidth = 2.0;
@@ -44,15 +44,15 @@ Belief Weigh(const Evidence& at) {
   const double detection = std::max(DetectionGain(at.flame_alone), at.gain_of_noise);
   out.none = Logistic((detection - at.gain) / kDetectionWidth) *
              Logistic((kUnexplainedDetection - rest) / kUnexplainedWidth);
-  // A fit whose noise had to grow is no fit, even if no candidate takes anything off it.
+  // A fit whose noise had to grow is no fit, even if no candidate improves it.
   out.none *= Logistic((kGapOverFloor - at.gap_before / std::max(at.gap_floor, 1e-12)) /
                        kGapOverFloorWidth);
-  if (at.seen) out.none = 0.0;
-  if (!at.seen && rest > 0.5 * kUnexplainedDetection) {
+  if (at.model_free) out.none = 0.0;
+  if (!at.model_free && rest > 0.5 * kUnexplainedDetection) {
     const double share = at.confirmed ? kConfirmedUnknownShare : kUnknownShare;
     out.unknown = Logistic((rest / (rest + std::max(0.0, at.gain)) - share) / kUnknownWidth);
   }
-  if (!at.seen && !at.confirmed) {
+  if (!at.model_free && !at.confirmed) {
     // Nor may the held-out gap stay well above the floor.
     const double above = std::pow(at.gap_after, 2) - 4.0 * std::pow(at.gap_floor, 2);
     const double left = std::max(0.0, above) / std::max(std::pow(at.gap_before, 2), 1e-300);
@@ -66,8 +66,8 @@ Belief Weigh(const Evidence& at) {
   return out;
 }
 
-bool IsNoBetterThanNoMeaning(double shrinkage, double shrinkage_no_meaning) {
-  return shrinkage_no_meaning > kNothing && shrinkage_no_meaning >= shrinkage;
+bool IsNoBetterThanPlacebo(double shrinkage, double placebo_shrinkage) {
+  return placebo_shrinkage > kNothing && placebo_shrinkage >= shrinkage;
 }
 
 double Temperature(double largest_gain) {

@@ -1,12 +1,12 @@
 // From evidence to belief: how probable it is that nothing is wrong, and that what is wrong is not
-// in the catalogue. Both are logistic in what the best candidate takes off the likelihood, in what
-// free slack still takes off after it, and in the gap that it leaves on held-out experiments.
+// in the catalogue. Both are logistic in the best candidate's gain, in the gain that free slack
+// still has after it, and in the gap that it leaves on held-out experiments.
 #ifndef HOWL_DIAGNOSIS_VERDICT_H_
 #define HOWL_DIAGNOSIS_VERDICT_H_
 
 namespace howl {
 
-// Slack in cut B (slack.h) on rigs without an effect, where p's noise is strong: at most.
+// The largest slack in cut B (slack.h) on rigs without an effect where p's noise is strong.
 inline constexpr double kFlameAllowance = 80.0;
 
 struct Evidence {
@@ -17,9 +17,9 @@ struct Evidence {
   double gap_before = 0.0;
   double gap_after = 0.0;
   double gap_floor = 0.0;
-  bool seen = false;                 // in the samples themselves: clipping's edge, few levels
-  bool confirmed = false;            // by something beside the likelihood
-  bool flame_alone = false;          // the candidate shows in cut B only
+  bool model_free = false;   // detected in the samples themselves: clipping's edge, few levels
+  bool confirmed = false;    // by something other than the likelihood
+  bool flame_alone = false;  // the candidate shows in cut B only
   bool unexplained_lines = false;    // coherent lines that no candidate accounts for
   bool form_is_wrong = false;        // the candidate is no cause of its own (Effect::IsOwnCause)
   bool unexplained_samples = false;  // an edge or few levels: the same
@@ -32,22 +32,23 @@ struct Belief {
 
 Belief Weigh(const Evidence& evidence);
 
-// The slack beyond what rigs leave whose effect's form is only nearly right.
+// The slack beyond what is left on rigs whose effect has a form that is only nearly right.
 double Unexplained(const Evidence& evidence);
 
 // How fast the odds of a candidate fall with its distance to the best: models are never exact, so
 // distances count by their share of the largest gain too.
 double Temperature(double largest_gain);
 
-// Effects of no meaning, as free as the best, shrink the gap as much as it: what it gains is the
-// data's, not a cause's. NaN where there is nothing to compare.
-bool IsNoBetterThanNoMeaning(double shrinkage, double shrinkage_no_meaning);
+// True where placebo effects (placebo.h) with as many parameters as the best candidate shrink the
+// gap as much as it does: its gain then comes from its freedom, not from a cause. placebo_shrinkage
+// is NaN where there is nothing to compare.
+bool IsNoBetterThanPlacebo(double shrinkage, double placebo_shrinkage);
 
-// The doubt that such a fact leaves: that what is wrong is not in the catalogue.
+// The probability that what is wrong is not in the catalogue, given such a fact.
 inline constexpr double kUnexplainedFact = 0.9;
 
 // Gains in cut B below this may be noise: where p's is as strong as a hundredth of its amplitude,
-// rigs with no effect were seen to reach 35, and 46 where a measured record is the reference.
+// rigs with no effect reached 35 in trials, and 46 where a measured record is the reference.
 inline constexpr double kNearNoise = 60.0;
 
 // Of two kinds of evidence that do not compete (a line and a transfer function, say), the least

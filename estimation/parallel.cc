@@ -14,7 +14,7 @@ UnitObserver& Observer() {
   return observer;
 }
 
-// A unit may run units of its own: those are not shown.
+// A unit may run units of its own, for which no progress is shown.
 thread_local bool is_inside = false;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The loop's free parameters: which are shared by all experiments, which each experiment has to
-// itself, where the search starts, and the guard rails it keeps to.
+// The loop's free parameters: which are shared by all experiments, which each experiment has of its
+// own, where the search starts, and the guard rails that it keeps to.
 #ifndef HOWL_ESTIMATION_PARAMETERS_H_
 #define HOWL_ESTIMATION_PARAMETERS_H_
 
@@ -21,7 +21,7 @@ inline constexpr std::array kParameterKinds = {ParameterKind::kOmega,  Parameter
                                                ParameterKind::kMOverN, ParameterKind::kTau};
 inline constexpr std::size_t kNumParameterKinds = kParameterKinds.size();
 
-// As in configs and files: "omega_hz", "xi", "N", "M", "M_over_N", "tau_s".
+// The name in configs and files: "omega_hz", "xi", "N", "M", "M_over_N", "tau_s".
 constexpr std::string_view ParameterName(ParameterKind kind) {
   constexpr std::array<std::string_view, kNumParameterKinds> kNames = {"omega_hz", "xi",   "N", "M",
                                                                        "M_over_N", "tau_s"};
@@ -48,7 +48,7 @@ struct OwnParameter {
 
 struct ModelSpec {
   int modes = 1;  // 1: N alone; 2: N, and M or M_over_N
-  double harmonic_ratio = kSeedHarmonicRatio;
+  double harmonic_ratio = kPaperHarmonicRatio;
   bool second_mode_relative = false;  // the free parameter is M / N instead of M
   std::array<ParameterSpec, kNumParameterKinds> parameters;
   std::vector<OwnParameter> own;
@@ -59,7 +59,7 @@ struct ModelSpec {
   const ParameterSpec& operator[](ParameterKind kind) const {
     return parameters[static_cast<std::size_t>(kind)];
   }
-  // What holds for an experiment: its own, or what holds for all.
+  // The specification for an experiment: its own, or that for all.
   const ParameterSpec& Of(ParameterKind kind, std::string_view experiment) const;
   bool Uses(ParameterKind kind) const {
     if (kind == ParameterKind::kM) return modes == 2 && !second_mode_relative;
@@ -78,7 +78,7 @@ struct LoopModel {
   double N = 0.0;
   double M = 0.0;
   double tau_s = 0.0;
-  double harmonic_ratio = kSeedHarmonicRatio;
+  double harmonic_ratio = kPaperHarmonicRatio;
 
   LoopParameters<double> Loop() const { return {{omega_hz, xi, N, M, harmonic_ratio}, tau_s}; }
 };

@@ -1,4 +1,4 @@
-// Which residuals a joint fit has, how heavy each is, and on which experiments it acts. The
+// Which residuals a joint fit has, the weight of each, and on which experiments it acts. The
 // equations are in estimation/residuals/, one file each.
 #ifndef HOWL_ESTIMATION_RESIDUAL_SPEC_H_
 #define HOWL_ESTIMATION_RESIDUAL_SPEC_H_
@@ -42,7 +42,7 @@ static_assert(
     }(),
     "kResidualKinds lists the kinds in their order: names and specs are looked up by it");
 
-// As in configs.
+// The names in configs.
 constexpr std::string_view ResidualName(ResidualKind kind) {
   constexpr std::array<std::string_view, kNumResidualKinds> kNames = {
       "gain_equality",   "phase_equality", "limit_cycle_phase", "limit_cycle_gain",

@@ -13,9 +13,9 @@
 namespace howl {
 
 // k: the level lies anywhere between none and its bound, and an interval has to hold the truth
-// wherever. With a scatter s of their own, values that a level at either end moves by one are
-// within 1.96 sqrt(k^2 + s^2) in 95 % of the cases when k is 0.9, at the worst s, near one. The
-// deviation of a uniform distribution, 0.58, leaves 83 % there.
+// wherever the level lies. With a scatter s of their own, values that a level at either end moves
+// by one are within 1.96 sqrt(k^2 + s^2) in 95 % of the cases when k is 0.9, at the worst s, near
+// one. The deviation of a uniform distribution, 0.58, leaves 83 % there.
 inline constexpr double kQNoiseLevelStd = 0.9;
 
 struct TransferPoint {

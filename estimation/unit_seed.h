@@ -1,6 +1,6 @@
 // Every independent unit of work (a start, a member, a bootstrap replicate) draws from a generator
-// of its own, seeded by the run's seed and the unit's key. So the answer does not depend on how
-// units are spread over threads.
+// of its own, seeded by the run's seed and the unit's key. Therefore the answer does not depend on
+// how units are spread over threads.
 #ifndef HOWL_ESTIMATION_UNIT_SEED_H_
 #define HOWL_ESTIMATION_UNIT_SEED_H_
 

@@ -1,5 +1,5 @@
-// How much memory a single array can have at most. A request beyond it is refused with a message of
-// its own: the system may grant it and end the program when it is used.
+// The most memory that a single array can have. A request beyond it is refused with a message of
+// its own, because the system may grant it and then end the program when it is used.
 #ifndef HOWL_IO_MEMORY_H_
 #define HOWL_IO_MEMORY_H_
 
@@ -10,7 +10,7 @@
 
 namespace howl {
 
-// The machine's, or less where the process is limited.
+// The machine's memory, or less where the process is limited.
 inline double MemoryBytes() {
   const double machine =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));

@@ -22,7 +22,7 @@ struct ResponseSpec {
   int line = 0;                 // in the config
 };
 
-// What a text file does not say of itself.
+// The format of a text file, as far as the file does not tell it.
 struct TextDialect {
   int skip_rows = 0;           // lines before the header or the first row
   bool decimal_comma = false;  // 0,5 is a half; columns are then parted by ; tabs or blanks
@@ -42,7 +42,7 @@ struct RecordSpec {
   double heat_release_scale = 1.0;
   double start_s = 0.0;              // from the first sample
   std::optional<double> duration_s;  // absent: to the end
-  // Known of the instruments, and taken out of the record (remove_instruments.h).
+  // Known responses of the instruments, which are removed from the record (remove_instruments.h).
   std::optional<ResponseSpec> pressure_response;
   std::optional<ResponseSpec> heat_release_response;
   double delay_s = 0.0;  // by how much heat release is recorded later than pressure

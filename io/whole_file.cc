@@ -24,7 +24,7 @@ NewFile::NewFile(const std::filesystem::path& path)
   }
   descriptor_ = mkostemp(temporary_.data(), O_CLOEXEC);
   if (descriptor_ < 0) Fail("cannot be created");
-  // mkostemp's files are for their owner alone; this one is to be as any other.
+  // mkostemp's files are for their owner alone; this file gets the permissions of any other.
   const mode_t mask = umask(0);
   umask(mask);
   fchmod(descriptor_, 0666 & ~mask);
@@ -48,7 +48,7 @@ void NewFile::Write(const char* data, std::size_t size) {
 // A file system may put the new name on the disk before the bytes: a loss of power between the two
 // would leave an empty file in the old one's place.
 void NewFile::Publish() {
-  // Some file systems, and all pipes, know nothing of it.
+  // Some file systems, and all pipes, do not support it.
   if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) Fail("cannot be written");
   const int status = close(descriptor_);
   descriptor_ = -1;

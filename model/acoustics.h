@@ -1,11 +1,15 @@
-// Acoustics of the combustor, from heat release q to pressure p (seed, section 3.3):
+// Acoustics of the combustor, from heat release q to pressure p (the paper, section 3.3):
 //
 //   G(s) = N s / (s^2 + 2 omega xi s + omega^2)  +  M s / (s^2 + 2 (r omega) xi s + (r omega)^2)
 //
 // omega: natural frequency of the first mode; xi: damping ratio, shared by both modes; N, M: the
 // modes' coefficients in (units of p per unit of q) * rad/s; r: ratio of the second mode's natural
-// frequency to the first's (3 in the seed: the third mode of a half-open duct). M = 0 is the
+// frequency to the first's (3 in the paper: the third mode of a half-open duct). M = 0 is the
 // one-mode model.
+//
+// "The paper" is, in every header, Savaresi, Bitmead and Dunstan (2001), Non-linear system
+// identification using closed-loop data with no external excitation: the case of a lean combustion
+// chamber. Its experiment is test R228.
 //
 // Every function is a template on the scalar: double, ceres::Jet, or an interval.
 #ifndef HOWL_MODEL_ACOUSTICS_H_
@@ -16,7 +20,7 @@
 
 namespace howl {
 
-inline constexpr double kSeedHarmonicRatio = 3.0;
+inline constexpr double kPaperHarmonicRatio = 3.0;
 
 template <typename T>
 struct Acoustics {
@@ -39,14 +43,14 @@ Complex<T> UnitModeResponse(const T& omega_rad_s, const T& xi, const T& w_rad_s)
   return {denominator.re * scale, -denominator.im * scale};
 }
 
-// First mode alone: the seed's reduced form (5b).
+// First mode alone: the paper's reduced form (5b).
 template <typename T>
 Complex<T> FirstModeResponse(const Acoustics<T>& acoustics, const T& frequency_hz) {
   return acoustics.N * UnitModeResponse(T(kRadPerSPerHz) * acoustics.omega_hz, acoustics.xi,
                                         T(kRadPerSPerHz) * frequency_hz);
 }
 
-// G(j 2 pi f), both modes: the seed's full form (5a).
+// G(j 2 pi f), both modes: the paper's full form (5a).
 template <typename T>
 Complex<T> AcousticResponse(const Acoustics<T>& acoustics, const T& frequency_hz) {
   const T second_omega_rad_s = T(kRadPerSPerHz) * acoustics.harmonic_ratio * acoustics.omega_hz;

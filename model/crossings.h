@@ -1,4 +1,4 @@
-// Where the loop could cycle, and how far it is from doing so (seed, (1a), (1b), figure 12).
+// Where the loop could cycle, and how far it is from doing so (the paper, (1a), (1b), figure 12).
 //
 //   phase crossing:  arg L(j 2 pi f) = 180 degrees (mod 360), with gain |Phi'(0) L|: where
 //                    Nyquist's curve crosses the negative real axis

@@ -1,5 +1,5 @@
-// Transport delay between nozzle and burning plane (seed, section 3.1): e^(-tau s) at s = j 2 pi f.
-// Unit magnitude; phase -360 tau f degrees. tau in seconds, f in hertz.
+// Transport delay between nozzle and burning plane (the paper, section 3.1): e^(-tau s), here at
+// s = j 2 pi f. Unit magnitude; phase -360 tau f degrees. tau in seconds, f in hertz.
 //
 // Exact, so that its derivative with respect to tau is -j 2 pi f e^(-j 2 pi f tau), never zero.
 #ifndef HOWL_MODEL_DELAY_H_

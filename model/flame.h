@@ -1,5 +1,5 @@
-// The flame's static characteristic (seed, section 3.2): heat release against the delayed rate of
-// change of pressure,
+// The flame's static characteristic (the paper, section 3.2): heat release against the delayed rate
+// of change of pressure,
 //
 //   Phi(v) = Q sigma(k (v - v0) / Q),     sigma(0) = 0, sigma'(0) = 1, |sigma| <= 1
 //

@@ -53,7 +53,7 @@ struct FormulaName {
 };
 using FormulaNames = std::function<FormulaName(const std::string& owner, const std::string& name)>;
 
-// Nothing on an error, which is then told.
+// No value on an error, which is then told.
 std::optional<std::vector<FormulaToken>> ParseFormula(std::string_view text,
                                                       const FormulaNames& names,
                                                       FormulaError& error);

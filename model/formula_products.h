@@ -8,7 +8,7 @@
 
 namespace howl {
 
-// Nothing on an error, which is then told.
+// No value on an error, which is then told.
 std::optional<std::vector<FormulaToken>> ParseFormulaWithProducts(std::string_view text,
                                                                   const FormulaNames& names,
                                                                   FormulaError& error);

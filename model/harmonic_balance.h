@@ -5,7 +5,7 @@
 // Unknowns are V_1 .. V_H and f, with Im V_1 = 0 to fix the phase; Newton with the exact Jacobian.
 // The acoustics and the delay enter exactly, the flame in time (alternating frequency and time).
 // H doubles until the last quarter of the harmonics is below the tolerance. One harmonic is the
-// describing function of the seed's reference (Gelb & Van der Velde 1968).
+// describing function of the paper's reference (Gelb & Van der Velde 1968).
 //
 // V_0 = 0 because L(0) = 0: a constant heat release does not reach the pressure.
 #ifndef HOWL_MODEL_HARMONIC_BALANCE_H_

@@ -1,4 +1,4 @@
-// The loop at any complex s = sigma + j w (seed, (1a), (1b)), s in rad/s:
+// The loop at any complex s = sigma + j w (the paper, (1a), (1b)), s in rad/s:
 //
 //   L(s) = s G(s) e^(-tau s),
 //   s G(s) = N s^2 / (s^2 + 2 omega xi s + omega^2) + M s^2 / (s^2 + 2 r omega xi s + (r omega)^2)

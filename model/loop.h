@@ -1,4 +1,4 @@
-// The loop without its flame (seed, (1a) and (1b), whose first term must read e^(-tau s)):
+// The loop without its flame (the paper, (1a) and (1b), whose first term must read e^(-tau s)):
 //
 //   L(s) = s G(s) e^(-tau s)
 //

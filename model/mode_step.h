@@ -1,6 +1,7 @@
 // One acoustic mode in time, propagated exactly over a step of h seconds.
 //
-// The mode N s / (s^2 + 2 omega xi s + omega^2) (seed, (5a)) is, with y = omega * integral of p,
+// The mode N s / (s^2 + 2 omega xi s + omega^2) (the paper, (5a)) is, with
+// y = omega * integral of p,
 //
 //   y' = omega p,    p' = -omega y - 2 omega xi p + N q
 //

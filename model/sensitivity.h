@@ -1,4 +1,4 @@
-// First derivatives of the loop's phase and gain (seed, figures 13 and 14), from
+// First derivatives of the loop's phase and gain (the paper, figures 13 and 14), from
 //
 //   d log L = d log|L| + j d arg L
 //

@@ -1,4 +1,4 @@
-// The loop in time (seed, figure 3), a delay equation with noise:
+// The loop in time (the paper, figure 3), a delay equation with noise:
 //
 //   q(t) = Phi(p'(t - tau)) + n(t),    p = G q
 //

@@ -125,7 +125,7 @@ double SizeAt(const EffectInfo& effect, double severity) {
   return from * std::pow(to / from, part);
 }
 
-Parameters DrawEffect(const EffectInfo& effect, double severity, const EffectSetting& setting,
+Parameters DrawEffect(const EffectInfo& effect, double severity, const DrawScales& scales,
                       Random& random) {
   const double size = SizeAt(effect, severity);
   const double scattered = size * random.LogUniform(1.0 / kScatter, kScatter);
@@ -151,28 +151,28 @@ Parameters DrawEffect(const EffectInfo& effect, double severity, const EffectSet
     out = {{random.Uniform() < 0.5 ? "rel_p" : "rel_q", scattered},
            {"hz", random.Uniform() < 0.5 ? 50.0 : 60.0}};
   } else if (id == "second_delay_path") {
-    out["extra_s"] = setting.tau_s * random.Uniform(0.25, 0.75);
+    out["extra_s"] = scales.tau_s * random.Uniform(0.25, 0.75);
   } else if (id == "external_tone") {
     double ratio = 1.0;
     // Not where the cycle or one of its harmonics hides it.
     while (std::abs(ratio - std::round(ratio)) < 0.15) ratio = random.Uniform(0.4, 3.6);
-    out["hz"] = ratio * setting.cycle_hz;
+    out["hz"] = ratio * scales.cycle_hz;
   } else if (id == "intermittency") {
     out["dwell_s"] = random.Uniform(0.15, 0.4);
   } else if (id == "parametric_noise") {
     out["correlation_s"] = random.Uniform(0.03, 0.08);
   } else if (id == "x_entropy_wave") {
-    out["delay_s"] = setting.tau_s * random.Uniform(2.2, 4.0);
+    out["delay_s"] = scales.tau_s * random.Uniform(2.2, 4.0);
   } else if (id == "x_mode_damping") {
     if (random.Uniform() < 0.5) out["factor"] = 1.0 / scattered;
   } else if (id == "x_flame_resonance") {
     out["ratio"] = random.Uniform(1.8, 3.6);
   } else if (id == "x_swept_source") {
-    const double low = setting.cycle_hz * random.Uniform(1.2, 1.6);
+    const double low = scales.cycle_hz * random.Uniform(1.2, 1.6);
     out["low_hz"] = low;
-    out["high_hz"] = low + setting.cycle_hz * random.Uniform(0.25, 0.35);
+    out["high_hz"] = low + scales.cycle_hz * random.Uniform(0.25, 0.35);
   } else if (id == "x_odd_point") {
-    out["index"] = std::floor(random.Uniform() * static_cast<double>(setting.experiments));
+    out["index"] = std::floor(random.Uniform() * static_cast<double>(scales.experiments));
   }
   return out;
 }

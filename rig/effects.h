@@ -44,7 +44,7 @@ struct Behaviour {
   double second_path_extra_s = 1e-3;
   double delay_wander = 0.0;  // relative rms, slow
 
-  // Sources beside the flame. Over the amplitude of q.
+  // Sources other than the flame, relative to the amplitude of q.
   double tone = 0.0;
   double tone_hz = 100.0;
   double sweep = 0.0;
@@ -97,15 +97,15 @@ const std::vector<EffectInfo>& Effects();
 // Throws std::runtime_error naming the nearest identifier where there is no such effect.
 const EffectInfo& FindEffect(const std::string& id);
 
-// What the rig needs to know to draw an effect.
-struct EffectSetting {
+// The scales of the rig to which an effect is drawn in proportion, and its number of experiments.
+struct DrawScales {
   double cycle_hz = 200.0;
   double tau_s = 3.4e-3;
   std::size_t experiments = 6;
 };
 
 // severity: 0.25 small, 0.55 medium, 0.85 large; sizes lie evenly in the logarithm between them.
-Parameters DrawEffect(const EffectInfo& effect, double severity, const EffectSetting& setting,
+Parameters DrawEffect(const EffectInfo& effect, double severity, const DrawScales& scales,
                       Random& random);
 
 // Puts the effect's numbers into the behaviour. Throws std::runtime_error at a parameter that the

@@ -140,13 +140,13 @@ Plan MakePlan(const Spec& spec) {
     loop_gains.push_back(drawn(1.18, 1.5, 1.3));
   }
 
-  const EffectSetting setting{mean_hz, tau_s, spec.experiments.size()};
+  const DrawScales scales{mean_hz, tau_s, spec.experiments.size()};
   for (const EffectRequest& request : spec.effects) {
     Random random(spec.seed, "effect " + request.id);
     plan.effects.emplace_back(
         request.id, request.parameters
                         ? *request.parameters
-                        : DrawEffect(FindEffect(request.id), request.severity, setting, random));
+                        : DrawEffect(FindEffect(request.id), request.severity, scales, random));
     ApplyEffect(plan.effects.back().first, plan.effects.back().second, plan.behaviour);
   }
   const Behaviour& behaviour = plan.behaviour;

@@ -1,4 +1,5 @@
-// The published characteristics of test R228 (seed, tables 1 to 3), for tests of every library.
+// The published characteristics of test R228 (the paper, tables 1 to 3), for tests of every
+// library.
 #ifndef HOWL_TESTS_R228_H_
 #define HOWL_TESTS_R228_H_
 

@@ -19,7 +19,7 @@ struct Group {
   int count = 0;
 };
 
-// Deals sets and sizes: every set once before any comes again, with another size each time.
+// Deals out sets and sizes: every set once before any comes again, with another size each time.
 class Dealer {
  public:
   Dealer(std::vector<EffectSet> sets, std::vector<double> severities, std::uint64_t seed)
@@ -74,7 +74,7 @@ EffectSet Split(const std::string& text) {
   }
 }
 
-// Pairs whose members act on different blocks: each is to be found on its own.
+// Pairs whose members act on different blocks, so that each can be found on its own.
 std::vector<EffectSet> Pairs(const std::vector<RigEffect>& effects) {
   std::vector<EffectSet> out;
   for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -110,7 +110,7 @@ std::vector<Group> MakeGroups(const TrialOptions& options, const std::vector<Rig
   return groups;
 }
 
-// Whole numbers in the shares' proportions: largest remainders.
+// Whole numbers in the shares' proportions, by the method of largest remainders.
 void Apportion(int cases, std::vector<Group>& groups) {
   double total = 0.0;
   for (const Group& group : groups) total += group.share;
@@ -148,7 +148,7 @@ std::vector<CasePlan> PlanCases(const TrialOptions& options,
       plans.push_back({"", std::move(set), severity, 0});
     }
   }
-  // The order must not tell: cases are numbered after they are shuffled.
+  // The order must not reveal the effects: cases are numbered after they are shuffled.
   std::vector<std::pair<std::uint64_t, std::size_t>> ranks;
   for (std::size_t i = 0; i < plans.size(); ++i) {
     ranks.emplace_back(UnitSeed(options.seed, "number of case", i), i);

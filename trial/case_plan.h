@@ -1,4 +1,5 @@
-// Which effects, how strong, in which case: balanced over effects and sizes, in random order.
+// The plan of a trial: which effects each case has, and how strong they are, balanced over effects
+// and sizes, in random order.
 #ifndef HOWL_TRIAL_CASE_PLAN_H_
 #define HOWL_TRIAL_CASE_PLAN_H_
 

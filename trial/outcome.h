@@ -1,4 +1,4 @@
-// What a blind trial knows of its cases: what was withheld, and what the diagnosis said.
+// The outcome of a blind trial's cases: the effects that were withheld, and the diagnosis.
 #ifndef HOWL_TRIAL_OUTCOME_H_
 #define HOWL_TRIAL_OUTCOME_H_
 
@@ -58,7 +58,8 @@ struct CaseOutcome {
   double seconds = 0.0;
 
   TruthKind Truth() const;
-  // "none", the effect's identifier, "unknown" for one from outside the catalogue; of two "A+B".
+  // "none", the effect's identifier, "unknown" for an effect from outside the catalogue, or "A+B"
+  // for two effects.
   std::string TruthName() const;
   // The answer in the same words.
   std::string AnswerName() const;

@@ -30,7 +30,7 @@ double Threshold(int i) {
 }
 double Width(int j) { return kNarrowest * std::pow(kWidest / kNarrowest, j / (kWidths - 1.0)); }
 
-// Likelihood of the effect's cases at each threshold.
+// The likelihood of the effect's cases at each threshold.
 std::vector<double> Likelihood(const std::vector<Trial>& trials, double width) {
   std::vector<double> out(kThresholds, 1.0);
   for (int i = 0; i < kThresholds; ++i) {
@@ -81,7 +81,8 @@ std::vector<EffectPower> ComputePower(std::span<const CaseOutcome> cases,
     out.push_back(std::move(power));
     trials.push_back(std::move(own));
   }
-  // The width's posterior: the product over effects of what each leaves after its threshold.
+  // The posterior of the width: the product over effects of the likelihood that is left when each
+  // effect's threshold is summed over.
   std::vector<double> log_width(kWidths, 0.0);
   for (int j = 0; j < kWidths; ++j) {
     for (const std::vector<Trial>& own : trials) {

@@ -29,15 +29,17 @@ struct EffectPower {
   double size_low = 0.0;
   double size_high = 0.0;
   std::string size_name;
-  // False where the cases do not tell: the interval is wider than from small to medium.
+  // False where the cases do not determine the size: the interval is wider than from small to
+  // medium.
   bool resolved = false;
 };
 
-// Beyond the sizes that a trial has there is only a direction: "below small", "beyond large". Empty
-// among them.
+// The direction of a size beyond those that a trial has: "below small" or "beyond large"; else
+// empty.
 std::string_view BeyondTried(double severity);
 
-// Found: named, or in a class of at most three. Cases with one effect of the catalogue alone count.
+// An effect is found if it is named, or is in a class of at most three. Only cases with a single
+// effect of the catalogue count.
 std::vector<EffectPower> ComputePower(std::span<const CaseOutcome> cases,
                                       std::span<const RigEffect> effects);
 

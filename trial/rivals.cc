@@ -1,4 +1,4 @@
-// Ways to answer that cost no thought: a diagnosis that does not beat them is worth none.
+// Trivial ways to answer: a diagnosis that does not beat them is worth nothing.
 #include <algorithm>
 #include <cmath>
 

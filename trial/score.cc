@@ -55,7 +55,7 @@ const CandidateOutcome* Candidate(const CaseOutcome& one, const std::string& id)
   return found == one.candidates.end() ? nullptr : &*found;
 }
 
-// How many of the withheld effects an answer "a" or "a+b" has, if it has no other.
+// The number of withheld effects in an answer "a" or "a+b"; zero if it has any other.
 int NamedOfTwo(const CaseOutcome& one) {
   if (one.kind != "effect") return 0;
   int right = 0;

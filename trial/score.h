@@ -15,7 +15,8 @@ namespace howl {
 
 inline constexpr std::size_t kClassSize = 3;
 
-// The effect, or one of the class that it is reported with, if that has at most three members.
+// True if the effect was named, or is in the class of the named one, if that has at most three
+// members.
 bool IsNamed(const CaseOutcome& one);
 bool IsInClass(const CaseOutcome& one);
 bool IsRightBlock(const CaseOutcome& one);
@@ -33,7 +34,7 @@ struct ReliabilityBin {
   Tally right;
 };
 
-// Of one way to answer. Cases with two effects are left out of all but `pairs`.
+// The score of one way to answer. Cases with two effects are left out of all but `pairs`.
 struct MethodScore {
   std::string method;
   std::map<double, Accuracy> by_severity;  // one effect of the catalogue
@@ -83,7 +84,7 @@ struct ScoreSheet {
 
 ScoreSheet Score(std::span<const CaseOutcome> cases, std::span<const RigEffect> effects);
 
-// The same case as a trivial rival would have answered it.
+// The same case with the answer of a trivial rival.
 CaseOutcome AlwaysNone(const CaseOutcome& one);
 CaseOutcome LargestGain(const CaseOutcome& one, std::span<const RigEffect> effects);
 CaseOutcome LeastBic(const CaseOutcome& one, std::span<const RigEffect> effects);

@@ -20,17 +20,18 @@ namespace {
 
 constexpr double kLevel = 0.05;
 constexpr std::size_t kFewReplicates = 8;
-// The best of twenty candidates is looked at, and eight replicates give its deviation roughly.
+// Six standard deviations, because the candidate is the best of twenty, and eight replicates give
+// its deviation only roughly.
 constexpr double kDeviations = 6.0;
 
-// With what the replicate depends on beside the records.
+// The memory's key of a replicate: all that it depends on in addition to the records.
 std::string KeyOf(const DiagnosisOptions& options, std::size_t replicate) {
   std::string key = "bootstrap#" + std::to_string(options.seed) + "#" + std::to_string(replicate);
   for (const std::string& id : options.withheld) key += "#" + id;
   return key;
 }
 
-// Nothing if stopped.
+// No value if the run was stopped.
 std::optional<double> GainOfReplicate(const std::vector<CutRecord>& records, const EffectFit& base,
                                       const std::vector<DiagnosisExperiment>& experiments,
                                       const DiagnosisOptions& options, std::size_t i) {

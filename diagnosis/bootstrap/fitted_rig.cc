@@ -107,7 +107,7 @@ class FittedFlame final : public LoopEffect {
     }
   }
 
-  // Periodic: what is beyond its length begins anew.
+  // The noise is periodic: beyond its length it begins anew.
   void Source(const LoopContext& /*at*/, std::span<double> heat_release) override {
     for (double& q : heat_release) {
       q += noise_[next_];

@@ -19,7 +19,7 @@
 
 namespace howl {
 
-// As long as the record, at its sampling rate.
+// The simulation's options: as long as the record, at its sampling rate.
 SimulationOptions FittedRigOptions(const CutRecord& record);
 
 // Records of all operating points, with the experiments' names and phi.

@@ -17,7 +17,7 @@ constexpr double kAtBound = 1e-6;
 
 }  // namespace
 
-Attempt Named(const Setting& at, const Effect& effect) {
+Attempt Named(const AttemptContext& at, const Effect& effect) {
   Attempt out;
   out.candidate.effect = effect.id();
   out.candidate.block = effect.block();
@@ -35,13 +35,13 @@ bool ShowsInFlame(const Attempt& attempt) {
   return attempt.fit && attempt.fit->effect->ChangesFlameCut();
 }
 
-const std::vector<CutRecord>& AsRecorded(const Setting& at) {
+const std::vector<CutRecord>& AsRecorded(const AttemptContext& at) {
   return at.recorded ? *at.recorded : *at.records;
 }
 
-double NoiseBesideReference(const Setting& at) { return at.reference ? kNearNoise : 0.0; }
+double NoiseGivenReference(const AttemptContext& at) { return at.reference ? kNearNoise : 0.0; }
 
-bool ShowsLimits(const Setting& at, bool pressure) {
+bool ShowsLimits(const AttemptContext& at, bool pressure) {
   const ReferenceModel* known = at.reference;
   const bool known_edge =
       known && (pressure ? known->pressure_sharp_edge : known->heat_release_sharp_edge);

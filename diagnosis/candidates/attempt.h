@@ -1,5 +1,6 @@
-// A candidate of the catalogue, tried: what it takes off the likelihood, and what its gap needs.
-// One file for each kind of effect; a kind that is new is one more of them.
+// An attempt to explain the records by a candidate of the catalogue: how much log-likelihood it
+// gains, and what the gap is computed from. Each kind of effect has a file of its own here; a new
+// kind is one more file.
 #ifndef HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_
 #define HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_
 
@@ -21,7 +22,8 @@ namespace howl {
 struct Attempt {
   Candidate candidate;
   EffectKind kind = EffectKind::kTransfer;
-  // Of two effects or three: the blocks of those after the first, and what the last brings.
+  // Where the attempt joins two or three effects: the blocks of those after the first, and the gain
+  // of the last.
   std::vector<LoopBlock> also;
   double second_gain = 0.0;
   std::vector<ExperimentFit> held_out;
@@ -29,80 +31,86 @@ struct Attempt {
   std::optional<EffectFit> fit;
   bool leaks = false;  // p into recorded q: cut B's evidence, though both cuts' likelihood has it
   double parameters = 1.0;
-  // Evidence beside the likelihood: what slack is left over may be the effect's own crude form.
+  // There is evidence other than the likelihood, so that slack that is left over may come from the
+  // crude form that the catalogue gives the effect.
   bool confirmed = false;
-  bool seen = false;  // in the samples themselves, without a model
-  // Its second brings no more than what is crude in the first's repair may bring.
-  bool may_be_feigned = false;
-  // Where the effect was taken out of the samples: the records without it.
+  bool model_free = false;  // detected in the samples themselves, without a model
+  // The second of two effects brings no more than the errors of the first's rough repair may bring.
+  bool may_be_spurious = false;
+  // The records without the effect, where it was taken out of the samples.
   std::vector<DiagnosisExperiment> repaired;
-  // Where p's plateaus were filled in under this fit (search_repair.cc): the records it is a fit
-  // to.
-  std::shared_ptr<const std::vector<CutRecord>> refilled;
+  // The records that this is a fit to, where p's plateaus were declipped under the fit itself
+  // (search_repair.cc).
+  std::shared_ptr<const std::vector<CutRecord>> redeclipped;
 };
 
-// What all attempts share: the records, and the fit of the loop with no effect.
-struct Setting {
+// What all attempts share: the records, the fit of the loop with no effect, and what goes with
+// them.
+struct AttemptContext {
   const std::vector<CutRecord>* records = nullptr;
   const EffectFit* base = nullptr;
   const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
   FitMemory* memory = nullptr;
-  const ReferenceModel* reference = nullptr;  // what stands in the model's place, if anything does
+  const ReferenceModel* reference = nullptr;         // in the model's place; null: there is none
   const std::vector<CutRecord>* recorded = nullptr;  // before a repair; null: records
-  // After one: a fit to what the base filled in, made a fit to what it fills in itself.
+  // After a repair: takes a fit to records that the base declipped, and returns one to records that
+  // were declipped under that fit itself.
   std::function<EffectFit(const EffectFit&)> refit = {};
 };
 
-// Of the best's gain, what a fit must have under the base's filling to be made a fit to its own:
-// that raises it, and was not seen to double it.
-inline constexpr double kWorthRefilling = 0.3;
+// A fit to the records that the base declipped is fitted anew to records declipped under itself if
+// it has at least this share of the best candidate's gain. The new fit raises the gain, and in
+// trials never doubled it.
+inline constexpr double kWorthRedeclipping = 0.3;
 
 // An effect with several forms (orders of a filter, say): the best of them. unit: the name under
 // which the memory keeps the fits (fit_memory.h).
-Attempt TryTransfer(const Setting& at, const std::string& unit,
+Attempt TryTransfer(const AttemptContext& at, const std::string& unit,
                     const std::vector<EffectPointer>& forms);
-Attempt FromFit(const Setting& at, EffectFit fit);
-Attempt TryGain(const Setting& at, const Effect& effect, const GainFluctuation& fluctuation);
-Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<CoherentLine>& lines,
-                 const LineOrigin& origin);
-Attempt TryClipping(const Setting& at, const Effect& effect);
-Attempt TryQuantisation(const Setting& at, const Effect& effect);
-Attempt TryDeclaredMap(const Setting& at, const DeclaredEffect& effect);
-Attempt TryDeclaredLine(const Setting& at, const DeclaredEffect& effect,
+Attempt FromFit(const AttemptContext& at, EffectFit fit);
+Attempt TryGain(const AttemptContext& at, const Effect& effect, const GainFluctuation& fluctuation);
+Attempt TryLines(const AttemptContext& at, const Effect& effect,
+                 const std::vector<CoherentLine>& lines, const LineOrigin& origin);
+Attempt TryClipping(const AttemptContext& at, const Effect& effect);
+Attempt TryQuantisation(const AttemptContext& at, const Effect& effect);
+Attempt TryDeclaredMap(const AttemptContext& at, const DeclaredEffect& effect);
+Attempt TryDeclaredLine(const AttemptContext& at, const DeclaredEffect& effect,
                         const std::vector<CoherentLine>& lines);
 
-// The start of an attempt whose residuals are the base's.
-Attempt Named(const Setting& at, const Effect& effect);
+// An attempt with the effect's name, and with the base's residuals until it is fitted.
+Attempt Named(const AttemptContext& at, const Effect& effect);
 
-// A transfer function whose evidence is cut B's alone; one that changes cut B at all.
+// True for a transfer function whose evidence comes from cut B alone, and for one that changes cut
+// B at all.
 bool ShowsInFlameAlone(const Attempt& attempt);
 bool ShowsInFlame(const Attempt& attempt);
 
-// Levels are those of the samples as they were recorded.
-const std::vector<CutRecord>& AsRecorded(const Setting& at);
+// The records before any repair: quantisation levels are those of the samples as recorded.
+const std::vector<CutRecord>& AsRecorded(const AttemptContext& at);
 
-// What a gain may be that is no evidence, where a reference stands in the model's place: no
-// replicate of it can be simulated. Zero without one.
-double NoiseBesideReference(const Setting& at);
+// The gain that noise may give where a reference takes the model's place: no replicate of a
+// reference can be simulated to measure it. Zero without a reference.
+double NoiseGivenReference(const AttemptContext& at);
 
-// In the channel's samples an edge of the density, or in p's few levels, that a reference has not.
-bool ShowsLimits(const Setting& at, bool pressure);
+// True where the channel's samples have a sharp edge in their density, or p's samples few levels,
+// and the reference's have not.
+bool ShowsLimits(const AttemptContext& at, bool pressure);
 
-// Half the logarithm of the data's size for each parameter.
+// Half the logarithm of the data's size for each parameter, as in the BIC.
 double PriceOfParameters(double parameters);
 
-// That, off the gain.
+// Subtracts that price from the gain.
 void PayForParameters(Attempt* attempt);
 
-// Of several effects that together were tried: the p-value of the largest.
+// The p-value of the largest gain among a catalogue of so many effects that were tried.
 double PValue(double gain, double parameters, std::size_t catalogue);
 
-// True within a millionth of the search's range from either of its ends; the range of logarithms
-// where the parameter's scale is logarithmic.
+// True where the value lies within a millionth of the search's range from either end of the range;
+// in logarithms where the parameter's scale is logarithmic.
 bool StandsAtBound(const EffectParameter& parameter, double value);
 
-// A value whose error nothing here estimates: it has no interval.
+// A value without an interval, for a parameter whose error is not estimated.
 EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit);
 
 }  // namespace howl

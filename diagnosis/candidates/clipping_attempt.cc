@@ -10,7 +10,7 @@ constexpr double kPlateauNoise = 0.45;
 
 }  // namespace
 
-Attempt TryClipping(const Setting& at, const Effect& effect) {
+Attempt TryClipping(const AttemptContext& at, const Effect& effect) {
   Attempt out = Named(at, effect);
   const bool pressure = effect.id() == "p_clipping";
   ClippingFit clipping = FitClipping(*at.records, pressure, *at.base);
@@ -26,7 +26,7 @@ Attempt TryClipping(const Setting& at, const Effect& effect) {
   for (std::size_t e = 0; e < out.held_out.size(); ++e) {
     out.held_out[e].acoustic_residual = clipping.fit.experiments[e].acoustic_residual;
   }
-  out.seen = clipping.sharp_edge;
+  out.model_free = clipping.sharp_edge;
   out.confirmed = clipping.sharp_edge || clipping.plateau_noise < kPlateauNoise;
   if (clipping.sharp_edge) {
     CHECK(!pressure) << "an edge in p is repaired before the search (search_repair.cc)";

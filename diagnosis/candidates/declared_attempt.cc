@@ -5,7 +5,7 @@
 
 namespace howl {
 
-Attempt TryDeclaredMap(const Setting& at, const DeclaredEffect& effect) {
+Attempt TryDeclaredMap(const AttemptContext& at, const DeclaredEffect& effect) {
   Attempt out = Named(at, effect);
   DeclaredMapFit map = FitDeclaredMap(*at.experiments, *at.records, *at.base, effect);
   out.candidate.gain = map.gain;
@@ -18,7 +18,7 @@ Attempt TryDeclaredMap(const Setting& at, const DeclaredEffect& effect) {
   return out;
 }
 
-Attempt TryDeclaredLine(const Setting& at, const DeclaredEffect& effect,
+Attempt TryDeclaredLine(const AttemptContext& at, const DeclaredEffect& effect,
                         const std::vector<CoherentLine>& lines) {
   Attempt out = Named(at, effect);
   const DeclaredLineFit line = FitDeclaredLine(*at.records, *at.base, lines, effect);
@@ -28,7 +28,7 @@ Attempt TryDeclaredLine(const Setting& at, const DeclaredEffect& effect,
     out.candidate.parameters.push_back(WithoutError("rel", line.relative_amplitude, ""));
     out.candidate.parameters.push_back(WithoutError("hz", line.frequency_hz, "Hz"));
   }
-  // As many as a catalogue's line has.
+  // As many parameters as a line of the catalogue has.
   out.parameters = 2.0;
   return out;
 }

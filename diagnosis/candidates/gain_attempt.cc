@@ -5,7 +5,8 @@
 
 namespace howl {
 
-Attempt TryGain(const Setting& at, const Effect& effect, const GainFluctuation& fluctuation) {
+Attempt TryGain(const AttemptContext& at, const Effect& effect,
+                const GainFluctuation& fluctuation) {
   Attempt out = Named(at, effect);
   const bool coloured = effect.id() == "parametric_noise";
   const double worse = coloured ? fluctuation.coloured_cost - fluctuation.switching_cost

@@ -4,8 +4,8 @@
 
 namespace howl {
 
-Attempt TryLines(const Setting& at, const Effect& effect, const std::vector<CoherentLine>& lines,
-                 const LineOrigin& origin) {
+Attempt TryLines(const AttemptContext& at, const Effect& effect,
+                 const std::vector<CoherentLine>& lines, const LineOrigin& origin) {
   Attempt out = Named(at, effect);
   if (lines.empty()) return out;
   const bool hum = effect.id() == "mains_hum";

@@ -3,13 +3,13 @@
 
 namespace howl {
 
-Attempt TryQuantisation(const Setting& at, const Effect& effect) {
+Attempt TryQuantisation(const AttemptContext& at, const Effect& effect) {
   Attempt out = Named(at, effect);
   FewLevels found = FindQuantisation(AsRecorded(at));
   if (at.reference && at.reference->quantisation_levels > 0.0) {
     found.found &= found.levels < 0.67 * at.reference->quantisation_levels;
   }
-  out.seen = found.found;
+  out.model_free = found.found;
   out.candidate.parameters.push_back(WithoutError("levels", found.levels, ""));
   return out;
 }

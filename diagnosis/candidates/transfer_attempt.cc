@@ -9,7 +9,7 @@
 namespace howl {
 namespace {
 
-std::vector<ExperimentFit> HoldOutAll(const Setting& at, const EffectFit& fit) {
+std::vector<ExperimentFit> HoldOutAll(const AttemptContext& at, const EffectFit& fit) {
   std::vector<ExperimentFit> out;
   for (std::size_t e = 0; e < at.records->size(); ++e) {
     out.push_back(HeldOut(*at.records, fit, e));
@@ -37,7 +37,7 @@ EstimatedParameter WithError(const EffectParameter& p, double value, double erro
 
 }  // namespace
 
-Attempt FromFit(const Setting& at, EffectFit fit) {
+Attempt FromFit(const AttemptContext& at, EffectFit fit) {
   Attempt out;
   out.candidate.effect = fit.effect->id();
   out.candidate.block = fit.effect->block();
@@ -54,7 +54,7 @@ Attempt FromFit(const Setting& at, EffectFit fit) {
   return out;
 }
 
-Attempt TryTransfer(const Setting& at, const std::string& unit,
+Attempt TryTransfer(const AttemptContext& at, const std::string& unit,
                     const std::vector<EffectPointer>& forms) {
   return FromFit(at, FitBestForm(at.memory, unit, *at.records, forms, *at.base));
 }

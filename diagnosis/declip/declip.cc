@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "diagnosis/cut_noise.h"
-#include "diagnosis/declip/beside_plateaus.h"
+#include "diagnosis/declip/unclipped_samples.h"
 #include "diagnosis/real_fft.h"
 #include "diagnosis/real_gram.h"
 #include "diagnosis/scaled_solve.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kStarts = 4;
 constexpr int kMostFillings = 40;
-constexpr double kSettled = 1e-6;  // change of the signal over the error, both squared
+constexpr double kConverged = 1e-6;  // change of the signal over the error, both squared
 
 CutRecord WithPressure(CutRecord record, const Eigen::VectorXd& pressure) {
   record.pressure = pressure;
@@ -27,7 +27,7 @@ CutRecord WithPressure(CutRecord record, const Eigen::VectorXd& pressure) {
   return record;
 }
 
-// A step of the fit to the whole signal.
+// One Gauss-Newton step of the fit to the whole signal.
 AcousticLocals Step(const CutRecord& record, const EffectFit& fit, const AcousticLocals& at) {
   const Effect& effect = *fit.effect;
   const Eigen::VectorXcd residual = AcousticResidual(record, effect, fit.values, at);
@@ -44,34 +44,34 @@ AcousticLocals Step(const CutRecord& record, const EffectFit& fit, const Acousti
   return at + step.head<4>();
 }
 
-// From the fit's own acoustics on, which lie near.
-Eigen::VectorXd Fill(const BesidePlateaus& beside, CutRecord filled, std::size_t e,
+// EM from the fit's own acoustics, which lie near.
+Eigen::VectorXd Fill(const UnclippedSamples& unclipped, CutRecord filled, std::size_t e,
                      EffectFit* fit) {
   AcousticLocals& locals = fit->experiments[e].acoustics;
   for (int i = 0; i < kMostFillings; ++i) {
-    const Eigen::ArrayXd error = beside.Error(filled, *fit->effect, fit->values, locals);
-    const Eigen::VectorXd next = beside.Fill(error);
+    const Eigen::ArrayXd error = unclipped.Error(filled, *fit->effect, fit->values, locals);
+    const Eigen::VectorXd next = unclipped.Fill(error);
     const double change = (next - filled.pressure).squaredNorm();
     filled = WithPressure(std::move(filled), next);
-    if (change <= kSettled * beside.WeightedSquares(error)) break;
+    if (change <= kConverged * unclipped.WeightedSquares(error)) break;
     locals = Step(filled, *fit, locals);
   }
   return filled.pressure;
 }
 
-AcousticLocals FitAlone(const BesidePlateaus& beside, const CutRecord& filled, const EffectFit& fit,
-                        std::size_t e) {
+AcousticLocals FitAlone(const UnclippedSamples& unclipped, const CutRecord& filled,
+                        const EffectFit& fit, std::size_t e) {
   std::vector<AcousticLocals> starts = {fit.experiments[e].acoustics};
   for (const AcousticLocals& other : AcousticStarts(filled, *fit.effect, fit.values, kStarts)) {
     starts.push_back(other);
   }
   AcousticLocals best = starts[0];
   double least = std::numeric_limits<double>::infinity();
-  const std::vector<BesidePlateaus> one_beside = {beside};
+  const std::vector<UnclippedSamples> one_unclipped = {unclipped};
   const std::vector<CutRecord> one_filled = {filled};
   for (const AcousticLocals& start : starts) {
     const PlateauFit one =
-        FitBesidePlateaus(one_beside, one_filled, *fit.effect, {{}, {start}, 0.0}, 1);
+        FitUnclippedSamples(one_unclipped, one_filled, *fit.effect, {{}, {start}, 0.0}, 1);
     if (!(one.cost < least)) continue;
     least = one.cost;
     best = one.locals[0];
@@ -79,15 +79,15 @@ AcousticLocals FitAlone(const BesidePlateaus& beside, const CutRecord& filled, c
   return best;
 }
 
-std::vector<BesidePlateaus> AllBesidePlateaus(const std::vector<CutRecord>& recorded) {
+std::vector<UnclippedSamples> AllUnclippedSamples(const std::vector<CutRecord>& recorded) {
   return {recorded.begin(), recorded.end()};
 }
 
-Declipped FillAll(const std::vector<BesidePlateaus>& beside, const std::vector<CutRecord>& filled,
-                  EffectFit fit, int threads) {
-  Declipped out{std::vector<Eigen::VectorXd>(beside.size()), std::move(fit)};
-  RunUnits(beside.size(), threads,
-           [&](std::size_t e) { out.pressure[e] = Fill(beside[e], filled[e], e, &out.fit); });
+Declipped FillAll(const std::vector<UnclippedSamples>& unclipped,
+                  const std::vector<CutRecord>& filled, EffectFit fit, int threads) {
+  Declipped out{std::vector<Eigen::VectorXd>(unclipped.size()), std::move(fit)};
+  RunUnits(unclipped.size(), threads,
+           [&](std::size_t e) { out.pressure[e] = Fill(unclipped[e], filled[e], e, &out.fit); });
   return out;
 }
 
@@ -95,23 +95,23 @@ Declipped FillAll(const std::vector<BesidePlateaus>& beside, const std::vector<C
 
 Declipped DeclipAt(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
                    EffectFit fit, int threads) {
-  return FillAll(AllBesidePlateaus(recorded), filled, std::move(fit), threads);
+  return FillAll(AllUnclippedSamples(recorded), filled, std::move(fit), threads);
 }
 
 Declipped DeclipAnew(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
                      EffectFit fit, int threads) {
-  const std::vector<BesidePlateaus> beside = AllBesidePlateaus(recorded);
+  const std::vector<UnclippedSamples> unclipped = AllUnclippedSamples(recorded);
   PlateauFit best{fit.values, std::vector<AcousticLocals>(recorded.size()), 0.0};
   RunUnits(recorded.size(), threads, [&](std::size_t e) {
-    best.locals[e] =
-        fit.values.empty() ? FitAlone(beside[e], filled[e], fit, e) : fit.experiments[e].acoustics;
+    best.locals[e] = fit.values.empty() ? FitAlone(unclipped[e], filled[e], fit, e)
+                                        : fit.experiments[e].acoustics;
   });
   if (!fit.values.empty()) {
-    best = FitBesidePlateaus(beside, filled, *fit.effect, std::move(best), threads);
+    best = FitUnclippedSamples(unclipped, filled, *fit.effect, std::move(best), threads);
   }
   fit.values = best.values;
   for (std::size_t e = 0; e < recorded.size(); ++e) fit.experiments[e].acoustics = best.locals[e];
-  return FillAll(beside, filled, std::move(fit), threads);
+  return FillAll(unclipped, filled, std::move(fit), threads);
 }
 
 }  // namespace howl

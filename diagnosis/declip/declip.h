@@ -1,12 +1,12 @@
-// Declipping. Samples of p that saturation cut off are missing data, and cut A says what they were:
+// Declipping. Samples of p that saturation cut off are missing data, and cut A predicts them:
 //
 //   p(t) = p_model(t) on the plateaus where it lies beyond their level;   P_model = R Q
 //
-// First R is fitted to the samples beside the plateaus alone (beside_plateaus.h); then, by
-// expectation and maximisation, to the whole signal filled in, at the spectrum of its noise.
+// First R is fitted to the unclipped samples alone (unclipped_samples.h); then, by expectation and
+// maximisation (EM), to the whole signal with its plateaus filled in, at the spectrum of its noise.
 //
-// What is filled in agrees with the model by construction. So an effect that is not in the model
-// shows in the samples that were recorded, and less than it would without saturation.
+// What is filled in agrees with the model by construction. An effect that is not in the model
+// therefore shows in the unclipped samples only, and less than it would without saturation.
 #ifndef HOWL_DIAGNOSIS_DECLIP_DECLIP_H_
 #define HOWL_DIAGNOSIS_DECLIP_DECLIP_H_
 
@@ -26,12 +26,12 @@ struct Declipped {
 //
 // threads: 0 for as many as there are.
 //
-// Acoustics and the effect's values are fitted beside the plateaus: from several starts where there
-// are no values, else from those given.
+// Acoustics and the effect's values are fitted to the unclipped samples: from several starts where
+// there are no values, else from those given.
 Declipped DeclipAnew(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
                      EffectFit fit, int threads);
 
-// At the effect's values as given, from its acoustics on.
+// The same at the effect's values as given, with the given acoustics as the start.
 Declipped DeclipAt(const std::vector<CutRecord>& recorded, const std::vector<CutRecord>& filled,
                    EffectFit fit, int threads);
 

@@ -6,8 +6,8 @@
 namespace howl {
 namespace {
 
-// How far to either side the signals' ratio is taken: as wide as a mode of damping 0.05 is at the
-// cycle; above twice the cycle's frequency, in proportion to the frequency.
+// The reach to either side over which the signals' ratio is smoothed: the width of a mode of
+// damping 0.05 at the cycle; above twice the cycle's frequency, in proportion to the frequency.
 constexpr double kRatioReach = 0.1;
 
 double RatioReach(double frequency_hz, double cycle_hz) {

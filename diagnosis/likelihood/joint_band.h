@@ -25,18 +25,19 @@ struct JointBand {
   Eigen::VectorXcd heat_release;
   Eigen::VectorXd log_frequency;  // -1 .. 1 over the band
 
-  // The root of |P|^2 over |Q|^2, smooth over a fifth of the cycle's frequency and more: what an
-  // error of the transfer from q to p is relative to; of the transfer from p to q, its inverse.
+  // The root of |P|^2 over |Q|^2, smoothed over a fifth of the cycle's frequency and more. An error
+  // of the transfer from q to p is relative to it, and one of the transfer from p to q to its
+  // inverse.
   Eigen::VectorXd pressure_over_heat_release;
-  // |P|^2 and |Q|^2, smooth over a few bins: an error that is a part of one bin's own power would
-  // take what noise makes large for error.
+  // |P|^2 and |Q|^2, smoothed over a few bins: an error in proportion to one bin's own power would
+  // take bins that noise makes large for errors.
   Eigen::VectorXd pressure_power;
   Eigen::VectorXd heat_release_power;
 };
 
 JointBand MakeJointBand(const CutRecord& record);
 
-// What the taper makes of a spectrum on the record's extended band: `count` bins.
+// A spectrum on the record's extended band after the taper: `count` bins.
 Eigen::VectorXcd SineTapered(const Eigen::Ref<const Eigen::VectorXcd>& extended,
                              Eigen::Index count);
 

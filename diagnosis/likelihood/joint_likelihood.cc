@@ -17,7 +17,7 @@ using Complex2 = std::complex<double>;
 constexpr int kSlopeSteps = 12;
 constexpr double kRidge = 1e-10;  // of the largest curvature, where v never comes to a spline
 
-// Products without the checks for infinities that std::complex makes.
+// Products without the checks for infinities that those of std::complex contain.
 inline Complex2 Times(Complex2 a, Complex2 b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -25,8 +25,9 @@ inline Complex2 ConjugateTimes(Complex2 a, Complex2 b) {
   return {a.real() * b.real() + a.imag() * b.imag(), a.real() * b.imag() - a.imag() * b.real()};
 }
 
-// The mean over the record of d Phi / d v, what a small signal beside the cycle meets, is the sum
-// of the coefficients times these. Every seventh sample: the mean needs no more.
+// The mean over the record of d Phi / d v, by which a small signal on top of the cycle is
+// multiplied, is the sum of the coefficients times these. Every seventh sample is used: the mean
+// needs no more.
 Eigen::VectorXd MeanSlopes(const FlameColumns& flame) {
   const FlameBasis basis(flame.range);
   const double step = 1e-3 * flame.range;
@@ -52,8 +53,8 @@ struct ReturnDifference {
     return sum;
   }
 
-  // The determinant depends on the flame by this one number: where least squares have it with this
-  // variance, its most likely value, by steps that a bound on the curvature keeps short enough.
+  // The determinant depends on the flame by this one number. From its value and variance by least
+  // squares its most likely value is found, in steps that a bound on the curvature keeps short.
   double MostLikelySlope(double least_squares, double variance) const {
     double slope = least_squares;
     for (int i = 0; i < kSlopeSteps; ++i) {
@@ -74,8 +75,8 @@ struct ReturnDifference {
   }
 };
 
-// What stands before the flame's mean slope in F. Where the delay moves with the amplitude it is in
-// the columns and not in the multiplier; F has its mean.
+// The factor of the flame's mean slope in F. A delay that moves with the amplitude is in the
+// columns and not in the multiplier; F has its mean.
 Eigen::VectorXcd FlamePath(const JointBand& band, const Effect& effect, EffectValues x,
                            double tau_s, const Eigen::VectorXcd& multiplier) {
   const bool moves = effect.ModulatesDelay() && effect.DelayPerAmplitude(x) != 0.0;
@@ -128,7 +129,7 @@ FlamePart MakeFlamePart(const JointBand& band, const Effect& effect, EffectValue
   return out;
 }
 
-// S_j at each bin: a column a source.
+// S_j at each bin, one column for each source.
 Eigen::MatrixXd Spectra(const JointBand& band, const std::vector<NoiseTerm>& noise,
                         const PointLoop& point) {
   Eigen::MatrixXd out(band.count, static_cast<Eigen::Index>(noise.size()));
@@ -218,7 +219,7 @@ JointEvaluation Evaluate(const JointBand& band, const std::vector<NoiseTerm>& no
   const auto solver = out.flame_curvature.ldlt();
   out.flame = solver.solve(gradient);
   value += gradient.dot(out.flame);
-  // The determinant knows the flame by its mean slope.
+  // The determinant depends on the flame by its mean slope.
   const Eigen::VectorXd along = solver.solve(residuals.flame->slopes);
   const double variance = residuals.flame->slopes.dot(along);
   const double least_squares = residuals.flame->slopes.dot(out.flame);
@@ -243,7 +244,7 @@ JointAdjoint AdjointOf(const JointBand& band, const std::vector<NoiseTerm>& nois
     const Complex2 f = at.f[i];
     const Eigen::Matrix2cd& w = at.inverse[static_cast<std::size_t>(i)];
     const Eigen::Vector2cd we = w * Eigen::Vector2cd(residuals.acoustic->residual[i], left[i]);
-    // The determinant knows the flame as it is now, the sources as it was.
+    // The determinant uses the present flame, the sources the one before.
     const Complex2 now = slope * residuals.flame->path[i] + residuals.flame->leak;
     const Complex2 closed = 1.0 - Times(r, now);
     Complex2 by_r = -now / closed;

@@ -8,13 +8,14 @@
 //
 // The flame Phi is static and acts in time, so that the lines of the cycle count as much as the
 // noise between them; F, its mean slope over the record, stands in Sigma and in the determinant
-// alone. The determinant is that of the step from (P, Q) to (E_A, E_B): without it a fit of both
-// cuts of a closed loop is biased. w: what a bin counts for under the taper.
+// alone. The determinant is the Jacobian of the change from (P, Q) to (E_A, E_B): without it a fit
+// of both cuts of a closed loop is biased. w is the weight of a bin under the taper.
 //
-// The model's transfer functions are wrong by some part of the signals' ratio rho, rho^2 = |P|^2 /
-// |Q|^2: R by eps_A rho, F by eps_B / rho, which Sigma contains as two sources more.
+// The model's transfer functions have errors in proportion to the signals' ratio rho,
+// rho^2 = |P|^2 / |Q|^2: eps_A rho in R and eps_B / rho in F. Sigma contains them as two further
+// sources.
 //
-// The flame's coefficients are at their most likely values.
+// The flame's coefficients take their most likely values.
 #ifndef HOWL_DIAGNOSIS_LIKELIHOOD_JOINT_LIKELIHOOD_H_
 #define HOWL_DIAGNOSIS_LIKELIHOOD_JOINT_LIKELIHOOD_H_
 
@@ -29,7 +30,7 @@
 
 namespace howl {
 
-// What all operating points share.
+// The parameters that all operating points share.
 struct SharedLoop {
   double tau_s = 0.0;
   std::vector<double> values;  // of the effect
@@ -45,8 +46,8 @@ struct PointLoop {
   Eigen::VectorXd flame;               // coefficients, of the last evaluation
 };
 
-// What the model makes of the record, before any noise is known. The two parts are kept where
-// nothing that is moved changes them.
+// The model's residuals and responses for a record, which do not depend on the noise. Each of the
+// two parts is kept where no moved parameter changes it.
 struct AcousticPart {
   Eigen::VectorXcd r;         // on the band
   Eigen::VectorXcd residual;  // E_A
@@ -64,7 +65,7 @@ struct JointResiduals {
   std::shared_ptr<const FlamePart> flame;
 };
 
-// Which parts a parameter moves.
+// Which of the two parts a parameter moves.
 struct Moves {
   bool acoustic = true;
   bool flame = true;
@@ -73,7 +74,7 @@ struct Moves {
 
 JointResiduals MakeJointResiduals(const JointBand& band, const Effect& effect,
                                   const SharedLoop& shared, const PointLoop& point);
-// The same with the parts that do not move taken from `before`.
+// The same, with the parts that do not move taken from `before`.
 JointResiduals MoveJointResiduals(const JointBand& band, const Effect& effect,
                                   const SharedLoop& shared, const PointLoop& point,
                                   const Moves& moves, const JointResiduals& before);
@@ -101,7 +102,7 @@ JointAdjoint AdjointOf(const JointBand& band, const std::vector<NoiseTerm>& nois
                        const PointLoop& point, const JointResiduals& residuals,
                        const JointEvaluation& at);
 
-// Score and Fisher information of the noise's coefficients, sources one after the other, then of
+// The score and the Fisher information of the noise's coefficients, source after source, then of
 // ln eps_A and ln eps_B.
 struct NoiseScore {
   Eigen::VectorXd gradient;
@@ -112,7 +113,7 @@ NoiseScore ScoreNoise(const JointBand& band, const std::vector<NoiseTerm>& noise
                       const JointResiduals& residuals, const JointEvaluation& at);
 
 // The Fisher information of parameters that move the residuals by these columns (acoustic bins,
-// then flame bins), the flame free: 2 Re J^H (W - ...) J.
+// then flame bins), with the flame's coefficients free: 2 Re J^H (W - ...) J.
 Eigen::MatrixXd MeanInformation(const JointBand& band, const JointResiduals& residuals,
                                 const JointEvaluation& at, const Eigen::MatrixXcd& columns);
 

@@ -2,7 +2,7 @@
 // u_j(f) in the two residuals E_A = P - R Q and E_B = Q - F P (joint_likelihood.h):
 //
 //   combustion  (0, 1)      sensor of p  (1, -F)      sensor of q  (-R, 1)
-//   duct        (R, 0): a source beside the flame, which q does not show
+//   duct        (R, 0): a source other than the flame, which q does not show
 //
 //   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
 //

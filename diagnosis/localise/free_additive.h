@@ -1,7 +1,7 @@
-// What is added and not caused: in each band an independent signal of free power s at one place,
-// which leaves over u in (E_A, E_B),
+// Signals that are added to the loop and not caused by it: in each band an independent signal of
+// free power s at one place, which appears in (E_A, E_B) with the direction u,
 //
-//   beside the flame, in the duct   u = (1, 0)    the flame answers to it as always
+//   in the duct, not the flame      u = (1, 0)    the flame responds to it as always
 //   in recorded p                   u = (1, -F)   F: q from p through delay and flame
 //   in recorded q                   u = (-R, 1)
 //

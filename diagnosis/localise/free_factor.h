@@ -1,4 +1,4 @@
-// The free factor and the free section of free_slack.h.
+// The responses of the free factor and of the free section of free_slack.h.
 #ifndef HOWL_DIAGNOSIS_LOCALISE_FREE_FACTOR_H_
 #define HOWL_DIAGNOSIS_LOCALISE_FREE_FACTOR_H_
 

@@ -23,7 +23,7 @@ const Eigen::VectorXd& Channel(const CutRecord& record, bool pressure) {
   return pressure ? record.pressure : record.heat_release;
 }
 
-// Spectra of A T_j(x / A), extended band.
+// The spectra of A T_j(x / A) on the extended band.
 Eigen::MatrixXcd MapSpectra(const CutRecord& record, const Eigen::VectorXd& signal,
                             double largest) {
   const Eigen::ArrayXd x = (signal.array() / largest).max(-1.0).min(1.0);
@@ -58,7 +58,7 @@ Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, double largest,
   return out;
 }
 
-// Cut B's fit with p as the duct makes it from recorded q in the place of the bent one.
+// The fit of cut B with the duct's response to recorded q in the place of the mapped p.
 class FlameAlone final : public NamedEffect {
  public:
   FlameAlone() : NamedEffect("slack_p_map", LoopBlock::kPressureInstrument, {}) {}
@@ -125,7 +125,7 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
       const Eigen::VectorXd step = -SolveScaled(gram, right, kDamping);
       const EffectFit was = fit;
       const Eigen::VectorXd c_was = c;
-      // Halved until the squares fall: far from the truth the locals overshoot.
+      // The step is halved until the squares fall, because far from the truth the locals overshoot.
       double share = 1.0;
       for (int half = 0; half < kHalvings; ++half, share *= 0.5) {
         c = c_was + share * step;
@@ -157,7 +157,8 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
     }
     if (fit.acoustic_cost < best.acoustic_cost) best = fit;
   }
-  // Driven by a predicted p the flame is free of p's sensor noise too: no evidence of a bend.
+  // A flame that is driven by predicted p is free of p's sensor noise too, which is no evidence of
+  // a static map.
   if (pressure && best.acoustic_cost < base.acoustic_cost - kLeastGain) {
     DriveFlame(records, &best);
   }

@@ -16,8 +16,8 @@ namespace {
 constexpr double kBandOfCycle = 0.2;  // width, of the cycle's frequency
 constexpr double kBandShare = 0.1;    // of the largest band's gain
 
-// In bands of both cuts, what the fit takes off the base's squares.
-void FindBand(const Setting& at, const EffectFit& fit, BlockSlack* out) {
+// The decrease of the base's squares by the fit, in bands of both cuts.
+void FindBand(const AttemptContext& at, const EffectFit& fit, BlockSlack* out) {
   const std::vector<CutRecord>& records = *at.records;
   const double width = kBandOfCycle * records[0].at.cycle_frequency_hz;
   const double low = records[0].frequency(0);
@@ -50,7 +50,7 @@ void FindBand(const Setting& at, const EffectFit& fit, BlockSlack* out) {
   }
 }
 
-BlockSlack Paid(const Setting& at, const EffectFit& fit, LoopBlock block, std::string form,
+BlockSlack Paid(const AttemptContext& at, const EffectFit& fit, LoopBlock block, std::string form,
                 double parameters) {
   const double gain = GainOver(*at.base, fit) - PriceOfParameters(parameters);
   BlockSlack out{block, std::move(form), gain, false, 0.0, 0.0};
@@ -58,17 +58,17 @@ BlockSlack Paid(const Setting& at, const EffectFit& fit, LoopBlock block, std::s
   return out;
 }
 
-BlockSlack OfForm(const Setting& at, const EffectFit& fit) {
+BlockSlack OfForm(const AttemptContext& at, const EffectFit& fit) {
   return Paid(at, fit, fit.effect->block(), std::string(fit.effect->id()),
               static_cast<double>(fit.values.size()));
 }
 
-BlockSlack OfMap(const Setting& at, bool pressure) {
+BlockSlack OfMap(const AttemptContext& at, bool pressure) {
   const EffectFit fit = FitFreeMap(*at.records, pressure, *at.base);
   BlockSlack out =
       Paid(at, fit, pressure ? LoopBlock::kPressureInstrument : LoopBlock::kHeatReleaseInstrument,
            pressure ? "slack_p_map" : "slack_q_map", static_cast<double>(kMapTerms));
-  out.seen = ShowsLimits(at, pressure);
+  out.model_free = ShowsLimits(at, pressure);
   return out;
 }
 
@@ -89,7 +89,7 @@ std::size_t OddOne(const EffectFit& base) {
 
 }  // namespace
 
-std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLine>& lines,
+std::vector<BlockSlack> Localise(const AttemptContext& at, const std::vector<CoherentLine>& lines,
                                  const LineOrigin& origin, const GainFluctuation& fluctuation,
                                  int threads) {
   const CutRecord& first = (*at.records)[0];
@@ -122,7 +122,7 @@ std::vector<BlockSlack> Localise(const Setting& at, const std::vector<CoherentLi
     double best = 0.0;
     for (const BlockSlack& slack : out) best = std::max(best, slack.gain);
     RunUnits(forms.size(), threads, [&](std::size_t i) {
-      if (!forms[i]->ChangesAcousticCut() || out[i].gain <= kWorthRefilling * best) return;
+      if (!forms[i]->ChangesAcousticCut() || out[i].gain <= kWorthRedeclipping * best) return;
       out[i] = OfForm(at, at.refit(fits[i]));
     });
   }

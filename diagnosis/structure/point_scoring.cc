@@ -17,8 +17,8 @@ double Normal(double x, double deviation) {
          std::log(deviation * std::sqrt(2.0 * std::numbers::pi));
 }
 
-// The residuals where the fit is, and how they and the likelihood move with one parameter after the
-// other.
+// The residuals at the fit's parameters, and the derivatives of residuals and likelihood by each
+// parameter.
 class Moved {
  public:
   Moved(const JointBand& band, const Effect& effect, const std::vector<NoiseTerm>& noise,
@@ -163,7 +163,7 @@ PointScore ScorePoint(const PointLayout& layout, const JointBand& band, const Ef
   const Eigen::Index size = own + layout.Shared();
   out.gradient = Eigen::VectorXd::Zero(size);
   out.information = Eigen::MatrixXd::Zero(size, size);
-  // Where a parameter of the mean, or of the noise, stands among all.
+  // The index of a parameter of the mean, or of the noise, among all.
   const auto place_mean = [&](Eigen::Index k) { return k < loop ? k : own + k - loop; };
   const auto place_noise = [&](Eigen::Index k) {
     return k < layout.noise ? loop + k : own + common + k - layout.noise;

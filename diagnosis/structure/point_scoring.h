@@ -1,9 +1,10 @@
 // One operating point of a joint fit: its likelihood and the priors of its own parameters, with
 // gradient and Fisher information.
 //
-// Its own parameters stand first: ln omega, ln xi, N and M over the centre's N, ln of its delay
-// over the shared one where delays are free, then the noise's coefficients. Shared ones follow: ln
-// tau, the effects' parameters (their logarithms where they are searched so), ln eps_A, ln eps_B.
+// The point's own parameters come first: ln omega, ln xi, N and M over the centre's N, ln of its
+// delay over the shared one where delays are free, then the noise's coefficients. The shared ones
+// follow: ln tau, the effects' parameters (in logarithms where these are searched), ln eps_A,
+// ln eps_B.
 #ifndef HOWL_DIAGNOSIS_STRUCTURE_POINT_SCORING_H_
 #define HOWL_DIAGNOSIS_STRUCTURE_POINT_SCORING_H_
 
@@ -33,7 +34,7 @@ struct PointScore {
   Eigen::MatrixXd information;
 };
 
-// Logarithm of the priors' density.
+// The logarithm of the priors' density.
 double PointPrior(const PointLayout& layout, const PointLoop& point, const PointLoop& centre,
                   double delay_scatter);
 

@@ -1,6 +1,6 @@
-// What a rig is taken to be: the base loop with a set of effects and of noise sources, and one
-// delay for all operating points or each its own, scattered about one by as much as the records
-// say.
+// A structure is a model of the rig: the base loop with a set of effects and of noise sources. Its
+// delay is one for all operating points, or each point has its own, scattered about one by as much
+// as the records say.
 #ifndef HOWL_DIAGNOSIS_STRUCTURE_STRUCTURE_H_
 #define HOWL_DIAGNOSIS_STRUCTURE_STRUCTURE_H_
 
@@ -17,7 +17,7 @@ struct LoopStructure {
   std::vector<NoiseTerm> noise;
   bool own_delays = false;
 
-  // All effects at once; their parameters one effect's after the other's.
+  // All effects combined into one, with the parameters of one effect after those of the other.
   EffectPointer Joined() const {
     EffectPointer joined = effects.empty() ? BaseEffect() : effects[0];
     for (std::size_t i = 1; i < effects.size(); ++i) joined = Combine(joined, effects[i]);

@@ -25,7 +25,7 @@ constexpr double kLower = 0.2;
 constexpr double kRaise = 8.0;
 constexpr int kMostAttempts = 8;
 
-// How far a step may go at once.
+// The largest steps of an iteration.
 constexpr double kMostLogOmega = 0.05;
 constexpr double kMostLogXi = 0.5;
 constexpr double kMostCoefficient = 0.5;
@@ -98,7 +98,7 @@ double Scoring::Value(const SharedLoop& shared, std::vector<PointLoop>* points,
   tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t e) {
     PointLoop& point = (*points)[e];
     const JointResiduals residuals = MakeJointResiduals(bands_[e], *joined_, shared, point);
-    // The sources' directions follow the flame that was found.
+    // The sources' directions follow from the flame that was found.
     point.flame = Evaluate(bands_[e], at_.structure.noise, shared, point, residuals).flame;
     const JointEvaluation at = Evaluate(bands_[e], at_.structure.noise, shared, point, residuals);
     (*each)[e] =
@@ -140,7 +140,7 @@ Eigen::MatrixXd Scoring::SharedInformation(const std::vector<double>& damping,
   return out;
 }
 
-// Returns the step as it was taken, within bounds.
+// Takes a step within bounds and returns the step that was taken.
 Eigen::VectorXd Scoring::TakeShared(SharedLoop* shared) const {
   if (layout_.Shared() == 0) return Eigen::VectorXd();
   Eigen::VectorXd gradient;
@@ -188,7 +188,7 @@ void Scoring::TakeOwn(const Eigen::VectorXd& shared_step, std::vector<PointLoop>
   }
 }
 
-// By its own likelihood, given where each delay is and how well it is known.
+// The scatter by its own likelihood, given each delay and its variance.
 double Scoring::ScatterOfDelays() const {
   const Eigen::Index k = layout_.Loop() - 1;
   double sum = 0.0;
@@ -200,7 +200,7 @@ double Scoring::ScatterOfDelays() const {
                     kMostScatter);
 }
 
-// One step, as long as one that is better is found. Returns what it gained.
+// Takes one step, shortened until it is better, if such a step is found. Returns its gain.
 double Scoring::Iterate(double value) {
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     SharedLoop shared = at_.shared;
@@ -233,7 +233,8 @@ double Scoring::Evidence(double value) {
   if (layout_.Shared() == 0) return out;
   Eigen::VectorXd gradient;
   at_.shared_information = SharedInformation(std::vector<double>(scores_.size(), 0.0), &gradient);
-  // The model's errors are in every structure; at their bound they have no curvature to speak of.
+  // The model's errors are in every structure, and at their bound they have no meaningful
+  // curvature. They are left out of the determinant.
   const Eigen::Index loop = layout_.SharedLoopSize();
   return out - 0.5 * LogDeterminant(at_.shared_information.topLeftCorner(loop, loop));
 }

@@ -6,7 +6,7 @@
 //
 // Fisher scoring: an operating point's own parameters and its noise are eliminated (Schur
 // complement); tau, the effects' parameters and the model's relative errors are shared
-// (point_scoring.h). An operating point whose step made it worse is held back by itself.
+// (point_scoring.h). An operating point whose step made it worse is damped alone.
 #ifndef HOWL_DIAGNOSIS_STRUCTURE_STRUCTURE_FIT_H_
 #define HOWL_DIAGNOSIS_STRUCTURE_STRUCTURE_FIT_H_
 
@@ -37,15 +37,15 @@ struct StructureOptions {
   bool shared_fixed = false;  // an operating point's own parameters alone are fitted
 };
 
-// White sensors and coloured combustion noise: what every structure has.
+// White sensor noise and coloured combustion noise, which every structure has.
 std::vector<NoiseTerm> BaseNoise();
 
-// Where a first fit starts: the base as the two cuts have it each by itself, its noise that of
+// The start of a first fit: the base as the two cuts give it each by itself, with the noise of
 // their residuals.
 StructureFit StartOf(const std::vector<JointBand>& bands, const EffectFit& base,
                      const std::vector<NoiseTerm>& noise);
 
-// From where `start` is, which must have the structure's parameters and sources.
+// Fits from `start`, which must have the structure's parameters and sources.
 StructureFit FitStructure(const std::vector<JointBand>& bands, StructureFit start,
                           const StructureOptions& options = {});
 

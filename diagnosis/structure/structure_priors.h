@@ -1,5 +1,5 @@
-// Priors of the joint fit (structure_fit.h), as standard deviations about where the base's first
-// fit is: wide enough that a record decides, and the same for every structure. An effect's
+// Priors of the joint fit (structure_fit.h), as standard deviations about the base's first fit.
+// They are wide enough that a record decides, and the same for every structure. An effect's
 // parameters have a uniform prior between the bounds of their search, the model's errors between
 // theirs.
 #ifndef HOWL_DIAGNOSIS_STRUCTURE_STRUCTURE_PRIORS_H_

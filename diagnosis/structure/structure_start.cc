@@ -9,14 +9,14 @@ namespace howl {
 namespace {
 
 constexpr double kEulerGamma = 0.57721566490153286;
-// The quietest of a spectrum is where a white sensor's noise may be all there is.
+// The quietest part of a spectrum may hold a white sensor's noise alone.
 constexpr double kQuiet = 0.05;
 constexpr double kFirstError = 0.02;
 constexpr Eigen::Index kCombustionCoefficients = 6;
 
-// Coefficients of the logarithm of a smooth spectrum, from one exponential draw a bin: the mean of
-// its logarithm lies Euler's constant too low. Lines are left out: each pass caps what stands out
-// of the one before.
+// Coefficients of the logarithm of a smooth spectrum, from one exponential draw in each bin, the
+// mean of whose logarithm is too low by Euler's constant. Lines are left out, because each pass
+// caps bins that exceed the fit of the pass before.
 Eigen::VectorXd LogSpectrum(const JointBand& band, const Eigen::VectorXd& power,
                             Eigen::Index coefficients) {
   const Eigen::MatrixXd basis = ChebyshevColumns(band.log_frequency, coefficients);

@@ -144,7 +144,7 @@ std::optional<Experiment> ToExperiment(const Analysis& analysis) {
   experiment.frequency_std_hz = known(c.frequency_hz.std);
   experiment.phase_std_deg = known(c.phase_deg.std);
   experiment.gain_std = known(c.gain.std);
-  // The characteristic falls through zero; a slope that came out rising says nothing of it.
+  // The characteristic falls through zero; an estimate of a rising slope tells nothing about it.
   if (analysis.flame_curve && analysis.flame_curve->slope.value < 0.0) {
     experiment.flame_slope = analysis.flame_curve->slope.value;
     experiment.flame_slope_std = known(analysis.flame_curve->slope.std);

@@ -1,5 +1,6 @@
-// From one experiment's record, or several, to the seed's tables 2 and 3 and figures 4, 6, 7, 10:
-// the characteristics with their uncertainty that fit and family run on.
+// Computes from one experiment's record, or several, what the paper has in tables 2 and 3 and in
+// figures 4, 6, 7 and 10: the characteristics with their uncertainty, which fit and family start
+// from.
 #ifndef HOWL_ESTIMATION_ANALYSIS_ANALYSE_H_
 #define HOWL_ESTIMATION_ANALYSIS_ANALYSE_H_
 
@@ -28,8 +29,8 @@ struct AnalysisOptions {
   LineOptions lines;
   FlameCurveOptions flame_curve;
   TransferOptions transfer;
-  // Whose acoustics are fitted to the transfer: the model that fit and family are about, no other.
-  // Without one no transfer is fitted.
+  // The model whose acoustics are fitted to the transfer; it must be the one that fit and family
+  // use. Without a model no transfer is fitted.
   std::optional<ModelSpec> model;
   double transfer_min_harmonic = 1.0 / 11.0;  // lowest of its points: 20 Hz at the paper's 220 Hz
   double second_mode_share_max = kSecondModeShareMax;  // FirstModeCarries; infinite: not asked
@@ -37,8 +38,8 @@ struct AnalysisOptions {
   int threads = 0;                                     // 0: all
 };
 
-// What needs q is absent for a pressure-only record; what needs a limit cycle is absent without
-// one.
+// The analysis of one record. Results that need q are absent for a pressure-only record, and
+// results that need a limit cycle are absent without one.
 struct Analysis {
   std::string name;
   double phi = 0.0;
@@ -67,19 +68,20 @@ struct NamedRecord {
   Record record;
 };
 
-// What one record gives by itself: everything but delay, flame curve and loop gain, which need the
-// delay's branch.
+// Analyses what one record gives by itself: everything but delay, flame curve and loop gain, which
+// need the delay's branch.
 Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options = {});
 
 // Adds the delay and what follows from it.
 void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions& options,
               Analysis* analysis);
 
-// All records, in parallel; the answer does not depend on the number of threads. Nothing is random.
+// Analyses all records in parallel; the answer does not depend on the number of threads, and
+// nothing is random.
 AnalysisSet AnalyseRecords(std::span<const NamedRecord> records,
                            const AnalysisOptions& options = {});
 
-// What fit and family run on. Absent without a limit cycle or without q.
+// The experiment that fit and family start from; absent without a limit cycle or without q.
 std::optional<Experiment> ToExperiment(const Analysis& analysis);
 
 }  // namespace howl

@@ -1,4 +1,4 @@
-// How a record becomes characteristics.
+// The config's choices of how a record becomes characteristics.
 #ifndef HOWL_ESTIMATION_ANALYSIS_ANALYSIS_SPEC_H_
 #define HOWL_ESTIMATION_ANALYSIS_ANALYSIS_SPEC_H_
 
@@ -11,16 +11,16 @@
 namespace howl {
 
 inline constexpr std::array kAnalysisMethods = {CharacteristicsMethod::kLocal,
-                                                CharacteristicsMethod::kSeed};
+                                                CharacteristicsMethod::kPaper};
 
-// As in configs.
+// The method's name in configs.
 constexpr std::string_view AnalysisMethodName(CharacteristicsMethod method) {
-  return method == CharacteristicsMethod::kLocal ? "local" : "seed";
+  return method == CharacteristicsMethod::kLocal ? "local" : "paper";
 }
 
 struct AnalysisSpec {
   CharacteristicsMethod method = CharacteristicsMethod::kLocal;
-  // Where the limit cycle is looked for.
+  // The range of frequencies in which the limit cycle is looked for.
   std::optional<double>
       min_frequency_hz;  // absent: LowestSearched (estimation/analysis/characteristics.h)
   std::optional<double> max_frequency_hz;  // absent: four tenths of the sampling rate

@@ -59,9 +59,9 @@ Peak FindPeak(const CrossSpectrum& spectrum, const CharacteristicsOptions& optio
   return peak;
 }
 
-// Of the floor beside the peak: the median incoherent power of p over its median power, over the
-// bins of the floor's running median outside the peak's main lobe. With nu averages a coherence of
-// zero comes out as 1 / nu, which is taken out.
+// The incoherent share of the floor next to the peak: the median incoherent power of p over its
+// median power, over the bins of the floor's running median outside the peak's main lobe. With nu
+// averages a coherence of zero comes out as 1 / nu, which is corrected for.
 double IncoherentShare(const CrossSpectrum& spectrum, double frequency_hz) {
   constexpr int kReach = 30;  // bins, as NoiseFloor's
   const double nu = spectrum.degrees_of_freedom;
@@ -96,8 +96,8 @@ double SecondDifferenceVariance(const std::vector<double>& x) {
   return sum / static_cast<double>(x.size());
 }
 
-// The phase of the cycle from p's fundamental, improved by every other component whose phase keeps
-// to it: component h of a channel shows h times the fundamental's phase plus a constant.
+// The phase of the cycle from p's fundamental, improved by every other component that is locked to
+// it: component h of a channel has h times the fundamental's phase plus a constant.
 void ImprovePhase(std::span<const std::pair<int, Complexes>> others, std::vector<double>& phase) {
   const std::vector<double> base = phase;
   double total = 1.0 / std::max(SecondDifferenceVariance(base), 1e-30);
@@ -227,9 +227,9 @@ std::string_view CycleStateName(CycleState state) {
   return "no_limit_cycle";
 }
 
-Characteristics SeedCharacteristics(std::span<const double> p, std::span<const double> q,
-                                    double sampling_hz, double min_frequency_hz,
-                                    double max_frequency_hz) {
+Characteristics PaperCharacteristics(std::span<const double> p, std::span<const double> q,
+                                     double sampling_hz, double min_frequency_hz,
+                                     double max_frequency_hz) {
   const Complexes fp = RealFft(p), fq = RealFft(q);
   const double bin_hz = sampling_hz / static_cast<double>(p.size());
   const auto first = static_cast<std::size_t>(std::ceil(min_frequency_hz / bin_hz));
@@ -317,13 +317,13 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
   EstimateEnvelope(p_blocks.amplitude, p_blocks.hop_s, &result);
   Classify(options, duration_s, &result);
 
-  if (options.method == CharacteristicsMethod::kSeed && !q.empty()) {
+  if (options.method == CharacteristicsMethod::kPaper && !q.empty()) {
     const double top =
         options.max_frequency_hz > 0 ? options.max_frequency_hz : 0.4 * record.sampling_hz;
-    const Characteristics seed = SeedCharacteristics(p, q, record.sampling_hz, lowest_hz, top);
-    result.frequency_hz = {seed.frequency_hz.value, kNan};
-    result.phase_deg = {seed.phase_deg.value, kNan};
-    result.gain = {seed.gain.value, kNan};
+    const Characteristics paper = PaperCharacteristics(p, q, record.sampling_hz, lowest_hz, top);
+    result.frequency_hz = {paper.frequency_hz.value, kNan};
+    result.phase_deg = {paper.phase_deg.value, kNan};
+    result.gain = {paper.gain.value, kNan};
   }
   return result;
 }

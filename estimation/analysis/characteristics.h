@@ -1,7 +1,7 @@
-// Characteristics of a limit cycle (seed, section 2 and table 2): its frequency f, and the phase
-// and gain from q to p at f.
+// Characteristics of a limit cycle (the paper, section 2 and table 2): its frequency f, and the
+// phase and gain from q to p at f.
 //
-// Method `seed`, the paper's: f = argmax |FFT p|; phase and gain are the means of those of
+// Method `paper`, the published one: f = argmax |FFT p|; phase and gain are the means of those of
 // FFT p / FFT q over 11 bins around f, weighted by |FFT p|.
 //
 // Method `local`, the default. A limit cycle's phase diffuses and its amplitude breathes, so that
@@ -10,13 +10,13 @@
 //
 //   H = sum conj(Q_b) P_b / sum |Q_b|^2,     H - true = sum conj(Q_b) e_b / sum |Q_b|^2
 //
-// the sinusoids' own least-squares fit where the phase does not diffuse. The error is that of the
-// mean of the scores conj(Q_b) e_b, whose long-run variance is estimated from the scores themselves
-// (statistics.h): it holds under coloured noise and under fluctuations of gain or phase alike.
-// Noise of q's own biases |H| down by at most the incoherent share of the blocks: the value given
-// is the geometric mean of both regressions, and half their distance enters the standard deviation.
-// f is the slope of the blocks' phase, fundamental and harmonics of p and q together, under white
-// noise plus a random walk of unknown strengths (statistics.h: FitTrend).
+// which is the least-squares fit of sinusoids where the phase does not diffuse. The error is that
+// of the mean of the scores conj(Q_b) e_b, whose long-run variance is estimated from the scores
+// themselves (statistics.h): it holds under coloured noise and under fluctuations of gain or phase
+// alike. Noise of q's own biases |H| down by at most the incoherent share of the blocks: the value
+// given is the geometric mean of both regressions, and half their distance enters the standard
+// deviation. f is the slope of the blocks' phase, fundamental and harmonics of p and q together,
+// under white noise plus a random walk of unknown strengths (statistics.h: FitTrend).
 #ifndef HOWL_ESTIMATION_ANALYSIS_CHARACTERISTICS_H_
 #define HOWL_ESTIMATION_ANALYSIS_CHARACTERISTICS_H_
 
@@ -31,7 +31,7 @@
 
 namespace howl {
 
-enum class CharacteristicsMethod { kLocal, kSeed };
+enum class CharacteristicsMethod { kLocal, kPaper };
 
 struct CharacteristicsOptions {
   CharacteristicsMethod method = CharacteristicsMethod::kLocal;
@@ -46,7 +46,8 @@ struct CharacteristicsOptions {
 enum class CycleState { kLimitCycle, kIntermittent, kNoLimitCycle };
 std::string_view CycleStateName(CycleState state);  // as in files
 
-// The highest peak of p's spectrum in the search range, and what it takes to be one.
+// The highest peak of p's spectrum in the search range, and the threshold that a cycle's must
+// exceed.
 struct PeakTest {
   double low_hz = 0.0, high_hz = 0.0;  // the range; empty where low_hz >= high_hz
   double frequency_hz = 0.0;
@@ -55,7 +56,7 @@ struct PeakTest {
 };
 
 inline constexpr double kFewestPeriods = 8.0;  // of the cycle, in a record
-// Over the record, beyond which it is not stationary: of the amplitude, and of the frequency.
+// Relative drifts of amplitude and frequency over a record, beyond which it is not stationary.
 inline constexpr double kMostAmplitudeDrift = 0.2;
 inline constexpr double kMostFrequencyDrift = 0.005;
 
@@ -85,15 +86,15 @@ struct Characteristics {
 
   int block_samples = 0;
   double block_noise_power = 0.0;  // of the noise floor in |P_b|^2
-  // The share of that floor which is not coherent with q, and so may be noise of p's own; the rest
-  // is pressure that the flame feels. One without q.
+  // The share of that floor that is not coherent with q, and so may be noise of the p sensor; the
+  // rest is pressure that acts on the flame. One where there is no q.
   double floor_incoherent_share = 1.0;
   std::vector<double> envelope;  // of p, one a block
 };
 
-// Where the search for a cycle begins: 20 Hz, below which rigs rumble and drift; of slow records a
-// 250th of the sampling rate, which 20 Hz is of the paper's; and nothing that has less than eight
-// periods in the record.
+// The lowest frequency at which a cycle is searched: 20 Hz, below which rigs rumble and drift; for
+// slow records a 250th of the sampling rate, which is what 20 Hz is of the paper's rate; and never
+// one with less than eight periods in the record.
 double LowestSearched(double sampling_hz, double duration_s);
 
 // Needs at least eight periods of the cycle; a record without a significant peak gives
@@ -102,9 +103,9 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
                                         const CharacteristicsOptions& options = {});
 
 // The paper's procedure on mean-free samples; standard deviations are not part of it.
-Characteristics SeedCharacteristics(std::span<const double> p, std::span<const double> q,
-                                    double sampling_hz, double min_frequency_hz,
-                                    double max_frequency_hz);
+Characteristics PaperCharacteristics(std::span<const double> p, std::span<const double> q,
+                                     double sampling_hz, double min_frequency_hz,
+                                     double max_frequency_hz);
 
 }  // namespace howl
 

@@ -1,4 +1,4 @@
-// One experiment's member in closed form, for the one-mode model (M = 0; seed, (5c) and (1a)).
+// One experiment's member in closed form, for the one-mode model (M = 0; the paper, (5c) and (1a)).
 //
 // With f the limit-cycle frequency, theta the phase of G there and t = tan(-theta),
 //
@@ -48,7 +48,7 @@ inline double TauFromPhase(double frequency_hz, double phase_rad, double loop_ph
          (kRadPerSPerHz * frequency_hz);
 }
 
-// The seed's (3), from a phase in degrees.
+// The paper's (3), from a phase in degrees.
 inline double DelayFromPhase(double frequency_hz, double phase_deg, int delay_periods = 0) {
   return TauFromPhase(frequency_hz, phase_deg * kRadPerDeg, 0.0, delay_periods);
 }

@@ -16,7 +16,7 @@ constexpr double kDecided = 0.95;
 // Spreads below the clock and text of any record count as equal.
 constexpr double kLeastSpread = 1e-9;
 
-// Most probable first; phases have been unwrapped about their mean.
+// The branches, the most probable first; phases must have been unwrapped about their mean.
 std::vector<DelayBranch> CompareDelayBranches(std::span<const DelayInput> inputs, int max_branch) {
   std::vector<DelayBranch> branches;
   const double n = static_cast<double>(inputs.size());

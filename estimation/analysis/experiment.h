@@ -1,4 +1,4 @@
-// One operating point and what its record showed: a row of the seed's tables 1 to 3, and the
+// One operating point and what its record showed: a row of the paper's tables 1 to 3, and the
 // non-harmonic lines of its section 4. Published tables and analysed records both end here.
 #ifndef HOWL_ESTIMATION_ANALYSIS_EXPERIMENT_H_
 #define HOWL_ESTIMATION_ANALYSIS_EXPERIMENT_H_
@@ -39,14 +39,14 @@ struct Experiment {
 
   // Coherent q-to-p transfer of a record, thinned to independent points; empty for a published row.
   std::vector<TransferPoint> transfer;
-  // What that transfer leaves of the acoustics, where it determines any.
+  // The ellipsoid to which that transfer confines the acoustics, where it determines any parameter.
   std::optional<TransferEllipsoid> transfer_ellipsoid;
 
   bool reliable = true;
   std::vector<ObservedLine> lines;
 
-  // |Phi'(0)| that the data allow: as many standard deviations about the estimate as the family's
-  // test allows a transfer. A published slope without an error stands as it is.
+  // The range of |Phi'(0)| that the data allow: as many standard deviations about the estimate as
+  // the family's test allows a transfer. A published slope without an error is taken as exact.
   double SteepestSlope() const { return std::abs(*flame_slope) + SlopeDoubt(); }
   double FlattestSlope() const { return std::max(std::abs(*flame_slope) - SlopeDoubt(), 0.0); }
 

@@ -143,7 +143,8 @@ Solution Solve(std::span<const TransferPoint> points, const ModelSpec& model,
   return solution;
 }
 
-// With the scatter `factor` times as large, as neighbours that overlap count for.
+// The points with a variance that is `factor` times as large, because overlapping neighbours share
+// data.
 void Widen(double factor, std::vector<TransferPoint>* points) {
   for (TransferPoint& point : *points) {
     point.variance_re *= factor;
@@ -189,8 +190,9 @@ double PointsPerError(std::span<const double> misfits) {
   return sum;
 }
 
-// What the points say nothing of has a variance without end, and not, as in a pseudo-inverse, none:
-// a second mode of vanishing size has no logarithm to speak of.
+// A parameter that the points do not determine has an infinite variance, and not, as in a
+// pseudo-inverse, a variance of zero: the logarithm of a second mode of vanishing size is
+// undetermined.
 Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information) {
   constexpr double kLeast = 1e-300;
   constexpr double kSingular = 1e-12;  // of a correlation matrix
@@ -246,9 +248,9 @@ TransferFit FitTransfer(const Transfer& transfer, const ModelSpec& model, const 
   fit.available = solution.usable;
   fit.acoustics = {std::exp(x[0]), std::exp(x[1]), std::exp(x[2]),
                    second_mode ? std::exp(x[3]) : 0.0, model.harmonic_ratio};
-  // The points' own scatter averages out over them. The level of q's noise does not: it is one for
-  // all of them. The points say something of it too, by a form that holds to first order in it, so
-  // that what they say moves the estimate; the doubt stays that of its prior.
+  // The points' own scatter averages out over them, but the level of q's noise does not, because it
+  // is one for all of them. The points tell something of it too, by a form that holds to first
+  // order in it, so that they move the estimate; its uncertainty stays that of its prior.
   const double scale = std::max(per_dof(solution), 1.0) * fit.points_per_error;
   const Eigen::MatrixXd of_parameters = solution.jacobian.leftCols(free);
   const Eigen::MatrixXd inverse = CovarianceOf(of_parameters.transpose() * of_parameters / scale);

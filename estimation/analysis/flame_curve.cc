@@ -19,8 +19,8 @@ namespace {
 constexpr int kFewestSamples = 100;
 constexpr double kClearPreference = 2.0;  // standard errors
 constexpr double kLargestNoise = 0.3;     // s^2 / X^2: beyond, first order says nothing
-// The flame is taken to feel p's harmonics, or what lies below one and a half times the cycle's
-// frequency alone.
+// The flame's input is taken with p's harmonics, or with what lies below one and a half times the
+// cycle's frequency alone.
 constexpr double kFundamentalBand = 1.5;
 
 void FillBins(const std::vector<double>& x, const std::vector<double>& q, double limit, int count,
@@ -82,15 +82,16 @@ void FillMeanCycle(const Record& record, const FlameRegressor& regressor, double
   }
   curve.hysteresis = weighted.imag() / std::abs(weighted);
   for (int k = 1; k <= kMeanCycleHarmonics; ++k) {
-    // Turned so that the first is real: what is left is the shape, free of an error of tau.
+    // The cycle is turned so that its first harmonic is real, which leaves its shape without an
+    // error of tau.
     const std::complex<double> turn = std::polar(1.0, -k * std::arg(-sum[1]));
     curve.mean_cycle.push_back(sum[static_cast<std::size_t>(k)] * turn / -std::abs(sum[1]));
   }
 }
 
-// Fundamental and harmonics, at the delay near the given one that leaves q least scattered: where
-// x has harmonics, the phase of q's fundamental is no longer that of x's, and (3) misses the delay
-// by a little. A golden-section search within a hundredth of the period.
+// The regressor with fundamental and harmonics, at the delay near the given one that leaves q least
+// scattered. Where x has harmonics, the phase of q's fundamental is no longer that of x's, and (3)
+// misses the delay by a little. The search is by golden section within a hundredth of the period.
 FlameSamples CollectWithHarmonics(const Record& record, const FlameRegressor& regressor,
                                   double period_s, double limit, double range) {
   constexpr double kGolden = 0.6180339887498949;
@@ -151,13 +152,13 @@ FlameCurve EstimateFlameCurve(const Record& record, const CrossSpectrum& spectru
                                              limit, options.fit_range);
     const FlamePolynomial fit(samples, limit, options.fit_range);
     const FlamePolynomial full_fit(full, limit, options.fit_range);
-    // Of a high degree: what a low one misses of the curve is no scatter.
+    // The degree is high, because what a low one misses of the curve is no scatter.
     constexpr int kDegree = 9;
     const double preference =
         ScatterPreference(samples, FlamePolynomial(samples, limit, options.fit_range, kDegree),
                           full, FlamePolynomial(full, limit, options.fit_range, kDegree));
-    // Where the scatter cannot tell the two apart, the seed's (4) stands, and the slope is known no
-    // better than to half of their distance.
+    // Where the scatter cannot tell the two apart, the paper's (4) stands, and the slope is known
+    // no better than to half of their distance.
     if (preference > kClearPreference) {
       samples = std::move(full);
       curve.harmonics = regressor.locked_harmonics();
@@ -173,8 +174,8 @@ FlameCurve EstimateFlameCurve(const Record& record, const CrossSpectrum& spectru
   curve.degree = fit.degree;
   curve.offset = fit.offset;
 
-  // Joining the blocks leaves 0.79 of their noise's variance, half of it in the real part. Of the
-  // floor, what is coherent with q is pressure, which the flame felt, and no error of x.
+  // Joining the blocks leaves 0.79 of their noise's variance, half of it in the real part. The part
+  // of the floor that is coherent with q is pressure that acted on the flame, and no error of x.
   curve.regressor_noise = 0.5 * 0.79 * cycle.floor_incoherent_share * cycle.block_noise_power *
                           cycle.block_samples / regressor.block_samples() /
                           (cycle.p_amplitude * cycle.p_amplitude);

@@ -19,7 +19,7 @@
 
 namespace howl {
 
-// One regressor and the heat release beside it.
+// Samples of one regressor and of the heat release at the same times.
 struct FlameSamples {
   std::vector<double> x;
   std::vector<double> q;
@@ -53,8 +53,8 @@ class FlamePolynomial {
   Coefficients offset_row_;
 };
 
-// By how many standard errors `b` leaves q less scattered than `a` over the samples where both
-// hold: positive where b is the better regressor.
+// The number of standard errors by which `b` leaves q less scattered than `a`, over the samples
+// where both hold: positive where b is the better regressor.
 double ScatterPreference(const FlameSamples& a, const FlamePolynomial& fit_a, const FlameSamples& b,
                          const FlamePolynomial& fit_b);
 

@@ -46,7 +46,8 @@ FlameRegressor::FlameRegressor(const Record& record, const Characteristics& cycl
   first_ = std::max(static_cast<int>(std::ceil((first_s + tau_s) * sampling_hz_)), 0);
   last_ = std::min(static_cast<int>(std::floor((last_s + tau_s) * sampling_hz_)), n);
 
-  // In the slope, of the harmonics beyond: what they count for is taken to halve with each order.
+  // The error in the slope by the harmonics beyond, whose contribution is taken to halve with each
+  // order.
   double tail = 0.0;
   for (int order = 2; order <= max_harmonic; ++order) {
     if (order * frequency_hz_ > kHighestHarmonic * sampling_hz_) break;
@@ -64,7 +65,8 @@ FlameRegressor::FlameRegressor(const Record& record, const Characteristics& cycl
     const double variance_of_mean = std::max(power - std::norm(mean), 0.0) / count;
     const double slope_error = order * order * std::sqrt(variance_of_mean) / cycle.p_amplitude;
     harmonic_slope_variance_ += 0.5 * slope_error * slope_error;
-    // Drawn to zero by its own doubt: what is left out for being small is missed in the slope.
+    // The harmonic is shrunk to zero by its own uncertainty; a small one that is left out is missed
+    // in the slope.
     if (std::norm(mean) <= variance_of_mean) continue;
     mean *= 1.0 - variance_of_mean / std::norm(mean);
     tail = std::max(tail, order * order * std::abs(mean) / cycle.p_amplitude);
@@ -73,7 +75,7 @@ FlameRegressor::FlameRegressor(const Record& record, const Characteristics& cycl
     locked_.push_back(
         {order, j * (order * kRadPerSPerHz * frequency_hz_) * mean * std::pow(-j, order)});
   }
-  // Of the last, in a flame whose odd orders fall to a quarter each.
+  // The contribution of the last one, in a flame whose odd orders fall to a quarter each.
   constexpr double kBeyond = 0.5;
   harmonic_slope_variance_ += kBeyond * kBeyond * tail * tail;
 }

@@ -1,12 +1,12 @@
 // The delayed derivative of pressure that drives the flame, rebuilt from a record: the regressor of
 // flame_curve.h.
 //
-//   x(t) = Re sum_k j k w P_k(t - tau),      w = 2 pi f,   k = 1: the seed's (4)
+//   x(t) = Re sum_k j k w P_k(t - tau),      w = 2 pi f,   k = 1: the paper's (4)
 //
 // P_1 is p's fundamental, joined from its blocks (spectrum.h) so that it follows a wandering phase.
 // P_k, k > 1, are the harmonics that are locked to it, P_k = m_k (P_1 / |P_1|)^k with m_k their
-// coherent mean over the blocks. The seed leaves them out, because its q lacks them; where the
-// flame feels them they matter: a third harmonic of 3 % changes the slope at zero by 9 %.
+// coherent mean over the blocks. The paper leaves them out, because its q lacks them. Where they
+// act on the flame they matter: a third harmonic of 3 % changes the slope at zero by 9 %.
 #ifndef HOWL_ESTIMATION_ANALYSIS_FLAME_REGRESSOR_H_
 #define HOWL_ESTIMATION_ANALYSIS_FLAME_REGRESSOR_H_
 
@@ -21,12 +21,12 @@ namespace howl {
 
 class FlameRegressor {
  public:
-  // Harmonics up to `max_harmonic` that stand out of their own scatter and lie below 0.4 of the
+  // Uses the harmonics up to `max_harmonic` that exceed their own scatter and lie below 0.4 of the
   // sampling rate.
   FlameRegressor(const Record& record, const Characteristics& cycle, double tau_s,
                  int max_harmonic);
 
-  // The same with another delay, near to the first: the samples that have a regressor stay.
+  // The same regressor with another delay, near to the first, for the same samples.
   FlameRegressor Delayed(double tau_s) const {
     FlameRegressor other = *this;
     other.tau_s_ = tau_s;
@@ -39,13 +39,14 @@ class FlameRegressor {
   int last() const { return last_; }
   int block_samples() const { return block_samples_; }
   int locked_harmonics() const { return static_cast<int>(locked_.size()); }  // beyond the first
-  // Relative, of the slope at zero: the k-th harmonic, of amplitude |m_k| relative to the first,
-  // changes it by k^2 |m_k| where it counts, and each m_k, locked or not, is known to an error.
+  // The relative error of the slope at zero that the harmonics leave: the k-th, of amplitude |m_k|
+  // relative to the first, changes the slope by k^2 |m_k| where it counts, and each m_k, locked or
+  // not, is known to an error.
   double harmonic_slope_variance() const { return harmonic_slope_variance_; }
 
   // j w P_1(t - tau): the real part is (4).
   std::complex<double> Fundamental(int sample) const;
-  // What the locked harmonics add, given Fundamental(sample).
+  // The part of x that the locked harmonics add, given Fundamental(sample).
   double Harmonics(const std::complex<double>& fundamental) const;
 
  private:

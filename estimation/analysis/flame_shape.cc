@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::array kShapes = {FlameShape::kTanh, FlameShape::kArctan, FlameShape::kCubic,
                                 FlameShape::kPiecewiseLinear, FlameShape::kAlgebraic};
-// Three unknowns, and as many bins again that can contradict them.
+// The least number of bins: as many as the three unknowns, and as many again to test them.
 constexpr std::size_t kLeastBins = 6;
-// A guard rail, not a prior: at u = 1 the clipped line has left its slope, and no slope at rest
-// stands for it.
+// A guard rail, not a prior: at u = 1 the piecewise linear flame has left its slope, and no slope
+// at rest describes it.
 constexpr double kRelativeOffsetMax = 0.9;
 
 std::optional<FlameShapeFit> FitOne(FlameShape shape, const FlameCurve& curve,

@@ -26,7 +26,7 @@ struct FlameShapeFit {
   Flame<double> WithSlopeAtRest(double slope_at_rest) const;
 };
 
-// Nothing where the curve has too few bins or the slope is not negative. slope_at_rest: Phi'(0) in
+// No value where the curve has too few bins or the slope is not negative. slope_at_rest: Phi'(0) in
 // (units of q) / (units of p / s).
 std::optional<FlameShapeFit> FitFlameShape(const FlameCurve& curve, double slope_at_rest);
 

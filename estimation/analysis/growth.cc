@@ -20,9 +20,9 @@ Growth EstimateGrowth(std::span<const double> p, double sampling_hz, double freq
   for (const auto& z : blocks.amplitude) envelope.push_back(std::abs(z));
   const auto peak = std::max_element(envelope.begin(), envelope.end());
 
-  // Back from the peak to where saturation begins, then to where the envelope leaves the noise.
-  // Noise excites the mode the more the nearer it comes to growing, so the noise's level is a high
-  // quantile of what precedes, the last fifth (growth itself) left out.
+  // Goes back from the peak to where saturation begins, then to where the envelope leaves the
+  // noise. Noise excites the mode the more the nearer it comes to growing, so the noise's level is
+  // a high quantile of what precedes, the last fifth (growth itself) left out.
   auto end = peak;
   while (end != envelope.begin() && *end > options.below_peak * *peak) --end;
   if (end - envelope.begin() < 10) return growth;
@@ -42,8 +42,8 @@ Growth EstimateGrowth(std::span<const double> p, double sampling_hz, double freq
   const double change = trend.curvature.value * static_cast<double>(count) / 2.0;
   growth.rate_per_s = {trend.slope.value / blocks.hop_s,
                        std::hypot(trend.slope.std, change / std::sqrt(3.0)) / blocks.hop_s};
-  // The frequency moves as soon as saturation begins to act: from small amplitudes where they
-  // suffice.
+  // The frequency moves as soon as saturation begins to act, so it is taken from small amplitudes
+  // where these suffice.
   std::size_t small = 0;
   while (small < count && envelope[first + small] < 0.15 * *peak) ++small;
   if (small < 6) small = count;

@@ -2,9 +2,8 @@
 // envelope grows as A(t) = A_0 e^(sigma t); noise makes log A a trend plus a random walk plus white
 // noise, whose slope FitTrend estimates with its interval (statistics.h). The window runs from
 // where the envelope last leaves the noise (`above_noise` times its 95 % quantile before) to where
-// saturation begins (`below_peak` of the highest envelope). Neither end is sharp, and a rate that
-// changes over the window is no constant: half of what the fitted curvature changes it by is taken
-// for a uniform error.
+// saturation begins (`below_peak` of the highest envelope). Neither end is sharp, and the rate may
+// change over the window; half of its change by the fitted curvature is taken for a uniform error.
 #ifndef HOWL_ESTIMATION_ANALYSIS_GROWTH_H_
 #define HOWL_ESTIMATION_ANALYSIS_GROWTH_H_
 

@@ -9,7 +9,7 @@
 
 namespace howl {
 
-// In the unit of `std`; NaN where the error is not known.
+// The half width in the unit of `std`; NaN where the error is not known.
 constexpr double HalfWidth95(double std) { return kNormal95 * std; }
 constexpr double HalfWidth95(const Estimate& estimate) { return HalfWidth95(estimate.std); }
 

@@ -1,10 +1,10 @@
-// What an instrument, a probe or a camera, makes of a signal:
+// The response of an instrument, such as a probe or a camera:
 //
 //   recorded(s) = H(s) true(s),   s = 2 pi j f in rad/s
 //
-// H is a formula, such as "1 / (1 + s / (2 pi 400))", with the names s, f_hz and j beside those of
-// formula.h, or a table. Between the rows of a table log |H| and the unwrapped phase are linear in
-// the frequency; beyond its ends magnitude and phase are held.
+// H is a formula, such as "1 / (1 + s / (2 pi 400))", with the names s, f_hz and j in addition to
+// those of formula.h, or a table. Between the rows of a table log |H| and the unwrapped phase are
+// linear in the frequency; beyond its ends magnitude and phase are held.
 #ifndef HOWL_ESTIMATION_ANALYSIS_INSTRUMENT_RESPONSE_H_
 #define HOWL_ESTIMATION_ANALYSIS_INSTRUMENT_RESPONSE_H_
 
@@ -19,7 +19,7 @@ namespace howl {
 
 class InstrumentResponse {
  public:
-  // Nothing on an error, which is then told.
+  // No value on a mistake, whose description is then written to the argument.
   static std::optional<InstrumentResponse> Parse(std::string_view text, FormulaError& error);
 
   // At least two rows: frequencies that increase, magnitudes above zero, all finite. From row to
@@ -31,7 +31,7 @@ class InstrumentResponse {
   // Not finite where a formula has no value.
   std::complex<double> At(double frequency_hz) const;
 
-  // The ends of a table, in Hz; nothing for a formula.
+  // The ends of a table in Hz; no value for a formula.
   struct Band {
     double low_hz = 0.0;
     double high_hz = 0.0;

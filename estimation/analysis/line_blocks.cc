@@ -70,8 +70,8 @@ LineFrequency EstimateLineFrequency(std::span<const std::complex<double>> blocks
   line.offset_hz = {trend.slope.value * to_hz, trend.slope.std * to_hz};
   line.drift_hz_per_s = {trend.curvature.value * to_hz / hop_s,
                          trend.curvature.std * to_hz / hop_s};
-  // A frequency that drifts is not one number: what the drift, beyond its own error, spreads it
-  // over the record (a uniform distribution's deviation) is what another stretch may differ by.
+  // A frequency that drifts is not one number. Another stretch may differ by as much as the drift,
+  // beyond its own error, spreads it over the record (the deviation of a uniform distribution).
   const double drift = std::sqrt(
       std::max(line.drift_hz_per_s.value * line.drift_hz_per_s.value -
                    kNormal95 * kNormal95 * line.drift_hz_per_s.std * line.drift_hz_per_s.std,

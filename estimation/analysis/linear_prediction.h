@@ -2,9 +2,9 @@
 //
 //   y_n = -sum_k a_k y_(n-k),   k = 1 ... order,
 //
-// with the a_k of Burg (J. P. Burg, Maximum Entropy Spectral Analysis, thesis, Stanford 1975): they
-// make the forward and backward prediction errors over the signal's end least, stage by stage, and
-// the continuation never grows without bound.
+// with the a_k of Burg (J. P. Burg, Maximum Entropy Spectral Analysis, thesis, Stanford 1975),
+// which minimise the forward and backward prediction errors over the signal's end, stage by stage;
+// with them the continuation never grows without bound.
 #ifndef HOWL_ESTIMATION_ANALYSIS_LINEAR_PREDICTION_H_
 #define HOWL_ESTIMATION_ANALYSIS_LINEAR_PREDICTION_H_
 

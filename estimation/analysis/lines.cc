@@ -84,7 +84,7 @@ Estimate RefineFrequency(std::span<const double> x, double sampling_hz, double f
   Estimate result{frequency_hz, std::numeric_limits<double>::quiet_NaN()};
   bool followed = true;
   for (int pass = 0; pass < 2; ++pass) {
-    // Long blocks first: unwrapping needs every block well above the noise.
+    // Long blocks are tried first, because unwrapping needs every block well above the noise.
     const Blocks blocks = Demodulate(x, sampling_hz, result.value, n / 12);
     const PhaseSeries phase = UnwrapPhase(blocks.amplitude);
     const LineFrequency line = EstimateLineFrequency(blocks.amplitude, phase, blocks.hop_s);

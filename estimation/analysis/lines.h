@@ -1,5 +1,5 @@
-// Significant spectral lines of p and q (seed, section 4 and figure 10): harmonics of the limit
-// cycle and non-harmonic ones.
+// Significant spectral lines of p and q (the paper, section 4 and figure 10): harmonics of the
+// limit cycle and non-harmonic ones.
 //
 // A line is a local maximum of p's or q's Welch spectrum (2 nu degrees of freedom, chi-square)
 // above the noise floor, a running median, by more than the quantile at 1 - alpha / bins: alpha is
@@ -37,7 +37,7 @@ struct LineOptions {
   double min_frequency_hz = 0.0;  // 0: a 44th of the fundamental; without one at most 5 Hz
 };
 
-// Strongest over its floor first. fundamental_hz = 0: none is known.
+// The lines, sorted by their height over the floor. fundamental_hz = 0: none is known.
 std::vector<SpectralLine> FindLines(const Record& record, const CrossSpectrum& spectrum,
                                     double fundamental_hz, const LineOptions& options = {});
 
@@ -45,7 +45,7 @@ std::vector<SpectralLine> FindLines(const Record& record, const CrossSpectrum& s
 // degrees of freedom.
 std::vector<double> NoiseFloor(std::span<const double> spectrum, double nu);
 
-// Ratio to the floor that noise exceeds in any of `bins` with probability alpha.
+// The ratio to the floor that noise exceeds in any of `bins` bins with probability alpha.
 double PeakThreshold(double nu, int bins, double alpha);
 
 }  // namespace howl

@@ -15,7 +15,7 @@ std::string_view LoopGainReasonName(LoopGainReason reason) {
       return "memory";
     case LoopGainReason::kNoise:
       return "noise";
-    case LoopGainReason::kNotSeen:
+    case LoopGainReason::kNotExplained:
       break;
   }
   return "not_seen";

@@ -1,4 +1,4 @@
-// Why the loop gain at rest comes out below one although the loop stands in a limit cycle. At the
+// Why the loop gain at rest comes out below one although the loop is in a limit cycle. At the
 // cycle the describing function's loop gain is one, |G| 2 pi f D(X) = 1 (1b), so that
 //
 //   loop gain at rest = Phi'(0) / D(X) = 1 - 3 r_3 + 5 r_5 - ...
@@ -22,11 +22,11 @@
 
 namespace howl {
 
-enum class LoopGainReason : std::uint8_t { kSteeperInCycle, kMemory, kNoise, kNotSeen };
+enum class LoopGainReason : std::uint8_t { kSteeperInCycle, kMemory, kNoise, kNotExplained };
 std::string_view LoopGainReasonName(LoopGainReason reason);  // as in files
 
 struct LowLoopGain {
-  LoopGainReason reason = LoopGainReason::kNotSeen;
+  LoopGainReason reason = LoopGainReason::kNotExplained;
   double third_harmonic = 0.0;   // Re r_3
   double turn_deg = 0.0;         // arg r_3: zero where r_3 > 0 without memory
   double shape_gain = 1.0;       // 1 - 3 Re r_3 + 5 Re r_5
@@ -34,8 +34,9 @@ struct LowLoopGain {
   double regressor_noise = 0.0;  // s^2 / X^2
 };
 
-// Nothing where there is no stationary or drifting limit cycle, or where the 95 % interval of the
-// loop gain reaches one. A reason stands where it makes at least half of what is missing to one.
+// No value where there is no stationary or drifting limit cycle, or where the 95 % interval of the
+// loop gain reaches one. A reason is given where it accounts for at least half of what is missing
+// to one.
 std::optional<LowLoopGain> ExplainLowLoopGain(const Characteristics& cycle, const FlameCurve& curve,
                                               const Estimate& loop_gain);
 

@@ -94,7 +94,7 @@ Division Divide(const std::optional<InstrumentResponse>& response, Channel chann
   return division;
 }
 
-// In samples to either side.
+// The memory of the division, in samples to either side.
 std::size_t Memory(const Division& division, Transform& transform) {
   Spectrum seen = division.gain;
   const auto last = static_cast<double>(seen.size() - 1);

@@ -1,4 +1,4 @@
-// What is known of the instruments is taken out of a record before anything is estimated:
+// Removes known instruments' responses from a record before anything is estimated:
 //
 //   P(f) = P_recorded(f) / H_p(f),   Q(f) = Q_recorded(f) e^(+s delay_s) / H_q(f),   s = 2 pi j f
 //
@@ -10,19 +10,19 @@
 // the phase is right and the magnitude too small by |H| over the hundredth. (A bound on the gain
 // and not Tikhonov's |H|^2 + c^2, which moves every magnitude.)
 //
-// The mean is taken off before and stays as it is: a probe that loses it (H = 0 at s = 0) has
-// nothing to give back. So an H that is not one at s = 0 acts on the fluctuations alone; nothing
-// that is estimated from a record depends on its mean.
+// The mean is subtracted before and added again after, because a probe that loses it (H = 0 at s =
+// 0) leaves nothing to restore. An H that is not one at s = 0 therefore acts on the fluctuations
+// alone; nothing that is estimated from a record depends on its mean.
 //
-// The ends: a part of what the instruments answered to lies before the record's first sample, and,
+// At the ends the instruments responded to signals that lie before the record's first sample, and,
 // with a delay, after its last. The record is continued beyond both ends by its own linear
 // prediction (linear_prediction.h), which goes on with its cycle, and fades out over a twentieth of
 // its length. Then the samples that depend on the continuation are dropped, from both ends of both
-// channels alike: as many as the memory of the division, beyond which its answer to one sample has
-// less than 1e-6 of its energy. (The answer is seen through a window that falls from one at zero to
-// zero at half of the sampling rate, where a band that ends would ring for ever.) No more than a
-// fiftieth of the record is dropped at an end. A longer memory is that of a probe without low
-// frequencies, and what it leaves is slow, or that of a sharp notch.
+// channels alike: as many as the memory of the division, beyond which its impulse response has less
+// than 1e-6 of its energy. (The response is taken under a window that falls from one at zero
+// frequency to zero at half of the sampling rate, because a band that ends sharply would ring for
+// ever.) No more than a fiftieth of the record is dropped at an end. A longer memory is that of a
+// probe without low frequencies, which leaves a slow error, or that of a sharp notch.
 #ifndef HOWL_ESTIMATION_ANALYSIS_REMOVE_INSTRUMENTS_H_
 #define HOWL_ESTIMATION_ANALYSIS_REMOVE_INSTRUMENTS_H_
 
@@ -46,7 +46,7 @@ struct Instruments {
 inline constexpr double kLeastResponseShare = 0.01;  // of the largest |H|
 inline constexpr double kMostDroppedShare = 0.02;    // of the record, at each end
 
-// A response that has no finite value, or is zero at every frequency of the record.
+// The fault of a response that has no finite value, or is zero at every frequency of the record.
 struct ResponseFault {
   Channel channel = Channel::kPressure;
   double frequency_hz = 0.0;

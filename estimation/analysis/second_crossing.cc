@@ -10,8 +10,9 @@ namespace {
 constexpr double kLeastShare = 0.01;  // of the cycle's amplitude: weaker lines are noise's
 constexpr double kAbove = 1.05;       // of the cycle's frequency
 
-// What the paper's loop, with one delay at both crossings, misses the published line by: its table
-// leaves 10 to 30 degrees. Beyond that and the interval of the phase the loop does not close.
+// The phase by which the paper's loop, with one delay at both crossings, misses the published line:
+// its table leaves 10 to 30 degrees. Beyond that and the interval of the phase the loop does not
+// close.
 constexpr double kClosesWithinDeg = 30.0;
 
 }  // namespace
@@ -30,7 +31,7 @@ Estimate LoopGainAt(const Analysis& analysis, const SpectralLine& line) {
   const Characteristics& cycle = analysis.characteristics;
   const double gain = analysis.loop_gain->value * line.p_amplitude / line.q_amplitude /
                       cycle.gain.value * line.frequency_hz.value / cycle.frequency_hz.value;
-  // Of |P / Q| as of its phase, in radians.
+  // The relative error of |P / Q| is that of its phase in radians.
   return {gain, gain * std::hypot(line.phase_deg.std * kRadPerDeg,
                                   analysis.loop_gain->std / analysis.loop_gain->value)};
 }

@@ -14,12 +14,12 @@
 
 namespace howl {
 
-// The left side in (-180, 180] degrees, with the errors of the line's phase and of tau; no number
-// without a delay or a phase.
+// The left side in (-180, 180] degrees, with the errors of the line's phase and of tau; NaN without
+// a delay or a phase.
 Estimate LoopPhaseErrorAt(const Analysis& analysis, const SpectralLine& line);
 
-// Relative to the cycle's, whose loop gain is known; no number without a slope, zero where q does
-// not show the line.
+// The loop gain at the line, from its ratio to the cycle's, which is known; NaN without a slope,
+// zero where q does not show the line.
 Estimate LoopGainAt(const Analysis& analysis, const SpectralLine& line);
 
 // The strongest line of p that is no multiple of the cycle and lies above it (below lie differences

@@ -79,7 +79,7 @@ double CrossSpectrum::DegreesOfFreedom(int bins) const {
 
 namespace {
 
-// Next to the largest value; one where all are zero.
+// A power of two near the largest value; one where all are zero.
 double PowerOfTwo(std::span<const double> x) {
   double largest = 0.0;
   for (const double value : x) largest = std::max(largest, std::abs(value));

@@ -49,8 +49,8 @@ std::array<double, 3> SmoothedWalkCovariance() {
 }
 
 // Columns x with x^T T_noise x = 1, x^T T_walk x = walk, all others zero: the covariances of n
-// increments by unit white noise and unit walk, both seen through the blocks, made diagonal at
-// once.
+// increments by unit white noise and unit walk, both averaged by the blocks, which are made
+// diagonal at once.
 struct IncrementBasis {
   Eigen::MatrixXd vectors;
   Eigen::VectorXd walk;
@@ -108,12 +108,12 @@ double AllanFactor(double a) {
   return 2.0 * 2.0 * integral * std::pow(2.0, -a);
 }
 
-// The variance of the mean increment where the frequency wanders slower than white noise does. What
-// of the increments' spectrum the walk rules is taken to fall as j^-a with the number j of the
-// cosine, a anywhere between 0 and 2 (white, flicker and random-walk noise of the frequency), with
-// probability kNoWander for a = 0, where `stationary` is the variance. Otherwise a mean over the
-// record is no estimate of a mean over ever, which such a process has not; it is one of the mean
-// over another stretch of that length, and Allan's variance is its error.
+// The variance of the mean increment where the frequency wanders slower than white noise does. The
+// part of the increments' spectrum that the walk dominates is taken to fall as j^-a with the number
+// j of the cosine, a anywhere between 0 and 2 (white, flicker and random-walk noise of the
+// frequency), with probability kNoWander for a = 0, where `stationary` is the variance. Otherwise a
+// mean over the record does not estimate a long-term mean, which such a process does not have. It
+// estimates the mean over another stretch of the same length, and Allan's variance is its error.
 double WithWander(double stationary, double walk_variance, int n, const Eigen::ArrayXd& squares,
                   const Eigen::ArrayXd& noise, const Eigen::ArrayXd& walk) {
   constexpr double kNoWander = 0.8;

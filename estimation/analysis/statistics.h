@@ -46,7 +46,7 @@ MeanError ErrorOfMean(std::span<const std::complex<double>> values, double lag_o
 // The same for real values: variance of the mean in covariance(0, 0).
 MeanError ErrorOfMean(std::span<const double> values, double lag_one_correlation);
 
-// Slope of a series y_b = a + mu b + random walk + white noise, seen through half-overlapping Hann
+// Slope of a series y_b = a + mu b + random walk + white noise, averaged by half-overlapping Hann
 // blocks (which correlate neighbours), with the strengths d and r of walk and noise unknown:
 // generalised least squares on the increments, averaged over d / r by its restricted likelihood
 // with probability `kNoWalkPrior` for d = 0. The error is scaled by what the K slowest cosines of

@@ -8,12 +8,13 @@
 namespace howl {
 namespace {
 
-// A bound on white noise of q's own: what of q is not coherent with p is S_qq (1 - c), and whatever
-// else is in it, the noise is. The least over windows of 16 bins, away from the strong lines.
+// A bound on white noise of the q sensor: the part of q that is not coherent with p is S_qq (1 -
+// c), which contains that noise. The bound is the least over windows of 16 bins, away from the
+// strong lines.
 double HeatReleaseNoise(const CrossSpectrum& spectrum, const std::vector<char>& keep) {
   constexpr int kBins = 16;
-  // The least of many estimates lies below what they estimate: with the 30 to 100 averages of a
-  // window and some hundred windows, by a third.
+  // The least of many estimates is biased low: with the 30 to 100 averages of a window and some
+  // hundred windows, by a third.
   constexpr double kLeastOfMany = 1.5;
   const double nu = spectrum.DegreesOfFreedom(kBins);
   const int last = static_cast<int>(spectrum.qq.size()) * 98 / 100;
@@ -69,9 +70,9 @@ std::vector<Group> GroupsOf(const CrossSpectrum& spectrum, const std::vector<cha
   return groups;
 }
 
-// Whether p and q are coherent about a group, by its neighbours alone. A group that were asked
-// itself would be taken where chance made |H| large and left where chance made it small, and what
-// is fitted to those that were taken would come out too large.
+// Whether p and q are coherent about a group, by its neighbours alone. If the group itself decided,
+// it would be taken where chance made |H| large and left where chance made it small, and a fit to
+// the groups taken would come out too large.
 bool IsCoherentAbout(const std::vector<Group>& groups, std::size_t at, int count, double nu,
                      const TransferOptions& options) {
   constexpr int kReach = 4;  // groups on either side
@@ -94,9 +95,9 @@ bool IsCoherentAbout(const std::vector<Group>& groups, std::size_t at, int count
   return mean > by_chance && (nu * mean - 1.0) / (nu - 1.0) >= options.min_coherence;
 }
 
-// What of p is not coherent with q about a group. One group's own estimate has the few degrees of
-// freedom of a point, and weights that scatter as much would make what is fitted to the points
-// scatter more than their variance says.
+// The part of p that is not coherent with q, averaged about a group. One group's own estimate has
+// the few degrees of freedom of a point, and weights with such a scatter would make a fit to the
+// points scatter more than their variance says.
 double IncoherentPower(const std::vector<Group>& groups, std::size_t at, int count) {
   constexpr int kReach = 2;  // groups on either side
   double sum = 0.0;
@@ -161,8 +162,9 @@ Transfer EstimateTransfer(const CrossSpectrum& spectrum, std::span<const Spectra
     point.degrees_of_freedom = nu;
     point.q_noise_bias = noise / power;
     point.weight = std::norm(h) * power;
-    // By what of p is not coherent with q: independent of H, where |H|^2 (1 - c) / c is small where
-    // chance made H large, and weighs such points more.
+    // The variance is that of the part of p that is not coherent with q, which is independent of H.
+    // |H|^2 (1 - c) / c instead would be small where chance made H large, and weigh such points
+    // more.
     const double left = IncoherentPower(groups, g, count);
     const double scatter = left * group.qq / (2.0 * (nu - 1.0) * power * power);
     point.variance_re = scatter;

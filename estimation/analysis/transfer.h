@@ -70,9 +70,9 @@ struct TransferBand {
   }
 };
 
-// Where the search starts with two modes: where the second adds no more than a share at the limit
-// cycle, (5b). Elsewhere the two may have changed places: a mode at omega is as well a second mode
-// at r times omega / r.
+// The search with two modes starts where the second adds no more than a share at the limit cycle,
+// (5b). Elsewhere the two may have changed places: a mode at omega is as well a second mode at r
+// times omega / r.
 struct FirstModeCarries {
   double frequency_hz = 0.0;  // of the limit cycle
   double second_mode_share_max = std::numeric_limits<double>::infinity();
@@ -100,7 +100,7 @@ struct TransferFitPoint {
 // by which the covariance is larger than for errors that differ from point to point.
 struct TransferFit {
   bool available = false;  // at least four points, and the solver converged
-  Acoustics<double> acoustics{0, 0, 0, 0, kSeedHarmonicRatio};
+  Acoustics<double> acoustics{0, 0, 0, 0, kPaperHarmonicRatio};
   Estimate omega_hz, xi, N, M;  // one mode: M is zero
   // Of log omega_hz, log xi, log N, log M, model_error included; one mode: nothing of log M.
   Eigen::Matrix4d log_covariance = Eigen::Matrix4d::Zero();

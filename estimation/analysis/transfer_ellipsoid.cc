@@ -54,7 +54,7 @@ std::optional<TransferEllipsoid> MakeTransferEllipsoid(const TransferFit& fit,
                                                        double largest_relative_std) {
   if (!fit.available) return std::nullopt;
   const Acoustics<double>& g = fit.acoustics;
-  // One mode: nothing is known of M, and its variance of zero says so below.
+  // With one mode nothing is known of M, which its variance of zero marks below.
   const TransferVector centre(std::log(g.omega_hz), std::log(g.xi), std::log(g.N),
                               g.M > 0.0 ? std::log(g.M) : 0.0);
   std::array<bool, kNumTransferParameters> determined{};

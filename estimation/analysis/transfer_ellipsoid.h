@@ -1,5 +1,5 @@
-// What a record's broadband q-to-p transfer leaves of an experiment's acoustics: an ellipsoid in
-// the logarithms v = (ln omega, ln xi, ln N, ln M),
+// The acoustics that a record's broadband q-to-p transfer allows an experiment: an ellipsoid in the
+// logarithms v = (ln omega, ln xi, ln N, ln M),
 //
 //   (v - centre)^T C^-1 (v - centre) <= distance^2,
 //
@@ -26,7 +26,7 @@ using TransferMatrix = Eigen::Matrix<double, kNumTransferParameters, kNumTransfe
 class TransferEllipsoid {
  public:
   TransferEllipsoid() = default;
-  // `determined`: which of the four count. Nothing where the covariance of these is not positive.
+  // determined: which of the four count. No value where the covariance of these is not positive.
   static std::optional<TransferEllipsoid> Make(
       const TransferVector& centre, const TransferMatrix& covariance,
       const std::array<bool, kNumTransferParameters>& determined);
@@ -47,9 +47,9 @@ class TransferEllipsoid {
   TransferMatrix two_ = TransferMatrix::Zero();
 };
 
-// From a fit; nothing where no parameter is determined. A parameter counts when its relative
-// standard deviation is below `largest_relative_std`: beyond, a normal error of its logarithm is no
-// fair picture of what the transfer says.
+// The ellipsoid of a fit; no value where no parameter is determined. A parameter counts when its
+// relative standard deviation is below `largest_relative_std`: beyond that a normal error of its
+// logarithm does not describe what the transfer says.
 std::optional<TransferEllipsoid> MakeTransferEllipsoid(const TransferFit& fit,
                                                        double largest_relative_std = 0.5);
 

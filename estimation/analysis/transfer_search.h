@@ -1,4 +1,4 @@
-// Where the search for a transfer's damping ends. A fit that stands there determines none.
+// The ends of the search for a transfer's damping. A fit at one of them determines no damping.
 #ifndef HOWL_ESTIMATION_ANALYSIS_TRANSFER_SEARCH_H_
 #define HOWL_ESTIMATION_ANALYSIS_TRANSFER_SEARCH_H_
 

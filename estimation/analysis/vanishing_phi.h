@@ -1,5 +1,5 @@
-// The operating parameter at which the limit cycle vanishes (seed, section 3.2 and figure 7): a
-// straight line g = a + b phi through the loop gains reaches one at phi = (1 - a) / b. Weighted
+// The operating parameter at which the limit cycle vanishes (the paper, section 3.2 and figure 7):
+// a straight line g = a + b phi through the loop gains reaches one at phi = (1 - a) / b. Weighted
 // least squares where every gain has a standard deviation, else ordinary. Fieller's interval: all
 // phi with
 //
@@ -32,7 +32,7 @@ struct VanishingPhi {
 VanishingPhi EstimateVanishingPhi(std::span<const LoopGainPoint> points);
 
 // From the loop gains gain 2 pi f |Phi'(0)| of the reliable experiments that have a flame slope
-// (seed, figure 7).
+// (the paper, figure 7).
 VanishingPhi EstimateVanishingPhi(std::span<const Experiment> experiments);
 
 }  // namespace howl

@@ -18,8 +18,8 @@ struct ConnectedSet {
   std::vector<std::pair<int, int>> rows;
 };
 
-// Of the columns that `counts` accepts; others connect nothing. In the order of their first
-// columns.
+// The sets of the columns that `counts` accepts, in the order of their first columns; other columns
+// connect nothing.
 std::vector<ConnectedSet> ConnectedColumns(const std::vector<JacobianBlock>& jacobian, int columns,
                                            const std::function<bool(int)>& counts);
 

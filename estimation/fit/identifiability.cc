@@ -164,7 +164,7 @@ class Analysis {
         {std::move(direction), log_std, Describe(local, columns, names_, log_std)});
   }
 
-  // `rows`: a basis of directions that no residual notices.
+  // rows: a basis of the directions along which no residual changes.
   void Free(Eigen::MatrixXd rows, const std::vector<int>& columns) {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     MakeSparse(rows);

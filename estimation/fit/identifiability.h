@@ -1,17 +1,17 @@
-// What the data determine at a solution, and what they do not.
+// Which parameters, and combinations of parameters, the data determine at a solution.
 //
 // J: Jacobian of the whitened residuals by the logarithms of the parameters, J = U S V^T. A right
-// singular vector with a singular value that vanishes is a direction along which parameters can be
-// traded without any residual noticing. One whose standard deviation 1 / s is more than a factor e
-// is undetermined for practical purposes; it is reported too.
+// singular vector with a singular value that vanishes is a direction along which parameters can
+// change together and no residual changes. A direction whose standard deviation 1 / s is more than
+// a factor e is undetermined for practical purposes and is reported too.
 //
-// Works on each set of parameters that residuals connect by itself, so that directions of
+// Each set of parameters that residuals connect is treated by itself, so that directions of
 // experiments that share nothing are not mixed. Where parameters that experiments share connect
-// more than kWidestSet of them, what belongs to one experiment is eliminated first
-// (estimation/fit/substructure.h): the rank, the free directions and the covariance are the same,
-// and the work grows as the number of experiments does; the directions that are held, but to more
-// than a factor e, are then those of each experiment's own covariance, what others do being left
-// open, instead of singular vectors over all of them.
+// more than kWidestSet of them, each experiment's own parameters are eliminated first
+// (estimation/fit/substructure.h). The rank, the free directions and the covariance are the same,
+// and the work grows in proportion to the number of experiments. The directions that are
+// determined, but to no better than a factor e, are then taken from each experiment's own
+// covariance instead of from singular vectors over all experiments.
 #ifndef HOWL_ESTIMATION_FIT_IDENTIFIABILITY_H_
 #define HOWL_ESTIMATION_FIT_IDENTIFIABILITY_H_
 
@@ -29,7 +29,7 @@ inline constexpr int kWidestSet = 100;  // parameters; a singular value decompos
 
 struct UndeterminedDirection {
   Eigen::SparseVector<double> direction;  // unit length, in logarithms of the parameters
-  double log_std = 0.0;  // along the direction; infinite when no residual notices it at all
+  double log_std = 0.0;  // along the direction; infinite when no residual changes along it
   std::string text;      // "omega_hz, xi and N of exp1 trade off along (...)"
 };
 
@@ -37,8 +37,8 @@ struct Identifiability {
   int rank = 0;
   // Of the logarithms, over the determined directions: the pseudo-inverse of J^T J.
   LogCovariance covariance;
-  // Of each logarithm: the relative standard deviation of the parameter; infinite when it takes
-  // part in a direction that no residual notices.
+  // The standard deviation of each logarithm, which is the relative one of the parameter; infinite
+  // when the parameter takes part in a direction along which no residual changes.
   std::vector<double> log_std;
   std::vector<UndeterminedDirection> undetermined;
 };

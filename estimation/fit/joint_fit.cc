@@ -22,7 +22,7 @@ constexpr double kZeroCost = 1e-12;
 constexpr double kAtBound = 1e-6;
 // Parameters up to which the dense solver is the faster one (bench/scaling_study).
 constexpr std::size_t kMostDense = 40;
-// Nothing is learned from how near to the end of the search a parameter came.
+// A parameter this near to the end of the search counts as at the end.
 constexpr double kAtGuardRail = 1e-3;
 
 struct StartResult {
@@ -93,7 +93,7 @@ void DescribeParameters(const JointProblem& problem, JointFit& fit) {
   }
 }
 
-// The solver is content on a guard rail; the fit is not one.
+// The solver may converge on a guard rail, where the result is no fit.
 void RefuseGuardRails(JointFit& fit) {
   std::string names;
   for (const FitParameter& parameter : fit.parameters) {
@@ -117,15 +117,15 @@ void DescribeResiduals(const JointProblem& problem, JointFit& fit) {
   }
 }
 
-// Where model and data miss each other by more than the stated standard deviations, these are too
-// small for what model and data are. Each kind of residual has a factor of its own,
+// Where model and data differ by more than the stated standard deviations, these are too small.
+// Each kind of residual has a factor of its own,
 //
 //   s_k^2 = max(1, s^2, sum r_i^2 / sum (1 - h_i)), h = diag(J C J^T), over the rows i of kind k,
 //
-// and s^2 is the same of all rows: two kinds that contradict each other say that either may be
-// wrong, and many points of a transfer that are fitted well do not hide a few gains that are
-// missed. The covariance is that of parameters whose data scatter so: C (sum s_i^2 J_i^T J_i) C.
-// What is fitted as well as stated keeps C.
+// and s^2 is the same over all rows. Where two kinds contradict each other, either may be wrong;
+// and many points of a transfer that are fitted well do not hide a few gains that are missed. The
+// covariance is that of parameters whose data have this scatter: C (sum s_i^2 J_i^T J_i) C. Where
+// all data are fitted as well as stated, it is C.
 void WidenByMisfit(std::vector<JacobianBlock> jacobian, JointFit& fit) {
   struct Misfit {
     double squares = 0.0, freedom = 0.0;

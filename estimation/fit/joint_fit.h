@@ -1,4 +1,4 @@
-// Solves a JointProblem from several starts and reports what the best one means.
+// Solves a JointProblem from several starts and reports the best solution with its errors.
 #ifndef HOWL_ESTIMATION_FIT_JOINT_FIT_H_
 #define HOWL_ESTIMATION_FIT_JOINT_FIT_H_
 
@@ -22,9 +22,9 @@ struct FitParameter {
   // one. Infinite: not determined.
   double std_relative = 0.0;
   bool at_bound = false;
-  // At a bound that no one set: a default that only keeps the search among numbers. Where a fit
-  // ends there, the data drive the parameter out of every model, and it is no fit. A second mode
-  // of vanishing size is not such an end: it is the model with one mode.
+  // True where the parameter is at a bound that no one set, a default that only keeps the search in
+  // the range of numbers. A fit that ends there is no fit, because the data drive the parameter out
+  // of every model. A second mode of vanishing size is no such end: it is the model with one mode.
   bool at_guard_rail = false;
   double bound = 0.0;  // the one that it stands at, natural units
   bool fixed = false;
@@ -48,7 +48,7 @@ struct JointFit {
   std::vector<LoopModel> models;         // one an experiment
   std::vector<FitParameter> parameters;  // of the models: without the unknowns of the transfers
   std::vector<FitResidual> residuals;
-  // Over the parameters that are not fixed, in their order; the covariance is widened as above.
+  // For the parameters that are not fixed, in their order; the covariance is widened as above.
   std::vector<std::string> free_names;
   Identifiability identifiability;
 };
@@ -58,11 +58,12 @@ struct JointFit {
 JointFit SolveJoint(const JointProblem& problem, const SolverSpec& solver, std::uint64_t seed,
                     int threads);
 
-// From these starts, each of problem.parameters().size() logarithms, instead of the problem's own.
+// The same from these starts, each of problem.parameters().size() logarithms, instead of the
+// problem's own.
 JointFit SolveJointFrom(const JointProblem& problem, const SolverSpec& solver,
                         const std::vector<std::vector<double>>& starts, int threads);
 
-// Cost at `logs`, weights and losses applied; NaN where a residual is not finite.
+// The cost at `logs` with weights and losses applied; NaN where a residual is not finite.
 double JointCost(const JointProblem& problem, std::vector<double> logs);
 
 // J and identifiability at `logs` (weights and losses applied).

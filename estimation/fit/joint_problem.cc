@@ -29,7 +29,7 @@ namespace howl {
 namespace {
 
 constexpr double kStartXi = 0.1;            // a lightly damped mode
-constexpr double kStartMOverN = 0.4;        // the seed's figures 11 and 12 imply about this
+constexpr double kStartMOverN = 0.4;        // the paper's figures 11 and 12 imply about this
 constexpr double kMostQNoise = 100.0;       // standard deviations: a guard rail
 constexpr double kMaxStartPhaseDeg = 85.0;  // the closed form needs less than 90
 
@@ -258,8 +258,8 @@ void JointProblem::AddEqualities(int i, const ResidualSet& residuals) {
                                 residuals[ResidualKind::kLimitCycleGain].std});
   }
   if (ActsOn(residuals, ResidualKind::kLimitCyclePhase, experiment)) {
-    // A cycle that noise drives has the phase of 180 degrees at the frequency that it keeps over
-    // ever, from which that of a record lies off by its standard deviation. G is not asked there:
+    // A cycle that noise drives has the phase of 180 degrees at its long-term frequency, from which
+    // that of a record differs by its standard deviation. This concerns the loop and not G, because
     // p = G q holds at whatever frequency the record had.
     const double tau_s =
         DelayFromPhase(experiment.frequency_hz, experiment.phase_deg, experiment.delay_periods);
@@ -309,8 +309,8 @@ void JointProblem::AddSecondMode(int i, const ResidualSet& residuals) {
   }
 }
 
-// Points by themselves would each be free to be wrong by it, and fifty of them would leave a
-// seventh of a doubt that does not average out.
+// The level of q's noise is one unknown of a record. If each point had such an error of its own,
+// fifty of them would leave a seventh of it, but it does not average out.
 void JointProblem::AddQNoise(const ResidualSet& residuals) {
   for (int i = 0; i < static_cast<int>(experiments_.size()); ++i) {
     const Experiment& experiment = experiments_[static_cast<std::size_t>(i)];

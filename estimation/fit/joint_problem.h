@@ -5,9 +5,9 @@
 // with the residuals of estimation/residuals/ (equations (1a), (1b), (5a) to (5c) and the
 // qualitative conditions of section 3.3). Each parameter is a block of size one holding the natural
 // logarithm of a positive quantity in its natural unit (omega_hz, xi, N, M or M / N, tau_s), shared
-// by all experiments or private to one. omega_prior and tau_prior add the common value that
-// experiments scatter about as a parameter of its own; a transfer adds one unknown of its record,
-// which no report names: intervals are what is left when it is free.
+// by all experiments or private to one. omega_prior and tau_prior add the common value about which
+// experiments scatter as a parameter of its own. A transfer adds one unknown of its record, a
+// nuisance parameter that no report names; intervals are those with it free.
 #ifndef HOWL_ESTIMATION_FIT_JOINT_PROBLEM_H_
 #define HOWL_ESTIMATION_FIT_JOINT_PROBLEM_H_
 
@@ -33,9 +33,9 @@ struct ParameterBlock {
   int experiment = kShared;
   ParameterKind kind = ParameterKind::kOmega;
   bool is_mean = false;  // the common value of a prior
-  // No parameter of a model: what the level of q's own noise moves the experiment's transfer by, in
-  // standard deviations (estimation/residuals/transfer_point.h). It is itself where the others are
-  // logarithms. These blocks come last.
+  // True for a nuisance parameter: how far the level of q's own noise moves the experiment's
+  // transfer, in standard deviations (estimation/residuals/transfer_point.h). It enters as it is,
+  // where model parameters enter as logarithms. These blocks come last.
   bool is_q_noise = false;
   double min_log = 0.0;
   double max_log = 0.0;
@@ -66,21 +66,22 @@ class JointProblem {
   const std::vector<ParameterBlock>& parameters() const { return parameters_; }
   const std::vector<ResidualBlock>& residuals() const { return residuals_; }
 
-  // The block that holds `kind` for `experiment`: its own, or the shared one.
+  // The index of the block that holds `kind` for `experiment`: its own, or the shared one.
   int ParameterIndex(ParameterKind kind, int experiment) const;
 
-  // Adds a residual block; for data that this class does not know, such as transfers. `parameters`
+  // Adds a residual block for data that this class does not know, such as transfers. `parameters`
   // are indices from ParameterIndex.
   void AddResidual(ResidualBlock block);
 
-  // Start 0 is the closed form on the data; others scatter it by factors of a few.
+  // The start of that number: 0 is the closed form on the data; others scatter it by factors of a
+  // few.
   std::vector<double> Start(int number, std::uint64_t seed) const;
 
   // A Ceres problem over `logs`, which must have parameters().size() entries and outlive it, as
   // must this object.
   std::unique_ptr<ceres::Problem> Build(double* logs) const;
 
-  // Models in natural units, one an experiment.
+  // The models in natural units, one for each experiment.
   std::vector<LoopModel> Models(const std::vector<double>& logs) const;
 
  private:
@@ -100,7 +101,7 @@ class JointProblem {
   std::vector<Experiment> experiments_;
   ModelSpec model_;
   std::vector<ParameterBlock> parameters_;
-  // For each kind, where the block of each experiment is; empty for a kind that no model uses.
+  // For each kind, the index of each experiment's block; empty for a kind that no model uses.
   std::array<std::vector<int>, kNumParameterKinds> index_;
   std::vector<ResidualBlock> residuals_;
 };

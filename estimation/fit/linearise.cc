@@ -11,7 +11,7 @@
 namespace howl {
 namespace {
 
-// Takes the last of the block's columns out of the others, and away.
+// Projects the last of the block's columns out of the others, and removes it.
 void TakeOutLast(JacobianBlock& block) {
   const Eigen::Index last = block.values.cols() - 1;
   const Eigen::VectorXd column = block.values.col(last);

@@ -9,9 +9,9 @@
 
 namespace howl {
 
-// Over the free parameters that are no nuisance (q_noise), whose columns are counted in their
-// order. What an experiment's nuisance can explain is taken out of each column, so that J^T J is
-// its Schur complement.
+// The columns belong to the free parameters that are no nuisance (q_noise), in their order. The
+// part that an experiment's nuisance can explain is projected out of each column, so that J^T J is
+// the Schur complement.
 std::vector<JacobianBlock> Linearise(const JointProblem& problem, std::vector<double> logs);
 
 }  // namespace howl

@@ -1,5 +1,4 @@
-// The covariance of a joint fit's parameters (of their logarithms), without the n x n entries that
-// a table of it has:
+// The covariance of the logarithms of a joint fit's parameters, stored without its n x n entries:
 //
 //   C = D + F M F^T
 //
@@ -30,15 +29,15 @@ class LogCovariance {
   };
 
   explicit LogCovariance(int size = 0);
-  // Its columns are in no other set.
+  // Adds a set, whose columns must be in no other set.
   void Add(Set set);
 
   int size() const { return static_cast<int>(places_.size()); }
   double operator()(int row, int column) const;
-  // Rows and columns `columns`.
+  // The covariance's rows and columns with the indices in `columns`.
   Eigen::MatrixXd Of(std::span<const int> columns) const;
-  // C (sum J^T J) C over the rows of `blocks`: of parameters whose data scatter otherwise than
-  // stated. The blocks touch the sets that they are of.
+  // C (sum J^T J) C over the rows of `blocks`: the covariance of parameters whose data scatter
+  // otherwise than stated. Each block touches columns of its own set only.
   LogCovariance Scattered(const std::vector<JacobianBlock>& blocks) const;
 
  private:

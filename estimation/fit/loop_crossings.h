@@ -1,6 +1,6 @@
-// Every phase crossing of a fitted loop in the band that its modes cover, beside what was observed:
-// the limit cycle and the experiment's lines. Section 4 of the paper explains a line by a second
-// crossing with magnitude above one, so that its frequency and its size both count.
+// Every phase crossing of a fitted loop in the band that its modes cover, compared with what was
+// observed: the limit cycle and the experiment's lines. Section 4 of the paper explains a line by a
+// second crossing with magnitude above one, so that its frequency and its size both count.
 #ifndef HOWL_ESTIMATION_FIT_LOOP_CROSSINGS_H_
 #define HOWL_ESTIMATION_FIT_LOOP_CROSSINGS_H_
 
@@ -21,8 +21,8 @@ struct ObservedCrossing {
   double observed_gain = 0.0;    // |L Phi'(0)| there; NaN where the flame slope is not known
 };
 
-// In the order of frequency, up to the end of the transfer's band (estimation/analysis/transfer.h)
-// or a little beyond the highest line.
+// The crossings in the order of frequency, up to the end of the transfer's band
+// (estimation/analysis/transfer.h) or a little beyond the highest line.
 std::vector<ObservedCrossing> LoopCrossings(const Experiment& experiment, const LoopModel& model,
                                             const ModelSpec& spec);
 

@@ -5,7 +5,7 @@
 //
 //   share = |M U_r(j 2 pi f)| / |N U_1(j 2 pi f)|, largest over the experiments
 //
-// and what the other one would cost by a second fit, from starts over there.
+// and the cost of the other branch is found by a second fit from starts on it.
 #ifndef HOWL_ESTIMATION_FIT_MODE_BRANCH_H_
 #define HOWL_ESTIMATION_FIT_MODE_BRANCH_H_
 
@@ -23,11 +23,11 @@ struct ModeBranch {
   double share = 0.0;
   std::vector<LoopModel> models;  // one an experiment
 
-  // Held by a residual, a fit ends a little above the share that is asked for.
+  // A fit that a residual holds ends a little above the share that is asked for, hence the margin.
   bool IsPapers(double share_max) const { return share <= 1.5 * share_max; }
 };
 
-// Largest over the experiments.
+// The largest share over the experiments.
 double LargestSecondModeShare(std::span<const Experiment> experiments,
                               std::span<const LoopModel> models);
 
@@ -36,12 +36,12 @@ struct BranchComparison {
   ModeBranch fit;
   std::optional<ModeBranch> other;  // the best that was found on the branch that `fit` is not on
 
-  // The data alone would rather be there: `fit` is held by second_mode_minor, or is a worse
-  // optimum.
+  // True where the data alone prefer the other branch: `fit` is held by second_mode_minor, or is a
+  // worse optimum.
   bool DataPreferOther() const { return other && other->cost < fit.cost * (1.0 - 1e-6); }
 };
 
-// Two modes only. `residuals` are those that `problem` was made with; `fit` is its solution.
+// For two modes only. residuals: those that `problem` was made with; fit: its solution.
 BranchComparison CompareBranches(const JointProblem& problem, const ResidualSet& residuals,
                                  const JointFit& fit, const SolverSpec& solver, std::uint64_t seed,
                                  int threads);

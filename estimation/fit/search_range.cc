@@ -44,8 +44,10 @@ SearchRange SearchRails::RangeOf(ParameterKind kind, const ParameterSpec& spec) 
   SearchRange range = coefficient_;
   if (kind == ParameterKind::kOmega) range = omega_;
   if (kind == ParameterKind::kTau) range = tau_;
-  constexpr double kBeside = 10.0;  // a value of the spec's own does not stand at a rail
-  const auto include = [&](double own) { Widen(range, {own / kBeside, own * kBeside}); };
+  constexpr double kOwnValueFactor = 10.0;  // keeps a value that the config states off the rails
+  const auto include = [&](double own) {
+    Widen(range, {own / kOwnValueFactor, own * kOwnValueFactor});
+  };
   if (spec.initial) include(*spec.initial);
   if (has_min) include(spec.min);
   if (has_max) include(spec.max);

@@ -25,7 +25,7 @@ class SearchRails {
   // CHECKs that there is an experiment.
   explicit SearchRails(std::span<const Experiment> experiments);
 
-  // What `spec` has of its own comes first; an initial value of its own lies within.
+  // The bounds that `spec` states come first; an initial value that it states lies within.
   SearchRange RangeOf(ParameterKind kind, const ParameterSpec& spec) const;
 
  private:

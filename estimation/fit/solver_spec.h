@@ -1,4 +1,4 @@
-// How hard a joint fit searches: the config's `solver:`.
+// The effort of a joint fit's search: the config's `solver:`.
 #ifndef HOWL_ESTIMATION_FIT_SOLVER_SPEC_H_
 #define HOWL_ESTIMATION_FIT_SOLVER_SPEC_H_
 

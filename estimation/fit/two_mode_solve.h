@@ -42,7 +42,7 @@ inline ModeCoefficients CoefficientsFromResponse(double frequency_hz, double ome
           scale * harmonic_ratio * (y - across) * (xi * xi + y_r * y_r)};
 }
 
-// What is held while (omega, N) are solved for: M itself, or M / N.
+// The quantity that is held while (omega, N) are solved for: M itself, or M / N.
 enum class SecondMode { kM, kMOverN };
 
 // The equation whose roots in omega are the solutions, free of poles.

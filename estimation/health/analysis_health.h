@@ -1,10 +1,10 @@
-// What an analysis shows of its own health: why a record has no steady limit cycle, a sampling rate
-// that leaves no room for one, and transfers that fit much better with a mistake undone.
+// Checks the health of an analysis: why a record has no steady limit cycle, whether its sampling
+// rate leaves no room for one, and whether a transfer fits much better with a mistake undone.
 //
 // In the loop p = G q with G = N s / (s^2 + 2 xi w s + w^2) + ..., N and M positive: Re G > 0 at
 // every frequency. The transfer H of a channel with the wrong sign has Re H < 0, and that of p and
-// q taken for each other is 1 / G, whose poles are G's zeros. So the fit of -H or 1 / H in the
-// place of H tells them, by the same measure as mistake_search.h's.
+// q taken for each other is 1 / G, whose poles are G's zeros. A fit of -H or 1 / H in the place of
+// H therefore reveals them, by the same measure as that of mistake_search.h.
 #ifndef HOWL_ESTIMATION_HEALTH_ANALYSIS_HEALTH_H_
 #define HOWL_ESTIMATION_HEALTH_ANALYSIS_HEALTH_H_
 
@@ -20,20 +20,21 @@ namespace howl {
 // that were taken for seconds.
 enum class RateSource : std::uint8_t { kNumber, kTimeColumn };
 
-// The state of a record that is not a steady limit cycle: the criterion, the number, the threshold.
-// Nothing for a steady one.
+// Finds a record that is no steady limit cycle, with the criterion, the number and the threshold.
 Health CheckState(const Analysis& analysis, const CharacteristicsOptions& options);
 
-// A rate at which the search range is empty, or a record whose cycle is slower than 1 Hz, or that
-// has none, and has one in reach if its time is in milliseconds or microseconds (its rate in kHz or
+// Finds a rate at which the search range is empty, and a record whose cycle is slower than 1 Hz, or
+// absent, that has one in reach if its time is in milliseconds or microseconds (its rate in kHz or
 // MHz).
 Health CheckSampling(const NamedRecord& record, const Analysis& analysis,
                      const AnalysisOptions& options, RateSource source);
 
-// Transfers with the wrong sign or order, and damping at the end of the transfer fit's search.
+// Finds transfers with the wrong sign or order, and damping at the end of the transfer fit's
+// search.
 Health CheckTransfers(const AnalysisSet& set, const AnalysisOptions& options);
 
-// All of it; `set` is of `records`. An empty `sources`: all from numbers.
+// All checks of an analysis; `set` is that of `records`. Empty `sources`: all rates are numbers of
+// the config.
 Health CheckAnalysis(std::span<const NamedRecord> records, const AnalysisSet& set,
                      const AnalysisOptions& options, std::span<const RateSource> sources = {});
 

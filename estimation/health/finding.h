@@ -27,11 +27,11 @@ enum class FindingKind : std::uint8_t {
 
 constexpr std::size_t kFindingKinds = 9;
 
-// As in files.
+// The kind's name in files.
 constexpr std::string_view FindingKindName(FindingKind kind) {
-  constexpr std::array<std::string_view, kFindingKinds> kNames = {"not_converged", "guard_rail", "bound",
-                                                      "residual",      "mistake",    "sampling",
-                                                      "state",         "samples",    "setup"};
+  constexpr std::array<std::string_view, kFindingKinds> kNames = {
+      "not_converged", "guard_rail", "bound",   "residual", "mistake",
+      "sampling",      "state",      "samples", "setup"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

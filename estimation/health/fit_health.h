@@ -1,5 +1,5 @@
-// What a joint fit shows of its own health: whether the solver ended, which parameters stand at a
-// bound and whose bound it is, and which residuals lie beyond three standard deviations.
+// Checks the health of a joint fit: whether the solver converged, which parameters are at a bound
+// and whose bound it is, and which residuals lie beyond three standard deviations.
 //
 // A residual counts by the weight that the fit gives it: sqrt(weight) r. An experiment that is
 // called unreliable is given twice its standard deviations, and has them here too. The points of a
@@ -15,7 +15,7 @@ namespace howl {
 
 inline constexpr double kLargeResidual = 3.0;  // standard deviations
 
-// `fit` is of `problem`.
+// fit: the solution of `problem`.
 Health CheckFit(const JointProblem& problem, const JointFit& fit);
 
 }  // namespace howl

@@ -7,10 +7,10 @@
 // several do nearly as well as the best (within kAlike nats), all are named: the data cannot tell
 // them apart. A fit that costs less than kMuchBetter is never suspected.
 //
-// Transfers take no part. What they say of sign and order is analysis_health.h's, which sees them
-// whole: a record that has one is not suspected of these here, where a rig whose delay varies over
-// its operating points can look like p and q taken for each other. Costs are compared over the same
-// residuals.
+// Transfers take no part, because analysis_health.h checks their sign and order over their whole
+// band. A record that has a transfer is not suspected of a wrong sign or order here, where a rig
+// whose delay varies over its operating points can look like p and q taken for each other. Costs
+// are compared over the same residuals.
 #ifndef HOWL_ESTIMATION_HEALTH_MISTAKE_SEARCH_H_
 #define HOWL_ESTIMATION_HEALTH_MISTAKE_SEARCH_H_
 
@@ -36,7 +36,7 @@ struct MistakeSearch {
   int threads = 0;
 };
 
-// `fit` is of `problem`, which was made with `residuals`.
+// fit: the solution of `problem`, which was made with `residuals`.
 Health FindMistakes(const JointProblem& problem, const ResidualSet& residuals, const JointFit& fit,
                     const MistakeSearch& search);
 

@@ -11,7 +11,8 @@
 //   sampling_rate     a record's rate wrong by a factor: time, and so 1 / f and Phi'(0), scale
 //
 // The slope of a flame whose delayed p' was read half a period off, as an inverted channel makes
-// it, is the right one: the two signs cancel. That of a record with p and q swapped is nothing's.
+// it, is the right one: the two signs cancel. The slope of a record with p and q swapped is that of
+// no flame.
 #ifndef HOWL_ESTIMATION_HEALTH_MISTAKES_H_
 #define HOWL_ESTIMATION_HEALTH_MISTAKES_H_
 

@@ -15,7 +15,7 @@ namespace {
 // measured records (24 channels of a combustor and a Rijke tube) the largest value is there at most
 // 6 times in 30 000 samples, 2e-4.
 constexpr double kClippedShare = 1e-3;
-// ... and this many times as often as the values beside it, on the mean. A sine's density grows
+// ... and this many times as often as the values next to it, on the mean. A sine's density grows
 // towards its ends as 1 / sqrt: its last step of a converter is 2.4 times as full as the next one.
 constexpr double kClippedOverNext = 10.0;
 constexpr std::size_t kNextValues = 8;
@@ -104,7 +104,7 @@ class SampleCheck {
       }
       ++equal;
       ++run;
-      // What is clipped stands still at its end, and is told.
+      // A clipped signal stands still at its end, which is reported as clipping.
       if (run > longest && std::ranges::find(clipped_, samples_[i]) == clipped_.end()) {
         longest = run;
         longest_end = i;
@@ -119,7 +119,7 @@ class SampleCheck {
               NumberWord(sampling_hz_, 5) + " Hz");
       return;
     }
-    // Repeats of the run itself are none by chance.
+    // Repeats within the run itself do not count as chance.
     const double others = static_cast<double>(equal - std::min(equal, longest - 1)) + 1.0;
     const double by_chance = std::min(others / static_cast<double>(n), 0.99);
     const double expected = std::log(static_cast<double>(n)) / -std::log(by_chance);
@@ -141,7 +141,7 @@ class SampleCheck {
       if (samples_[i] != start[0] || !std::ranges::equal(samples_.subspan(i, kSameStart), start)) {
         continue;
       }
-      // A simulation may be periodic, sample for sample: then it comes again at once.
+      // A simulation may be periodic, sample for sample, and then repeats at once.
       Add("appended", static_cast<double>(i), static_cast<double>(n),
           "begins again at sample " + std::to_string(i + 1) + " (" +
               NumberWord(static_cast<double>(i) / sampling_hz_, 4) +

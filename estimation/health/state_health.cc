@@ -13,7 +13,7 @@ std::string PlusMinus(const Estimate& estimate) {
   return text;
 }
 
-// No peak that could be followed.
+// The finding where there is no peak that could be followed.
 Finding Peakless(const Analysis& analysis) {
   const PeakTest& peak = analysis.characteristics.peak;
   Finding finding{FindingKind::kState, analysis.name};

@@ -34,7 +34,7 @@ Transfer WithoutMistake(Transfer transfer, Undone undone) {
     point.variance_re = covariance(0, 0);
     point.variance_im = covariance(1, 1);
     point.covariance = covariance(0, 1);
-    // The power of what then is q.
+    // The power of the channel that is then q.
     if (undone == Undone::kOrder) point.weight *= std::norm(h);
   }
   return transfer;
@@ -62,7 +62,7 @@ double CostOf(const TransferFit& fit) {
   return fit.chi_square_per_dof * static_cast<double>(fitted);
 }
 
-// Infinite where the fit is none.
+// Infinite where there is no fit.
 double CostWithout(const Transfer& transfer, Undone undone, const ModelSpec& model,
                    const TransferBand& band) {
   const TransferFit fit = FitTransfer(WithoutMistake(transfer, undone), model, band);
@@ -70,7 +70,7 @@ double CostWithout(const Transfer& transfer, Undone undone, const ModelSpec& mod
   return is_fit ? CostOf(fit) : std::numeric_limits<double>::infinity();
 }
 
-// The mistake that fits far better undone, if one does.
+// The mistake without which the fit is far better, if there is one.
 std::optional<Undone> Mistaken(const Costs& costs) {
   const auto better = [&](double after) {
     return costs.given - after > kMuchBetter && after < kMostLeft * costs.given;
@@ -96,7 +96,7 @@ Finding Accusation(const std::string& who, Undone undone, const Costs& costs) {
               NumberWord(after)};
 }
 
-// All at once where every record that has a transfer says the same.
+// One finding for all records where every record with a transfer shows the same.
 void AddMistakes(const AnalysisSet& set, std::span<const Costs> costs, Health& health) {
   for (const Undone undone : {Undone::kSign, Undone::kOrder}) {
     Costs all;

@@ -2,7 +2,7 @@
 //
 //   residual = max(0, 1 - |L Phi'(0)|) / std
 //
-// flame_slope: Phi'(0), data (the seed's table 3). std: standard deviation of the loop gain.
+// flame_slope: Phi'(0), data (the paper's table 3). std: standard deviation of the loop gain.
 #ifndef HOWL_ESTIMATION_RESIDUALS_LIMIT_CYCLE_GAIN_H_
 #define HOWL_ESTIMATION_RESIDUALS_LIMIT_CYCLE_GAIN_H_
 

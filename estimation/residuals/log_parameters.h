@@ -13,16 +13,16 @@
 
 namespace howl {
 
-// What the fourth parameter block holds, and the ratio of the modes' frequencies.
+// The kind of the fourth parameter block, and the ratio of the modes' frequencies.
 struct SecondMode {
-  double harmonic_ratio = kSeedHarmonicRatio;
+  double harmonic_ratio = kPaperHarmonicRatio;
   bool relative = false;  // log(M / N) instead of log M
 };
 
 template <typename T>
 Acoustics<T> OneModeFromLogs(const T* log_omega_hz, const T* log_xi, const T* log_N) {
   using std::exp;
-  return {exp(*log_omega_hz), exp(*log_xi), exp(*log_N), T(0.0), T(kSeedHarmonicRatio)};
+  return {exp(*log_omega_hz), exp(*log_xi), exp(*log_N), T(0.0), T(kPaperHarmonicRatio)};
 }
 
 template <typename T>

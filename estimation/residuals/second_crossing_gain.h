@@ -1,6 +1,6 @@
-// Why a line stands where the loop's phase crosses 180 degrees a second time (section 4): the loop
-// does so "with magnitude greater than one", which is (1b) at the line. One-sided, and the same
-// residual as limit_cycle_gain.h:
+// A line appears where the loop's phase crosses 180 degrees a second time "with magnitude greater
+// than one" (section 4), which is (1b) at the line. The residual is one-sided, as in
+// limit_cycle_gain.h:
 //
 //   residual = max(0, 1 - |L(j 2 pi f_line) Phi'(0)|) / std
 #ifndef HOWL_ESTIMATION_RESIDUALS_SECOND_CROSSING_GAIN_H_

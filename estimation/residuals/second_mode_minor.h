@@ -2,7 +2,8 @@
 //
 //   residual = max(0, |M U_r(j 2 pi f)| / |N U_1(j 2 pi f)| - share_max) / std
 //
-// share_max: up to which the second mode hardly matters; std: of the share.
+// share_max: the share up to which the second mode hardly matters; std: standard deviation of the
+// share.
 #ifndef HOWL_ESTIMATION_RESIDUALS_SECOND_MODE_MINOR_H_
 #define HOWL_ESTIMATION_RESIDUALS_SECOND_MODE_MINOR_H_
 

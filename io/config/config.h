@@ -45,7 +45,7 @@ struct Config {
   LocatedNode tree;                        // the file as it was written
 };
 
-// A config read on behind its mistakes.
+// A config that is read on after its mistakes.
 struct ConfigReading {
   std::vector<UserError> mistakes;  // in the order of the file where they have lines
   // Absent where the mistakes leave nothing to read. Experiments with a mistake are left out; of a

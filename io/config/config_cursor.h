@@ -13,7 +13,7 @@ namespace howl {
 
 class ConfigCursor {
  public:
-  // The file's name and the tree outlive the cursor.
+  // The file's name and the tree must outlive the cursor.
   ConfigCursor(const std::string& file, const LocatedNode& node, std::string key = "")
       : file_(&file), node_(&node), key_(std::move(key)) {}
 

@@ -40,7 +40,7 @@ double ReadNullValue(const ConfigCursor& parameter) {
   return std::numeric_limits<double>::infinity() * (negative ? -1.0 : 1.0);
 }
 
-// Between the bounds, a quarter and three quarters of the way.
+// Two starts between the bounds, at a quarter and at three quarters of the way.
 std::vector<double> DefaultStarts(const EffectParameter& p) {
   std::vector<double> starts;
   for (const double way : {0.25, 0.75}) {
@@ -117,7 +117,7 @@ void ReadParameters(const ConfigCursor& cursor, EffectDeclaration& effect) {
   }
 }
 
-// To an unknown name at `position`, if that is what stands there.
+// Adds a suggestion for an unknown name at `position`, if there is one.
 std::optional<std::string> NearestName(const std::string& text, std::size_t position,
                                        const EffectDeclaration& effect) {
   std::string word;
@@ -224,7 +224,7 @@ void ReadForm(const ConfigCursor& cursor, EffectDeclaration& effect) {
   for (const Known& known : kForms) {
     if (!cursor.Find(known.key)) continue;
     if (found) {
-      cursor.FailAt(known.key, std::string("stands beside ") + found->key +
+      cursor.FailAt(known.key, std::string("is given with ") + found->key +
                                    ", expected one of them in an effect");
     }
     found = &known;

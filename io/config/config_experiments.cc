@@ -16,7 +16,7 @@ void CheckRecordAlone(const ConfigCursor& cursor) {
   const auto check = [&](const char* key) {
     if (!cursor.Find(key)) return;
     cursor.FailAt(key,
-                  "stands beside a record, which gives it; expected either record or published "
+                  "is given with a record, which gives it too; expected either record or published "
                   "numbers (frequency_hz, phase_deg, gain, ...)");
   };
   for (const char* const key : kNeededNumbers) check(key);
@@ -56,13 +56,13 @@ void ReadNumbers(const ConfigCursor& cursor, Experiment& experiment) {
   }
 }
 
-// simulate writes NAME.csv beside what the other commands write.
+// simulate writes NAME.csv into the folder of the other commands' results.
 void CheckName(const ConfigCursor& cursor, const std::string& name) {
   if (IsResultsName(name)) {
     cursor.FailAt("name", "\"" + name + "\" is the name of a file of results, " + name +
                               ".csv, expected another name");
   }
-  // In the name of a record's file this would be taken from the environment.
+  // In the name of a record's file `${` would be replaced from the environment.
   if (name.find("${") != std::string::npos) {
     cursor.FailAt("name", "\"" + name + "\" has ${, expected a name without it");
   }

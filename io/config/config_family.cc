@@ -64,6 +64,8 @@ void ReadAnalysis(const ConfigCursor& root, Config& config) {
     for (const CharacteristicsMethod each : kAnalysisMethods) {
       if (method->Node().text == AnalysisMethodName(each)) config.analysis.method = each;
     }
+    // The name of the paper's method in configs written before it was called `paper`.
+    if (method->Node().text == "seed") config.analysis.method = CharacteristicsMethod::kPaper;
   }
   analysis->Read("min_frequency_hz", config.analysis.min_frequency_hz);
   analysis->Read("max_frequency_hz", config.analysis.max_frequency_hz);

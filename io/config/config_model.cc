@@ -43,7 +43,7 @@ void CheckSecondMode(const ConfigCursor& parameters, const ModelSpec& model) {
   const bool has_m = parameters.Find("M").has_value();
   const bool has_ratio = parameters.Find("M_over_N").has_value();
   if (has_m && has_ratio) {
-    parameters.FailAt("M_over_N", "stands beside M, expected only one of the two");
+    parameters.FailAt("M_over_N", "is given with M, expected only one of the two");
   }
   if (model.modes == 2 || (!has_m && !has_ratio)) return;
   parameters.FailAt(has_m ? "M" : "M_over_N",

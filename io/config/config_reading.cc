@@ -55,7 +55,7 @@ class Reading {
   }
 
  private:
-  // One mistake for all of them, and then they are as numbers: what else is wrong shows as well.
+  // All of them are one mistake, and are then read as numbers, so that other mistakes show as well.
   void TakePlaceholders() {
     const std::vector<Placeholder> all = FindPlaceholders(tree_);
     if (all.empty()) return;

@@ -17,7 +17,7 @@ nlohmann::json ConfigSchemaFor(const std::string& operating_parameter,
 // Follows a "$ref" into the schema's definitions; any other schema is returned as it is.
 const nlohmann::json& ResolveRef(const nlohmann::json& root, const nlohmann::json& schema);
 
-// The schema of a mapping's key: its own, or that of any key; nothing for an unknown key.
+// The schema of a mapping's key: its own, or that of any key; no value for an unknown key.
 const nlohmann::json* FindMemberSchema(const nlohmann::json& root, const nlohmann::json& schema,
                                        const std::string& key);
 

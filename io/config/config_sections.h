@@ -14,7 +14,7 @@
 
 namespace howl {
 
-// Reads on behind a mistake in an experiment, for who wants to know all of them.
+// Reads on after a mistake in an experiment, to find all of them.
 struct ExperimentMistakes {
   std::set<std::size_t>
       told;  // experiments of which a mistake is known: their names alone are read
@@ -35,7 +35,7 @@ void ReadEffects(const ConfigCursor& root, Config& config);
 
 RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file);
 
-// Whether simulate's NAME.csv would take the place of a file of results: "family".
+// Whether simulate's NAME.csv would overwrite a file of results, as the name "family" would.
 bool IsResultsName(std::string_view name);
 
 // A path with ${NAME} replaced from the environment. Throws UserError at `file` for a name that is

@@ -93,7 +93,7 @@ void ReadStart(const ConfigCursor& simulation, SimulationSpec& spec) {
     if (start->Node().text == SimulationStartName(each)) spec.start = each;
   }
   if (spec.start_frequency_hz) {
-    simulation.FailAt("start_frequency_hz", "stands beside start, expected only one of the two");
+    simulation.FailAt("start_frequency_hz", "is given with start, expected only one of the two");
   }
 }
 

@@ -21,7 +21,7 @@ std::string_view Trimmed(std::string_view text) {
   return text;
 }
 
-// At commas and semicolons, or at white space where the line has neither.
+// Splits a line at commas and semicolons, or at white space where it has neither.
 Cells CellsOf(std::string_view line) {
   line = Trimmed(line);
   const bool has_marks = line.find_first_of(",;") != line.npos;
@@ -51,7 +51,7 @@ bool AreNumbers(const Cells& cells) {
   return !cells.empty();
 }
 
-// The line before the numbers, or nothing; false where there are no rows of numbers.
+// Finds the line before the numbers, if there is one; false where there are no rows of numbers.
 bool FindHeader(std::string_view text, Cells& header, std::size_t& columns) {
   std::size_t rows = 0;
   for (std::size_t line = 0; line < kMostHeaderLines + kRows && !text.empty(); ++line) {

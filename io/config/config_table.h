@@ -1,4 +1,4 @@
-// A record given as the config: what it is, and the config that it belongs into.
+// Recognises a record that was given in the place of a config.
 #ifndef HOWL_IO_CONFIG_CONFIG_TABLE_H_
 #define HOWL_IO_CONFIG_CONFIG_TABLE_H_
 
@@ -7,8 +7,8 @@
 
 namespace howl {
 
-// What stands in the place of a config, and what was expected; empty where `text`, the beginning of
-// the file, is no table of numbers and no file of MATLAB, HDF5 or gzip. `file`: its path.
+// Says what the file is, and which config was expected; empty where `text`, the beginning of the
+// file, is no table of numbers and no file of MATLAB, HDF5 or gzip. `file`: its path.
 std::string DescribeRecordAsConfig(const std::string& file, std::string_view text);
 
 }  // namespace howl

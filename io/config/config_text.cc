@@ -105,7 +105,7 @@ std::string ReadConfigText(const std::filesystem::path& path) {
     throw UserError(file, 0, "", "the file cannot be read, expected a readable config (YAML)");
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  // Before its size and its bytes, which such a file has wrong as well.
+  // This is checked before the size and the bytes, which are wrong in such a file as well.
   const std::string record = DescribeRecordAsConfig(file, text);
   if (!record.empty()) throw UserError(file, 1, "experiments", record);
   int number = 1;

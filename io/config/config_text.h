@@ -9,7 +9,8 @@
 
 namespace howl {
 
-// Generous for hand-written and generated configs alike; they bound the parser's time.
+// These limits are generous for hand-written and generated configs alike; they bound the parser's
+// time.
 inline constexpr std::size_t kMaxConfigBytes = std::size_t{4} << 20;
 inline constexpr std::size_t kMaxConfigLineBytes = std::size_t{256} << 10;
 
@@ -17,12 +18,12 @@ inline constexpr std::size_t kMaxConfigLineBytes = std::size_t{256} << 10;
 // line that is too long, bytes that are not text, and a tab in an indentation.
 std::string ReadConfigText(const std::filesystem::path& path);
 
-// Where `text` has its first byte that is no UTF-8 or a control character (other than tab and line
-// ends); npos where all is text.
+// The position of the first byte that is no UTF-8 or is a control character (other than tab and
+// line ends); npos where all is text.
 std::size_t FindNoText(std::string_view text);
 
-// The key that a line (from 1), or the nearest one above it that has a key, opens with: what a
-// message names when the text does not parse. Empty where there is none.
+// The key with which a line (from 1), or the nearest one above it that has a key, begins; a message
+// names it when the text does not parse. Empty where there is none.
 std::string KeyNearLine(const std::string& text, int line);
 
 }  // namespace howl

@@ -1,4 +1,4 @@
-// What has to be known of a config's tree before the schema can check it.
+// Reads what has to be known of a config's tree before the schema can check it.
 #ifndef HOWL_IO_CONFIG_CONFIG_TREE_H_
 #define HOWL_IO_CONFIG_CONFIG_TREE_H_
 

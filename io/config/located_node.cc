@@ -39,7 +39,7 @@ bool IsNumber(std::string_view text, double& value, bool& is_integer) {
   const char* end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, value);
   if (stop != end || error == std::errc::invalid_argument) return false;
-  // In any notation (1e3 counts too); beyond 2^53 a double no longer counts in ones.
+  // A whole number in any notation (1e3 too); beyond 2^53 doubles are no longer one apart.
   is_integer = value == std::floor(value) && value < 9007199254740992.0;
   if (error == std::errc::result_out_of_range) {
     const std::size_t exponent = digits.find_first_of("eE");

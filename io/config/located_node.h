@@ -35,7 +35,7 @@ struct LocatedMember {
 };
 
 // A plain (unquoted) scalar by the rules of YAML 1.2's core schema, with yes, no, on and off as
-// booleans besides; anything in quotes is text.
+// booleans as well; anything in quotes is text.
 LocatedNode MakeScalar(const std::string& text, bool quoted, int line);
 
 // For the schema's check. A number that is not finite becomes text, which no number may be.

@@ -1,4 +1,4 @@
-// What a mistyped word was probably meant to be.
+// The word that a mistyped one was probably meant to be.
 #ifndef HOWL_IO_CONFIG_NEAREST_KEY_H_
 #define HOWL_IO_CONFIG_NEAREST_KEY_H_
 

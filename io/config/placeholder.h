@@ -20,8 +20,8 @@ struct Placeholder {
 // In the order of the file.
 std::vector<Placeholder> FindPlaceholders(const LocatedNode& root);
 
-// What is said of the first, or of all of them in one line: "is still to be filled in (and 12 more
-// places), expected a number".
+// The message about the first, or about all of them in one line: "is still to be filled in (and 12
+// more places), expected a number".
 std::string PlaceholderText(const std::vector<Placeholder>& all);
 
 // Throws UserError at the first, which says how many there are.

@@ -62,7 +62,7 @@ void Check(const std::string& file, const LocatedNode& node, const std::string& 
   for (const LocatedMember& member : node.members) {
     const std::string inner = JoinKey(key, member.key);
     CheckText(file, member.key_line, inner, member.key, mistakes);
-    // Where an effect is absent, which may be as far off as one likes.
+    // The value at which an effect is absent may be as large as one likes.
     if (member.key == "null_value") continue;
     Check(file, member.value, inner, mistakes);
   }

@@ -1,4 +1,4 @@
-// What holds for every scalar of a config, whatever its key: numbers lie within the range that the
+// The rules for every scalar of a config, whatever its key: numbers lie within the range that the
 // arithmetic carries (io/number_range.h), and texts are text.
 #ifndef HOWL_IO_CONFIG_SCALAR_CHECK_H_
 #define HOWL_IO_CONFIG_SCALAR_CHECK_H_
@@ -11,7 +11,7 @@
 
 namespace howl {
 
-// All that break this, in the order of the file.
+// All scalars and keys that break this, in the order of the file.
 std::vector<UserError> FindScalarMistakes(const std::string& file, const LocatedNode& root);
 
 // Throws UserError for the first scalar or key that breaks this.

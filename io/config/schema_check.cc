@@ -1,4 +1,4 @@
-// valijson decides whether and where the tree breaks the schema; what is said of the place comes
+// valijson decides whether and where the tree breaks the schema; the message about the place comes
 // from io/schema_explain.
 #include "io/config/schema_check.h"
 

@@ -1,4 +1,4 @@
-// A config's tree against the config's schema.
+// Checks a config's tree against the config's schema.
 #ifndef HOWL_IO_CONFIG_SCHEMA_CHECK_H_
 #define HOWL_IO_CONFIG_SCHEMA_CHECK_H_
 

@@ -29,7 +29,7 @@ std::string Join(const std::vector<std::string>& words);
 // The keys of a mapping's schema, required ones first.
 std::vector<std::string> KeysOf(const nlohmann::json& schema);
 
-// Where the schema knows `key`, if that is one place only: "family" for "members".
+// The section in which the schema has `key`, if it is one only: "family" for "members".
 std::optional<std::string> OnlyPlaceOf(const std::string& key, const nlohmann::json& root_schema);
 
 }  // namespace howl

@@ -1,4 +1,4 @@
-// The config's `simulate:`: what `howl simulate` needs beyond the fitted loop.
+// The config's `simulate:`: what `howl simulate` needs in addition to the fitted loop.
 #ifndef HOWL_IO_CONFIG_SIMULATION_SPEC_H_
 #define HOWL_IO_CONFIG_SIMULATION_SPEC_H_
 
@@ -22,7 +22,7 @@ inline constexpr std::array kFlameShapes = {FlameShape::kTanh, FlameShape::kArct
                                             FlameShape::kCubic, FlameShape::kPiecewiseLinear,
                                             FlameShape::kAlgebraic};
 
-// As in configs.
+// The name in configs.
 constexpr std::string_view FlameShapeName(FlameShape shape) {
   constexpr std::array<std::string_view, kFlameShapes.size()> kNames = {
       "tanh", "arctan", "cubic", "piecewise_linear", "algebraic"};
@@ -37,7 +37,7 @@ struct SimulatedEffect {
   std::string key;  // of the config
 };
 
-// Where a simulation comes from.
+// The state in which a simulation starts.
 enum class SimulationStart : std::uint8_t { kObservedCycle, kUpperCycle, kRest };
 inline constexpr std::array kSimulationStarts = {
     SimulationStart::kObservedCycle, SimulationStart::kUpperCycle, SimulationStart::kRest};
@@ -67,8 +67,8 @@ struct SimulationSpec {
   double combustion_noise_relative = 0.01;  // rms over saturation
   std::optional<double> combustion_noise_corner_hz;
   double sensor_noise_relative = 0.001;  // rms over the cycle's amplitude, in each channel
-  // An experiment was seen in a limit cycle, so (1b) holds: a flame slope that gives less loop gain
-  // than this is raised to it.
+  // A measured experiment was in a limit cycle, so (1b) holds: a flame slope that gives less loop
+  // gain than this is raised to it.
   double loop_gain_min = 1.1;
   SimulationStart start = SimulationStart::kObservedCycle;
   std::optional<double> start_frequency_hz;  // the cycle nearest to it
@@ -77,8 +77,8 @@ struct SimulationSpec {
   std::vector<SimulatedEffect> effects;
 };
 
-// What the config leaves open follows the cycle (model/cycle_scale.h): as many periods, and as many
-// samples a period, whatever its frequency.
+// Times that the config does not state follow the cycle (model/cycle_scale.h): the number of
+// periods, and of samples in a period, is the same whatever its frequency.
 struct SimulationTimes {
   double duration_s = 3.2;  // the paper's 16 000 samples at 5 kHz, of a cycle at 220 Hz
   double sampling_hz = 5000.0;

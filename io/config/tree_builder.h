@@ -24,7 +24,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
 
-  // Where the last scalar in quotes (or in a block) started; null when there was none.
+  // The position at which the last scalar in quotes (or in a block) started; null without one.
   YAML::Mark LastQuoted() const { return last_quoted_; }
   LocatedNode TakeRoot() { return std::move(root_); }
 

@@ -15,7 +15,7 @@
 namespace howl {
 namespace {
 
-// What was expected where the parser stopped with `message`.
+// The expectation that goes into the message where the parser stopped with `message`.
 std::string ParseExpectation(const std::string& message) {
   const auto says = [&](const char* part) { return message.find(part) != std::string::npos; };
   if (says("flow")) return "a comma or a closing bracket behind a value";

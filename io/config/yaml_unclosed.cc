@@ -57,7 +57,7 @@ std::optional<Unclosed> FindUnclosedBracket(const std::string& text) {
     if (c == '\n') ++line;
     if (!IsOneOf(c, " \t\r")) last = c;
   }
-  // Of several the outermost is named: the rest stand inside it.
+  // Of several unclosed characters the outermost is named, because the others are inside it.
   if (open.empty()) return std::nullopt;
   return open.front();
 }

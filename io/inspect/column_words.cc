@@ -115,7 +115,7 @@ ColumnWords MeaningOf(const std::string& name) {
     if (IsNumberedChannel(words, i)) continue;
     const std::string word = Lower(words[i]);
     const std::string bare = word.substr(0, word.find_last_not_of("0123456789") + 1);
-    // What is behind the first word and short is a unit: time_s, q_kw.
+    // A short word behind the first one is a unit: time_s, q_kw.
     if (i > 0 && bare.size() < 2) continue;
     const ColumnMeaning meaning = Find(word, bare, std::begin(kWords), std::end(kWords));
     if (meaning != ColumnMeaning::kNone) return {meaning, words[i]};

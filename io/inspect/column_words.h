@@ -1,4 +1,4 @@
-// What a column's name says of it: `time_ms`, `P1 [Pa]`, `PMT (V)`, `OH*`.
+// What a column's name tells about its content: `time_ms`, `P1 [Pa]`, `PMT (V)`, `OH*`.
 #ifndef HOWL_IO_INSPECT_COLUMN_WORDS_H_
 #define HOWL_IO_INSPECT_COLUMN_WORDS_H_
 
@@ -21,8 +21,8 @@ struct ColumnWords {
   std::string word;  // of the name, that says so: "PMT", or a unit, "Pa"
 };
 
-// By words of the name first, by its unit (in brackets, or behind the last _) where they say
-// nothing. Upper and lower case are one.
+// Words of the name decide first, then its unit (in brackets, or behind the last _) where they tell
+// nothing. Upper and lower case are the same.
 ColumnWords MeaningOf(const std::string& name);
 
 }  // namespace howl

@@ -26,7 +26,7 @@ std::string Count(std::size_t count, const std::string& thing) {
 // "column 2", or "column pmt" by the header's name.
 std::string ColumnText(const ColumnLook& column) { return "column " + column.info.name; }
 
-// What the config needs for one layout of files.
+// The keys that the config needs for one layout of files.
 struct Layout {
   std::vector<const RecordLook*> looks;
   RoleGuess roles;
@@ -67,7 +67,7 @@ std::vector<std::string> Names(std::span<const RecordLook> looks) {
   return names;
 }
 
-// As the config finds it: relative to its folder where it was given relative.
+// The path in the config: relative to the config's folder where it was given relative.
 std::string PathText(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::filesystem::path path = file;
   if (!file.is_absolute() && !folder.empty()) {
@@ -83,7 +83,7 @@ std::string PathText(const std::filesystem::path& file, const std::filesystem::p
   return text;
 }
 
-// What the pressure shows: whether there is a cycle in it to be identified.
+// A comment that says whether the pressure has a cycle that can be identified.
 std::string CycleText(const RecordLook& look, const RoleGuess& roles, double rate_hz) {
   const ColumnLook& p = look.columns[*roles.pressure];
   if (rate_hz <= 0.0 || p.not_finite > 0 || !p.IsSignal()) return "";

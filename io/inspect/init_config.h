@@ -1,4 +1,4 @@
-// A config for records that were looked into, with each guess and its reason as a comment.
+// Writes a config for records that were inspected, with each guess and its reason as a comment.
 #ifndef HOWL_IO_INSPECT_INIT_CONFIG_H_
 #define HOWL_IO_INSPECT_INIT_CONFIG_H_
 

@@ -38,7 +38,8 @@ void TakeValues(std::vector<double> values, ColumnLook& look) {
   look.values = std::move(values);
 }
 
-// A file of arrays may hold more than the record: what has the length of most is it.
+// A file of arrays may hold more than the record, whose columns are those of the most common
+// length.
 std::size_t RecordLength(const std::vector<ColumnInfo>& columns) {
   std::map<std::size_t, int> counts;
   for (const ColumnInfo& column : columns) {

@@ -1,5 +1,5 @@
-// A record's file looked into without knowing anything of it: its columns, what they hold, and
-// which is time.
+// Inspects a record's file of which nothing is known: its columns, what they hold, and which is
+// time.
 #ifndef HOWL_IO_INSPECT_RECORD_LOOK_H_
 #define HOWL_IO_INSPECT_RECORD_LOOK_H_
 
@@ -26,7 +26,7 @@ struct ColumnLook {
   double MeanOverStd() const { return std > 0.0 ? (mean < 0 ? -mean : mean) / std : 0.0; }
 };
 
-// What was guessed, and from what.
+// The guess, and the facts from which it was made.
 struct TimeGuess {
   std::optional<std::size_t> column;  // absent: no column is time
   std::string column_reason;

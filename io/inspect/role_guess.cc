@@ -114,7 +114,7 @@ class Guesser {
         candidates_, {}, [](const Candidate& each) { return each.mean_over_std; });
     guess_.is_sure = candidates_.size() == 1;
     TakePressure(p, candidates_.size() == 1
-                        ? "the only signal beside heat release"
+                        ? "the only signal other than heat release"
                         : "NOT SURE: of the columns left it has the smallest mean: " + Ratio(p));
   }
 
@@ -124,7 +124,7 @@ class Guesser {
         candidates_, {}, [](const Candidate& each) { return each.mean_over_std; });
     guess_.is_sure = candidates_.size() == 1;
     TakeHeatRelease(q, candidates_.size() == 1
-                           ? "the only signal beside pressure"
+                           ? "the only signal other than pressure"
                            : "NOT SURE: of the columns left it has the largest mean: " + Ratio(q));
   }
 

@@ -1,4 +1,4 @@
-// Texts as a YAML file takes them.
+// Texts in the form that a YAML file needs.
 #ifndef HOWL_IO_INSPECT_YAML_TEXT_H_
 #define HOWL_IO_INSPECT_YAML_TEXT_H_
 
@@ -7,7 +7,7 @@
 
 namespace howl {
 
-// In quotes where a reader would take it for something else than this text.
+// The text, in quotes where a reader would take it for something else.
 std::string YamlScalar(const std::string& text);
 
 // A comment of as many lines as it needs, each of `columns` characters at most where words allow;

@@ -10,7 +10,7 @@
 
 namespace howl {
 
-// What went wrong with the bytes; the reader above adds the file and the line.
+// A fault in the bytes; the caller adds the file and the line.
 class ByteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,7 +26,7 @@ class ByteSource {
   // Up to `size` bytes; fewer only at the end. Throws ByteError.
   virtual std::size_t Read(char* to, std::size_t size) = 0;
 
-  // How much of the file has been taken, 0 to 1: tells how many rows to make room for.
+  // The share of the file that has been read, 0 to 1, which tells how many rows to reserve.
   virtual double FractionRead() const = 0;
 };
 

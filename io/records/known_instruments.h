@@ -1,4 +1,4 @@
-// What a config knows of a record's instruments is taken out of the record.
+// Removes from a record the responses of its instruments that the config states.
 #ifndef HOWL_IO_RECORDS_KNOWN_INSTRUMENTS_H_
 #define HOWL_IO_RECORDS_KNOWN_INSTRUMENTS_H_
 
@@ -12,7 +12,7 @@ namespace howl {
 // The formula, or the table, whose file is read. Throws UserError for a bad table.
 InstrumentResponse ResponseOf(const ResponseSpec& known);
 
-// By remove_instruments.h; no bit changes where the spec knows of none. Throws UserError for a bad
+// Uses remove_instruments.h; no bit changes where the spec states none. Throws UserError for a bad
 // table, with its file and line, and with the config's for a response without a finite value, one
 // that is zero at every frequency or leaves a signal out of range, and a delay_s beyond a fiftieth
 // of the record.

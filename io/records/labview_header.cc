@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kEnd = "***End_of_Header***";
 
-// What follows the key, up to the line's end; nothing for another key.
+// The text that follows the key, up to the line's end; no value for another key.
 std::optional<std::string_view> ValueOf(std::string_view line, std::string_view key) {
   if (!line.starts_with(key) || line.size() == key.size()) return std::nullopt;
   const std::string_view rest = line.substr(key.size());

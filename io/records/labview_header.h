@@ -27,7 +27,7 @@ struct LabviewHeader {
   std::optional<double> step_s;  // Delta_X of the first channel, in units of X: seconds
 };
 
-// `start`: the file's first lines. Nothing where none of them ends a header.
+// `start`: the file's first lines. No value where none of them ends a header.
 std::optional<LabviewHeader> ReadLabviewHeader(std::string_view start);
 
 }  // namespace howl

@@ -21,7 +21,7 @@ class LineBlocks {
 
   const char* begin() const { return buffer_.data(); }
   const char* end() const { return buffer_.data() + whole_; }
-  // In what is left of the block.
+  // Replaces a character in the rest of the block, from `from` on.
   void Replace(const char* from, char old_character, char new_character);
   double FractionRead() const { return bytes_->FractionRead(); }
 

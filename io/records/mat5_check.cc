@@ -46,14 +46,14 @@ std::optional<Element> ElementAt(const Bytes& bytes, std::size_t at, const Words
   return Element{first, length, at + kTag, at + kTag + (length + 7) / 8 * 8};
 }
 
-// 0 for what is no number.
+// 0 for a type that is no number.
 std::size_t SizeOfType(std::uint32_t type) {
   constexpr std::array<std::size_t, 14> kSizes = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
   return type < kSizes.size() ? kSizes[type] : 0;
 }
 
-// What is wrong with a variable, of which `bytes` has the start behind its own tag: empty if
-// nothing.
+// The fault of a variable, of which `bytes` has the start behind its own tag; empty if there is
+// none.
 std::string Fault(const Bytes& bytes, const Words& words, std::string* name) {
   const auto flags = ElementAt(bytes, 0, words);
   if (!flags || flags->next > bytes.size() || flags->length < 4) return "";

@@ -1,5 +1,5 @@
-// MATLAB 5 files against their own words. matio reads as many numbers as a variable's dimensions
-// ask for, whatever the variable has: what is missing is zero or comes from its neighbour.
+// Checks MATLAB 5 files for consistency. matio reads as many numbers as a variable's dimensions ask
+// for, whatever the variable has, so that missing ones are zero or come from its neighbour.
 //
 // A file is a header of 128 bytes and elements, each a tag of type and length (two 32-bit words)
 // and its bytes; a variable (type 14, or inside zlib data, type 15) has as elements, padded to

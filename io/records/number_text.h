@@ -1,4 +1,4 @@
-// Numbers as a message shows them.
+// Numbers in the form that messages show.
 #ifndef HOWL_IO_RECORDS_NUMBER_TEXT_H_
 #define HOWL_IO_RECORDS_NUMBER_TEXT_H_
 

@@ -43,7 +43,7 @@ class Faults {
     }
   }
 
-  // As the pressure of a record without time: the samples' own faults.
+  // Each column is read as the pressure of a record without time, which shows its samples' faults.
   void TryAlone(const ColumnName& column) {
     RecordSpec alone = spec_;
     alone.pressure = column;
@@ -60,7 +60,7 @@ class Faults {
     Try([&] { LoadRecord(alone, config_file_, config_line_); });
   }
 
-  // The times need a column beside them, which may be any that can be read.
+  // The times need another column with them, which may be any that can be read.
   void TryTime() {
     RecordSpec timed = spec_;
     timed.heat_release.reset();

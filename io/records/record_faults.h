@@ -1,4 +1,4 @@
-// All that is wrong with a record's file, where LoadRecord stops at the first.
+// Finds all faults of a record's file, where LoadRecord stops at the first.
 #ifndef HOWL_IO_RECORDS_RECORD_FAULTS_H_
 #define HOWL_IO_RECORDS_RECORD_FAULTS_H_
 

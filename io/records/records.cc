@@ -19,7 +19,7 @@
 namespace howl {
 namespace {
 
-// A factor of a thousand is told from one by far less.
+// Two rates whose relative difference is less are in the same unit; units differ by a thousand.
 constexpr double kSameRate = 0.01;
 
 struct Part {
@@ -102,7 +102,7 @@ Part Loader::ChoosePart(std::size_t rows, double step_s) const {
 }
 
 // Seconds in a unit of the times: as the config states it, else by the column's name, or by the
-// rate that sampling_hz gives beside them; else the times are in seconds.
+// rate that sampling_hz gives with them; else the times are in seconds.
 double Loader::TimeUnit(double step) const {
   if (spec_.time_unit_s) return *spec_.time_unit_s;
   if (const auto unit_s = TimeUnitOfName(table_->NameOf(*spec_.time))) return *unit_s;

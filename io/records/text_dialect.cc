@@ -29,7 +29,7 @@ bool MakesTable(std::span<const std::string_view> lines, const TextDialect& dial
                 const TextLayout& as_stated, bool all_numbers) {
   std::size_t at = 0;
   const TextLayout layout = LayoutOf(lines, dialect, at);
-  // What would be skipped is the table's own header, and a row below it that is damaged.
+  // The rows that would be skipped are the table's own header and a damaged row below it.
   const bool has_header = layout.names.empty() && as_stated.names.size() == layout.columns;
   if (has_header && as_stated.separator == layout.separator) return false;
   std::vector<bool> is_number;

@@ -17,7 +17,7 @@ inline constexpr std::size_t kDialectLines = 100;
 // `lines`: the file's first ones, kDialectLines at most. The dialect that is nearest to `stated`
 // (first with its decimal sign, then with the other; few skipped rows before many) under which the
 // lines are rows of as many numbers each, a header and a units row before them apart; if there is
-// none, the one under which they are rows of numbers and texts. Nothing without such rows.
+// none, the one under which they are rows of numbers and texts. No value without such rows.
 std::optional<TextDialect> GuessDialect(std::span<const std::string_view> lines,
                                         const TextDialect& stated = {});
 

@@ -1,4 +1,4 @@
-// What the first lines of a text table tell: separator, names of the columns, number of columns.
+// The layout of a text table from its first lines: separator, names and number of the columns.
 #ifndef HOWL_IO_RECORDS_TEXT_LAYOUT_H_
 #define HOWL_IO_RECORDS_TEXT_LAYOUT_H_
 

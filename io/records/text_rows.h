@@ -1,4 +1,4 @@
-// The rows of a text table into columns of doubles: the reader's hot loop.
+// Parses the rows of a text table into columns of doubles: the reader's hot loop.
 #ifndef HOWL_IO_RECORDS_TEXT_ROWS_H_
 #define HOWL_IO_RECORDS_TEXT_ROWS_H_
 

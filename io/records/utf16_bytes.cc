@@ -27,7 +27,7 @@ Encoding EncodingOf(const std::string& start) {
   return zero[0] && text[1] ? Encoding::kBigEndian : Encoding::kOther;
 }
 
-// Gives the first bytes, which were looked at, and then the rest.
+// Gives the first bytes, which were inspected already, and then the rest.
 class Restored final : public ByteSource {
  public:
   Restored(std::string start, std::unique_ptr<ByteSource> rest)
@@ -47,7 +47,7 @@ class Restored final : public ByteSource {
   std::unique_ptr<ByteSource> rest_;
 };
 
-// Damage that shows at once is told where the lines are read.
+// Damage that shows at once is reported where the lines are read.
 class Damaged final : public ByteSource {
  public:
   explicit Damaged(ByteError error) : error_(std::move(error)) {}

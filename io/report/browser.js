@@ -17,7 +17,7 @@
   if (experiment < 0) experiment = Math.max(0, data.experiments.findIndex(measured));
   let member = 0;
 
-  // The model: seed, section 3. Complex numbers are pairs [re, im].
+  // The model: the paper, section 3. Complex numbers are pairs [re, im].
 
   const modelOf = (m, e) => {
     const at = (m * count + e) * kParameters;

@@ -151,7 +151,7 @@ Json BrowserData(const ReportInput& input) {
   const SimulationSpec spec = input.config ? input.config->simulation : SimulationSpec{};
   return {
       {"operating_label", input.OperatingLabel()},
-      {"harmonic_ratio", input.config ? input.config->model.harmonic_ratio : kSeedHarmonicRatio},
+      {"harmonic_ratio", input.config ? input.config->model.harmonic_ratio : kPaperHarmonicRatio},
       {"saturation", spec.saturation},
       {"loop_gain_min", spec.loop_gain_min},
       {"flame_shape", std::string(FlameShapeName(spec.flame_shape))},

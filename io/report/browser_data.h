@@ -1,4 +1,4 @@
-// What the page's family browser needs, as JSON: experiments with their data, all members'
+// The data of the page's family browser as JSON: experiments with their data, all members'
 // parameters as base64 of 32-bit floats, a piece of each record. Curves are computed in the page
 // from the model's equations, which keeps ten thousand members within a few megabytes.
 #ifndef HOWL_IO_REPORT_BROWSER_DATA_H_

@@ -1,4 +1,4 @@
-// A fault of a file that the report reads, in words for its reader.
+// Describes a fault of a file that the report reads, for the report's reader.
 #ifndef HOWL_IO_REPORT_FAULT_WORDS_H_
 #define HOWL_IO_REPORT_FAULT_WORDS_H_
 

@@ -15,8 +15,9 @@ namespace howl {
 struct Figure {
   std::string name;  // of its files
   std::string title;
-  std::string caption;  // what is seen, of which data
-  std::string seed;     // the seed's figure that it answers to: "7"; empty where there is none
+  std::string caption;  // what the figure shows, of which data
+  std::string
+      paper_figure;  // the paper's figure that it answers to: "7"; empty where there is none
   std::string csv;
   std::string script;  // gnuplot commands; io/report/script.h puts the common ones before them
   int width = 560;     // in points of the page

@@ -1,4 +1,4 @@
-// The page's first section: what speaks against the numbers below it.
+// The page's first section: the findings that speak against the numbers below it.
 #ifndef HOWL_IO_REPORT_HEALTH_SECTION_H_
 #define HOWL_IO_REPORT_HEALTH_SECTION_H_
 

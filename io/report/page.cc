@@ -56,8 +56,8 @@ std::string FigureHtml(const Figure& figure, const std::map<std::string, std::st
     out += "<p class=\"absent\">not drawn</p>";
   }
   out += "<figcaption><strong>" + title + ".</strong> " + EscapeHtml(figure.caption);
-  if (!figure.seed.empty()) {
-    out += " <span class=\"paper\">The paper's figure " + figure.seed + ".</span>";
+  if (!figure.paper_figure.empty()) {
+    out += " <span class=\"paper\">The paper's figure " + figure.paper_figure + ".</span>";
   }
   return out + " <span class=\"files\">figures/" + figure.name + ".svg, .pdf, .csv, .gp</span>" +
          "</figcaption></figure>\n";

@@ -61,7 +61,8 @@ std::string Joined(const nlohmann::json& names) {
   return out;
 }
 
-// Each set of conditions that exclude each other by itself, and what each alone would have to be.
+// Each set of conditions that exclude each other, and the value that each condition alone would
+// need.
 std::string ConflictHtml(const nlohmann::json& family) {
   if (!family.contains("conflict") || !family["conflict"].is_object()) return {};
   const nlohmann::json& conflict = family["conflict"];

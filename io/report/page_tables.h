@@ -1,4 +1,4 @@
-// The tables of the page: what was measured, fitted, bounded, diagnosed, tried.
+// The tables of the page: what was measured, fitted, bounded, diagnosed and tried.
 #ifndef HOWL_IO_REPORT_PAGE_TABLES_H_
 #define HOWL_IO_REPORT_PAGE_TABLES_H_
 

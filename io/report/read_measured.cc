@@ -59,7 +59,7 @@ int PeriodsOf(double tau_s, const Experiment& experiment) {
   return std::isfinite(periods) ? static_cast<int>(std::lround(periods)) : 0;
 }
 
-// A row of family.json's or solution.json's experiments: what the command knew of the record.
+// A row of family.json's or solution.json's experiments: the characteristics that the command used.
 MeasuredPoint Kept(const Json& row) {
   const auto optional = [&](const char* key) {
     const double value = NumberAt(row, key);

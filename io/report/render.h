@@ -1,4 +1,4 @@
-// Figures to files: NAME.csv and NAME.gp, and by gnuplot NAME.svg and NAME.pdf.
+// Writes figures to files: NAME.csv and NAME.gp, and by gnuplot NAME.svg and NAME.pdf.
 #ifndef HOWL_IO_REPORT_RENDER_H_
 #define HOWL_IO_REPORT_RENDER_H_
 
@@ -19,8 +19,8 @@ struct RenderOptions {
 };
 
 // Writes all figures to `folder` and returns each one's SVG by name. Without gnuplot, or where it
-// fails or hangs, data and script are written all the same, and `missing` says so. Stopped, it
-// writes nothing. What it makes on the way is gone in the end.
+// fails or hangs, data and script are written all the same, and `missing` says so. If stopped, it
+// writes nothing. Temporary files are removed in the end.
 std::map<std::string, std::string> RenderFigures(const std::vector<Figure>& figures,
                                                  const std::filesystem::path& folder,
                                                  const RenderOptions& options,

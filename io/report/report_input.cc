@@ -145,7 +145,7 @@ void ReadFitted(ReportInput& input) {
                     .N = NumberAt(row, "N"),
                     .M = NumberAt(row, "M"),
                     .tau_s = NumberAt(row, "tau_s"),
-                    .harmonic_ratio = row.value("harmonic_ratio", kSeedHarmonicRatio)};
+                    .harmonic_ratio = row.value("harmonic_ratio", kPaperHarmonicRatio)};
     if (std::isnan(model.M)) model.M = 0.0;
     const bool whole = model.omega_hz > 0.0 && model.xi > 0.0 && model.N > 0.0 && model.tau_s > 0.0;
     if (whole) input.fitted.push_back({row.value("name", ""), NumberAt(row, "phi"), model});
@@ -283,7 +283,7 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
     const FamilyTable table = ReadFamilyCsv(path);
     if (table.rows.empty()) return;
     input.members = MakeFamilyMembers(
-        table, input.config ? input.config->model.harmonic_ratio : kSeedHarmonicRatio);
+        table, input.config ? input.config->model.harmonic_ratio : kPaperHarmonicRatio);
   });
   if (input.config) {
     input.title = input.config->title;
@@ -298,7 +298,7 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
   }
   ReadPublishedLines(input);
   Try(input, "records.yaml", "simulate", [&](const auto& path) {
-    // The records that were analysed are no simulation to set beside themselves.
+    // If the config is this very records.yaml, its records would be compared with themselves.
     if (input.config && std::filesystem::weakly_canonical(input.config->source) ==
                             std::filesystem::weakly_canonical(path)) {
       return;

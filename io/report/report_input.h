@@ -1,5 +1,5 @@
-// What a report is made of: the files that the other commands wrote to one folder, and the config
-// that they ran. Whatever is missing or half written leaves its place empty and a note saying so;
+// The input of a report: the files that the other commands wrote to one folder, and the config that
+// they ran. Whatever is missing or half written leaves its place empty and a note saying so;
 // the rest of the report does not depend on it.
 #ifndef HOWL_IO_REPORT_REPORT_INPUT_H_
 #define HOWL_IO_REPORT_REPORT_INPUT_H_

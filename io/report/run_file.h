@@ -1,4 +1,4 @@
-// run.json, schema howl.run/1: what ran in an output folder, so that a report can find the config.
+// run.json, schema howl.run/1: the runs in an output folder, so that a report can find the config.
 //
 //   {"schema": "howl.run/1", "config": "/path/of/r228.yaml", "config_text": "...",
 //    "commands": {"fit": {"seed": 1, "version": "0.1.0"}, ...}}

@@ -1,4 +1,4 @@
-// The gnuplot commands that all figures share, and the words to write one.
+// The gnuplot commands that all figures share, and the functions that write a script.
 #ifndef HOWL_IO_REPORT_SCRIPT_H_
 #define HOWL_IO_REPORT_SCRIPT_H_
 

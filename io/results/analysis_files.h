@@ -1,8 +1,8 @@
-// What `howl analyse` writes for a set of records:
+// The files that `howl analyse` writes for a set of records:
 //
-//   characteristics.csv
+//   characteristics.csv  the paper's tables 2 and 3
 //   name,phi,frequency_hz,frequency_std_hz,phase_deg,phase_std_deg,gain,gain_std,
-//                        tau_s,flame_slope,flame_slope_std,loop_gain,stationary (the seed's tables)
+//                        tau_s,flame_slope,flame_slope_std,loop_gain,stationary
 //   lines.csv            every significant spectral line (figure 10)
 //   transfer.csv         the coherent q-to-p transfer, and the fitted acoustics at each point
 //   flame_curve.csv      q against the delayed derivative of p, in bins (figures 5 and 6)

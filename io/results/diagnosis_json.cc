@@ -104,7 +104,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
        {{"before", NumberOrNull(diagnosis.gap_before)},
         {"after", NumberOrNull(diagnosis.gap_after)},
         {"floor", NumberOrNull(diagnosis.gap_floor)},
-        {"shrinkage_by_no_meaning", NumberOrNull(diagnosis.shrinkage_no_meaning)},
+        {"shrinkage_by_no_meaning", NumberOrNull(diagnosis.placebo_shrinkage)},
         {"held_out", true}}},
       {"map", MapJson(diagnosis)},
       {"candidates", candidates},

@@ -1,4 +1,4 @@
-// diagnosis.json, schema howl.diagnosis/1: what `howl diagnose` found.
+// diagnosis.json, schema howl.diagnosis/1: the results of `howl diagnose`.
 #ifndef HOWL_IO_RESULTS_DIAGNOSIS_JSON_H_
 #define HOWL_IO_RESULTS_DIAGNOSIS_JSON_H_
 
@@ -14,7 +14,7 @@ std::string_view VerdictKindName(VerdictKind kind);
 
 nlohmann::ordered_json DiagnosisJson(const Diagnosis& diagnosis);
 
-// The same schema without a gap (null), and what the table says: `table`.
+// The same schema for a diagnosis from a table: without a gap (null), with `table`.
 nlohmann::ordered_json TableDiagnosisJson(const TableDiagnosis& table);
 
 }  // namespace howl

@@ -20,7 +20,7 @@ using std::string_literals::operator""s;
 constexpr const char* kHeader =
     "member,experiment,phi,omega_hz,xi,N,M,tau_s,loop_gain,gain_error,phase_error_deg,"
     "loop_phase_error_deg";
-// Of the numeric columns, behind member and experiment.
+// The names of the numeric columns, which follow member and experiment.
 constexpr std::size_t kOmegaColumn = 1;
 constexpr std::size_t kXiColumn = 2;
 

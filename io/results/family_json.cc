@@ -126,7 +126,7 @@ Json AdviceJson(const std::vector<Advice>& advice) {
   return json;
 }
 
-// Where members were seen without the condition.
+// The ranges in which members were found without the condition.
 Json WithoutJson(const FamilyProblem& problem, const std::vector<Member>& members) {
   Json json = Json::object();
   for (std::size_t i = 0; i < problem.experiments.size() && !members.empty(); ++i) {

@@ -7,10 +7,12 @@
 namespace howl {
 namespace {
 
-// What states the problem, beside its experiments: the records are of the same one.
+// The sections of the config that state the problem, in addition to its experiments; they are
+// copied because the records belong to the same problem.
 constexpr const char* kSections[] = {"residuals", "solver", "family", "analysis"};
 
-// As written, but for names of experiments that are not among the records.
+// Writes a section as it is in the config, except names of experiments that are not among the
+// records.
 void Emit(const LocatedNode& node, const std::set<std::string>& left_out, YAML::Emitter& out) {
   switch (node.kind) {
     case LocatedNode::Kind::kList:
@@ -46,7 +48,7 @@ LocatedNode& Value(const std::string& key, LocatedNode* mapping) {
   return mapping->members.back().value;
 }
 
-// The config's, with the scope of the delays, which is a fact of what was simulated, stated.
+// The config's parameters, with the scope of the delays stated, which the simulation determined.
 LocatedNode Parameters(const Config& config) {
   const LocatedMember* const stated = config.tree.Find("parameters");
   LocatedNode out = stated == nullptr ? LocatedNode() : stated->value;

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 // Values this close to zero compare as absolute differences.
 constexpr double kZero = 1e-9;
 
-// Text that says how a fit went, not what it found.
+// Text that tells how a fit went and not what it found, and is not compared.
 bool IsIncidental(const std::string& key) {
   return key == "termination" || key == "iterations" || key == "starts" || key == "text";
 }

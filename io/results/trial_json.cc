@@ -11,8 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What diagnose takes off a gain for each parameter, and adds where a signal is plainly cut or
-// stepped (diagnosis/): neither belongs to the gain in sample.
+// The price of parameters that diagnose subtracts from a gain, and what it adds where a signal is
+// plainly clipped or quantised (diagnosis/); neither belongs to the in-sample gain.
 constexpr double kParameterDataSize = 500.0;
 constexpr double kFlagGain = 1e6;
 

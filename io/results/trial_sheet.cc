@@ -152,7 +152,7 @@ std::string ByEffect(const ScoreSheet& sheet) {
   return table.Text();
 }
 
-// As a list: with twenty effects a square does not fit a page.
+// The confusion matrix as a list, because with twenty effects a square does not fit a page.
 std::string Confusions(const Confusion& confusion) {
   std::string text;
   for (std::size_t i = 0; i < confusion.rows.size(); ++i) {

@@ -1,4 +1,4 @@
-// What an unknown verdict has beside it, in words: for the terminal and the page.
+// Remarks in words that go with an unknown verdict, for the terminal and the page.
 #ifndef HOWL_IO_RESULTS_VERDICT_REMARKS_H_
 #define HOWL_IO_RESULTS_VERDICT_REMARKS_H_
 
@@ -13,7 +13,7 @@ inline std::vector<std::string> RemarksOnUnknown(const std::string& repaired,
   std::vector<std::string> out;
   if (!repaired.empty()) {
     out.push_back(repaired +
-                  " is seen in the samples; unknown is what is left once it is repaired");
+                  " is detected in the samples; unknown is what is left once it is repaired");
   }
   if (!together.empty()) {
     out.push_back(together + " together would come nearest: two causes, or one that is not listed");

@@ -14,9 +14,9 @@ namespace howl {
 
 using EffectPointer = std::shared_ptr<const Effect>;
 
-// Beside a base with these modes. With one mode there is none to detune.
-std::vector<EffectPointer> Catalogue(int modes = 2, double harmonic_ratio = kSeedHarmonicRatio);
-// With the forms that only a simulation tells apart.
+// The effects for a base with so many modes. With one mode there is none to detune.
+std::vector<EffectPointer> Catalogue(int modes = 2, double harmonic_ratio = kPaperHarmonicRatio);
+// The catalogue with the forms that only a simulation can tell apart.
 std::vector<EffectPointer> SimulationCatalogue();
 
 std::vector<EffectPointer> QSensorLowPass();
@@ -24,8 +24,8 @@ std::vector<EffectPointer> FlameLowPass();
 std::vector<EffectPointer> PSensorResonance();
 std::vector<EffectPointer> ChannelSkew();
 std::vector<EffectPointer> ExtraAcousticMode(int modes = 2,
-                                             double harmonic_ratio = kSeedHarmonicRatio);
-std::vector<EffectPointer> ModeDetuning(double harmonic_ratio = kSeedHarmonicRatio);
+                                             double harmonic_ratio = kPaperHarmonicRatio);
+std::vector<EffectPointer> ModeDetuning(double harmonic_ratio = kPaperHarmonicRatio);
 std::vector<EffectPointer> DelayDispersion();
 std::vector<EffectPointer> DelayVariesWithPhi();
 std::vector<EffectPointer> AmplitudeDependentDelay();

@@ -160,7 +160,7 @@ DeclaredEffect::Distance DeclaredEffect::FromBase(EffectValues x) const {
     }
     return worst;
   }
-  const howl::Acoustics<double> acoustics{213.7, 0.17, 6609.0, 1900.0, kSeedHarmonicRatio};
+  const howl::Acoustics<double> acoustics{213.7, 0.17, 6609.0, 1900.0, kPaperHarmonicRatio};
   const bool context = IsAt(LoopPlace::kFlameIn) || IsAt(LoopPlace::kDelay);
   for (const double f : {1.0, 10.0, 33.3, 100.0, 213.7, 400.0, 700.0, 1500.0, 5000.0, 2e4}) {
     for (const EffectContext& at :

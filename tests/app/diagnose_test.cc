@@ -129,7 +129,7 @@ TEST(LongDiagnose, StoppedAtAnyUnitItGoesOnToTheSameBytes) {
   std::filesystem::remove(out + "/diagnosis.json");
   const std::string state = StateWithEachKeyOnce(ReadFile(out + "/diagnosis.state"));
   const std::vector<std::size_t> ends = EntryEnds(state);
-  ASSERT_EQ(ends.size(), 1u + 1u + 11u);  // the line, the effect, eleven of no meaning
+  ASSERT_EQ(ends.size(), 1u + 1u + 11u);  // the line, the effect, eleven placebos
   for (const std::size_t end : ends) {
     folder.Write("rig/diagnosis.state", state.substr(0, end));
     ASSERT_EQ(RunHowl(command).status, 0);
@@ -274,7 +274,7 @@ TEST(Diagnose, ARateInKilohertzIsAMistake) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST(Diagnose, TooFewReplicatesOrAReferenceBesideThemAreMistakes) {
+TEST(Diagnose, TooFewReplicatesOrAReferenceWithThemAreMistakes) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");
   const std::string out = (folder.path() / "out").string();

@@ -77,7 +77,7 @@ TEST(SimulateEffects, AMistakeIsOneLine) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
-TEST(DiagnoseTable, SeedsTableInTheContractsSchema) {
+TEST(DiagnoseTable, PapersTableInTheContractsSchema) {
   const TemporaryFolder folder;
   const ProgramResult run =
       RunHowl("diagnose " + Config("r228_two_modes") + " --out " + folder.path().string());

@@ -50,7 +50,7 @@ struct Measured {
   bool reliable;
 };
 
-// The seed's tables 2 and 3.
+// The paper's tables 2 and 3.
 const std::map<std::string, Measured>& Table() {
   static const std::map<std::string, Measured> table = {
       {"exp1", {219.9, -5.74, 12.14, -0.703e-4, true}},
@@ -64,8 +64,9 @@ const std::map<std::string, Measured>& Table() {
 
 double AngleDeg(std::complex<double> z) { return std::arg(z) * 180.0 / kPi; }
 
-// Every condition of design tolerances, from the seed's equations by std::complex alone.
-void ExpectMembersFulfilTheSeedsEquations(const std::string& config, bool one_mode, double xi_max) {
+// Every condition of design tolerances, from the paper's equations by std::complex alone.
+void ExpectMembersFulfilThePapersEquations(const std::string& config, bool one_mode,
+                                           double xi_max) {
   SCOPED_TRACE(config);
   const TemporaryFolder folder;
   const ProgramResult run =
@@ -111,12 +112,12 @@ void ExpectMembersFulfilTheSeedsEquations(const std::string& config, bool one_mo
   }
 }
 
-TEST(Family, OneModeMembersFulfilTheSeedsEquations) {
-  ExpectMembersFulfilTheSeedsEquations("r228", true, 0.3);
+TEST(Family, OneModeMembersFulfilThePapersEquations) {
+  ExpectMembersFulfilThePapersEquations("r228", true, 0.3);
 }
 
-TEST(LongFamily, TwoModeMembersFulfilTheSeedsEquations) {
-  ExpectMembersFulfilTheSeedsEquations("r228_two_modes", false, 0.4);
+TEST(LongFamily, TwoModeMembersFulfilThePapersEquations) {
+  ExpectMembersFulfilThePapersEquations("r228_two_modes", false, 0.4);
 }
 
 std::string R228WithTest(const std::string& from, const std::string& to) {
@@ -148,7 +149,7 @@ TEST(Fit, WritesTheSolutionOfThePublishedTable) {
   const Json json = ReadJson(folder.path() / "solution.json");
   EXPECT_EQ(json["schema"], "howl.solution/1");
   ASSERT_EQ(json["experiments"].size(), 6u);
-  // notes to the seed, items 2 and 4; the joint fit may trade a tenth of a degree for a tau that
+  // notes to the paper, items 2 and 4; the joint fit may trade a tenth of a degree for a tau that
   // varies less.
   const std::vector<double> tau_ms = {3.338, 3.461, 3.452, 3.437, 3.459, 3.511};
   const std::vector<double> loop_gain = {1.179, 1.221, 1.281, 1.280, 0.940, 0.443};
@@ -158,8 +159,8 @@ TEST(Fit, WritesTheSolutionOfThePublishedTable) {
     EXPECT_NEAR(experiment["loop_gain"].get<double>(), loop_gain[i], 0.001);
     EXPECT_LT(experiment["omega_hz"], experiment["frequency_hz"]);
   }
-  // notes to the seed, item 5: a straight line through the loop gains of experiments 1 to 4 reaches
-  // one at 0.675 (the paper reads about 0.64 off its figure).
+  // notes to the paper, item 5: a straight line through the loop gains of experiments 1 to 4
+  // reaches one at 0.675 (the paper reads about 0.64 off its figure).
   const Json& vanishing = json["vanishing_phi"];
   EXPECT_NEAR(vanishing["value"].get<double>(), 0.675, 0.0005);
   EXPECT_LT(vanishing["lo"], vanishing["value"]);

@@ -41,7 +41,7 @@ std::vector<std::map<std::string, std::string>> ReadCsv(const std::filesystem::p
   return rows;
 }
 
-// The seed's table 2.
+// The paper's table 2.
 constexpr std::array<std::array<double, 3>, 6> kTable2 = {{{219.9, -5.74, 12.14},
                                                            {209.1, -9.44, 13.15},
                                                            {205.7, -14.35, 14.79},

@@ -1,4 +1,4 @@
-// howl report: figures of R228 against the seed's own numbers, and a report that shows the rest
+// howl report: figures of R228 against the paper's own numbers, and a report that shows the rest
 // whatever is missing.
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ TEST_F(ReportOfR228, NyquistCrossesTheNegativeAxisAtTheLimitCycle) {
   EXPECT_TRUE(found);
 }
 
-// Three per cent of tau are more than 20 degrees at 750 Hz (the seed: more than 50 in all).
+// Three per cent of tau are more than 20 degrees at 750 Hz (the paper: more than 50 in all).
 TEST_F(ReportOfR228, DelaySensitivityIsTheDelaysOwn) {
   const auto rows = Data("sensitivity_tau");
   ASSERT_GE(rows.size(), 6U);
@@ -225,7 +225,7 @@ TEST(Report, FindsTheConfigThatMovedAway) {
   EXPECT_NE(page.find("R228, six experiments"), std::string::npos);
 }
 
-TEST(Report, SaysWhatAnUnknownHasBesideIt) {
+TEST(Report, SaysWhatGoesWithAnUnknown) {
   TemporaryFolder folder;
   folder.Write("diagnosis.json",
                R"({"schema": "howl.diagnosis/1",
@@ -236,7 +236,7 @@ TEST(Report, SaysWhatAnUnknownHasBesideIt) {
   EXPECT_EQ(result.status, 0) << result.err;
   const std::string page = ReadFile(folder.path() / "report.html");
   EXPECT_NE(page.find("unknown</strong> (probability 0.93)"), std::string::npos);
-  EXPECT_NE(page.find("p_clipping is seen in the samples"), std::string::npos);
+  EXPECT_NE(page.find("p_clipping is detected in the samples"), std::string::npos);
   EXPECT_NE(page.find("p_clipping+channel_skew+mode_detuning together"), std::string::npos);
 }
 

@@ -16,7 +16,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSampling_hz = 5000.0;
 constexpr int kSamples = 8000;
 constexpr double kDuration_s = kSamples / kSampling_hz;
-constexpr Acoustics<double> kAcoustics{205.0, 0.12, 6000.0, 1500.0, kSeedHarmonicRatio};
+constexpr Acoustics<double> kAcoustics{205.0, 0.12, 6000.0, 1500.0, kPaperHarmonicRatio};
 constexpr double kSwing_hz = 25.0;  // of the damping: well within a mode's memory
 
 // A damping that swings, of no amplitude's doing.

@@ -31,7 +31,7 @@ std::vector<DiagnosisExperiment> OtherRatioRig() {
       3, [](RigParameters* rig) { rig->model.loop.acoustics.harmonic_ratio = kOtherRatio; }, 12);
 }
 
-Diagnosis DiagnoseBeside(const BaseModel& model, const std::vector<DiagnosisExperiment>& rig) {
+Diagnosis DiagnoseAgainst(const BaseModel& model, const std::vector<DiagnosisExperiment>& rig) {
   DiagnosisOptions options;
   options.model = model;
   options.withheld = AllBut({"q_sensor_lowpass", "channel_skew", "extra_acoustic_mode",
@@ -53,8 +53,8 @@ TEST(BaseModel, WithOneModeTheSecondIsNowhere) {
   }
 }
 
-TEST(BaseModel, AOneModeRigBesideOneModeIsNotAccused) {
-  const Diagnosis diagnosis = DiagnoseBeside({.modes = 1}, OneModeRig());
+TEST(BaseModel, AOneModeRigAgainstOneModeIsNotAccused) {
+  const Diagnosis diagnosis = DiagnoseAgainst({.modes = 1}, OneModeRig());
   EXPECT_EQ(diagnosis.kind, VerdictKind::kNone) << diagnosis.effect;
   EXPECT_TRUE(std::ranges::none_of(diagnosis.candidates, [](const Candidate& candidate) {
     return candidate.effect == "mode_detuning";
@@ -64,7 +64,7 @@ TEST(BaseModel, AOneModeRigBesideOneModeIsNotAccused) {
 TEST(LongBaseModel, AnEffectOnTopOfOneModeIsNamed) {
   const EffectPointer effect = QSensorLowPass()[0];
   const std::vector<double> cutoff_hz = {245.0};
-  const Diagnosis diagnosis = DiagnoseBeside(
+  const Diagnosis diagnosis = DiagnoseAgainst(
       {.modes = 1}, OneModeRig([&](RigParameters* rig) { effect->AddTo({}, cutoff_hz, rig); }));
   EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass");
   ASSERT_FALSE(diagnosis.candidates.empty());
@@ -72,8 +72,8 @@ TEST(LongBaseModel, AnEffectOnTopOfOneModeIsNamed) {
 }
 
 // What one mode lacks is one more, at three times the first's frequency.
-TEST(LongBaseModel, ATwoModeRigBesideOneModeHasAModeTooMany) {
-  const Diagnosis diagnosis = DiagnoseBeside({.modes = 1}, SimulateRig());
+TEST(LongBaseModel, ATwoModeRigAgainstOneModeHasAModeTooMany) {
+  const Diagnosis diagnosis = DiagnoseAgainst({.modes = 1}, SimulateRig());
   EXPECT_EQ(diagnosis.effect, "extra_acoustic_mode");
   ASSERT_FALSE(diagnosis.candidates.empty());
   EXPECT_NEAR(diagnosis.candidates[0].parameters[0].value, 3.0, 0.1);
@@ -109,9 +109,9 @@ TEST(BaseModel, TheFirstModeIsFoundBelowACycleOfTheSecond) {
 
 TEST(LongBaseModel, TheConfigsRatioIsTheBases) {
   const std::vector<DiagnosisExperiment> rig = OtherRatioRig();
-  const Diagnosis right = DiagnoseBeside({.modes = 2, .harmonic_ratio = kOtherRatio}, rig);
+  const Diagnosis right = DiagnoseAgainst({.modes = 2, .harmonic_ratio = kOtherRatio}, rig);
   EXPECT_EQ(right.kind, VerdictKind::kNone) << right.effect;
-  const Diagnosis wrong = DiagnoseBeside({}, rig);
+  const Diagnosis wrong = DiagnoseAgainst({}, rig);
   EXPECT_EQ(wrong.effect, "mode_detuning");
   ASSERT_FALSE(wrong.candidates.empty());
   EXPECT_NEAR(wrong.candidates[0].parameters[0].value, kOtherRatio, 0.03);

@@ -26,9 +26,9 @@ double Total(const Diagnosis& diagnosis) {
 
 TEST(Calibration, ProbabilitiesStayProbabilitiesAndTheOrderStays) {
   for (const VerdictKind kind : {VerdictKind::kNone, VerdictKind::kEffect, VerdictKind::kUnknown}) {
-    for (const bool seen : {false, true}) {
+    for (const bool model_free : {false, true}) {
       Diagnosis diagnosis = Sure(kind, 0.2, 0.1, {0.4, 0.25, 0.05});
-      Calibrate(seen, &diagnosis);
+      Calibrate(model_free, &diagnosis);
       EXPECT_NEAR(Total(diagnosis), 1.0, 1e-12);
       EXPECT_GT(diagnosis.candidates[0].probability, diagnosis.candidates[1].probability);
       EXPECT_GT(diagnosis.candidates[1].probability, diagnosis.candidates[2].probability);
@@ -44,10 +44,10 @@ TEST(Calibration, NoVerdictIsCertain) {
   Diagnosis effect = Sure(VerdictKind::kEffect, 0.0, 0.0, {1.0, 0.0});
   Calibrate(false, &effect);
   EXPECT_LT(effect.candidates[0].probability, 0.97);
-  // What is seen in the samples is surer than what is fitted.
-  Diagnosis seen = Sure(VerdictKind::kEffect, 0.0, 0.0, {1.0, 0.0});
-  Calibrate(true, &seen);
-  EXPECT_GT(seen.candidates[0].probability, effect.candidates[0].probability);
+  // What is detected in the samples without a model is surer than what is fitted.
+  Diagnosis direct = Sure(VerdictKind::kEffect, 0.0, 0.0, {1.0, 0.0});
+  Calibrate(true, &direct);
+  EXPECT_GT(direct.candidates[0].probability, effect.candidates[0].probability);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Saturated p put back, and what is then seen beside the saturation.
+// Saturated p is declipped, and other effects are then found given the saturation.
 #include "diagnosis/declip/declip.h"
 
 #include <gtest/gtest.h>
@@ -117,7 +117,7 @@ TEST(Diagnose, ClippedPressureUnderNoiseIsRepairedToo) {
   EXPECT_LT(diagnosis.gap_after, 1.2 * diagnosis.gap_floor);
 }
 
-TEST(LongDiagnose, AnExtraModeIsSeenBesideClippedPressure) {
+TEST(LongDiagnose, AnExtraModeIsFoundGivenClippedPressure) {
   const Diagnosis diagnosis =
       DiagnoseAmong({"p_clipping", "extra_acoustic_mode", "channel_skew"},
                     Clipped(SimulatePoints(
@@ -133,7 +133,7 @@ TEST(LongDiagnose, AnExtraModeIsSeenBesideClippedPressure) {
   EXPECT_NEAR(ratio->value, 2.2, 0.02);
 }
 
-TEST(LongDiagnose, ALowPassOfQIsSeenBesideClippedPressure) {
+TEST(LongDiagnose, ALowPassOfQIsFoundGivenClippedPressure) {
   const Diagnosis diagnosis = DiagnoseAmong(
       {"p_clipping", "q_sensor_lowpass", "extra_acoustic_mode"},
       Clipped(SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)})));
@@ -146,7 +146,7 @@ TEST(LongDiagnose, ALowPassOfQIsSeenBesideClippedPressure) {
 }
 
 // Under the base's filling the form of first order fits better.
-TEST(LongDiagnose, TheFormOfALowPassIsFoundBesideClippedPressure) {
+TEST(LongDiagnose, TheFormOfALowPassIsFoundGivenClippedPressure) {
   const double cutoff_hz = 270.0;
   const Diagnosis diagnosis =
       DiagnoseAmong({"p_clipping", "q_sensor_lowpass"},
@@ -159,7 +159,7 @@ TEST(LongDiagnose, TheFormOfALowPassIsFoundBesideClippedPressure) {
 }
 
 // q does not drive it, so that it goes on while p is on its plateau.
-TEST(Diagnose, HumInPressureIsSeenBesideItsClipping) {
+TEST(Diagnose, HumInPressureIsFoundGivenItsClipping) {
   std::vector<DiagnosisExperiment> rig = SimulateRig();
   for (DiagnosisExperiment& experiment : rig) {
     Record& record = experiment.record;
@@ -191,7 +191,7 @@ TEST(Diagnose, FewLevelsAreSeenBesideClippedPressure) {
   EXPECT_EQ(diagnosis.effect, "p_clipping+quantisation");
 }
 
-TEST(LongDiagnose, WhatIsNotInTheCatalogueIsUnknownBesideClippedPressure) {
+TEST(LongDiagnose, WhatIsNotInTheCatalogueIsUnknownGivenClippedPressure) {
   const Diagnosis diagnosis = DiagnoseAmong(
       {"p_clipping", "delay_varies_with_phi"},
       Clipped(SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)})));

@@ -135,7 +135,7 @@ TEST(LongDelayScatter, WhereNoScopeIsStatedALawOfSixDelaysIsNamed) {
 TEST(DelayScatter, AnEffectThatLeavesTheFlameAloneDoesNotTakeOffTheDelaysCost) {
   const std::vector<CutRecord> records = MakeCutRecords(RigWithDelays(Scattered()), kOwnDelays);
   const EffectFit base = FitBase(records);
-  const EffectFit fit = FitEffect(records, ExtraAcousticMode(2, kSeedHarmonicRatio)[0], base);
+  const EffectFit fit = FitEffect(records, ExtraAcousticMode(2, kPaperHarmonicRatio)[0], base);
   EXPECT_GT(base.delay_cost, 10.0);
   EXPECT_EQ(fit.delay_cost, base.delay_cost);
 }
@@ -150,7 +150,7 @@ TEST(DelayScatter, DelaysThatFollowPhiAreAccusedByTheirLaw) {
   EXPECT_LT(law.delay_scatter, 2e-3);
 }
 
-TEST(DelayScatter, AnEffectBesideScatteringDelaysIsNamed) {
+TEST(DelayScatter, AnEffectGivenScatteringDelaysIsNamed) {
   const EffectPointer effect = QSensorLowPass()[0];
   const std::vector<double> cutoff_hz = {245.0};
   std::size_t next = 0;

@@ -22,7 +22,7 @@ std::vector<BlockSlack> LocaliseRig(const std::vector<DiagnosisExperiment>& expe
   const std::vector<CoherentLine> lines = FindCoherentLines(records);
   MaskLines(lines, &records);
   const EffectFit base = FitBase(records);
-  const Setting at{&records, &base, &experiments, {}, nullptr, nullptr};
+  const AttemptContext at{&records, &base, &experiments, {}, nullptr, nullptr};
   return Localise(at, lines, ExplainLines(records, base, lines),
                   EstimateGainFluctuation(records, base), 2);
 }
@@ -36,7 +36,7 @@ const BlockSlack& Best(const std::vector<BlockSlack>& slacks) {
 TEST(Localise, NothingWrongGainsLittleAnywhere) {
   for (const BlockSlack& slack : LocaliseRig(SimulateRig())) {
     EXPECT_LT(slack.gain, 25.0) << slack.form;
-    EXPECT_FALSE(slack.seen) << slack.form;
+    EXPECT_FALSE(slack.model_free) << slack.form;
   }
 }
 

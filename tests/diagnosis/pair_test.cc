@@ -74,7 +74,7 @@ TEST(Combined, AcousticsAddTheirChanges) {
   }
 }
 
-TEST(Diagnose, HumBesideALowPassAreTwoEffects) {
+TEST(Diagnose, HumAndALowPassAreTwoEffects) {
   std::vector<DiagnosisExperiment> rig =
       SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)});
   AddHum(50.0, 0.05, &rig);
@@ -108,7 +108,7 @@ std::vector<DiagnosisExperiment> SlowAndIntermittent() {
       41);
 }
 
-TEST(Diagnose, AFluctuatingGainIsSeenBesideALowPass) {
+TEST(Diagnose, AFluctuatingGainIsFoundGivenALowPass) {
   const Diagnosis diagnosis =
       DiagnoseAmong({"intermittency", "q_sensor_lowpass", "channel_skew"}, SlowAndIntermittent());
   EXPECT_EQ(diagnosis.kind, VerdictKind::kEffect);
@@ -130,7 +130,7 @@ TEST(Diagnose, ThreeEffectsAreThree) {
   EXPECT_NEAR(cutoff->value, 400.0, 20.0);
 }
 
-TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
+TEST(Diagnose, AFluctuatingGainIsFoundGivenClippedHeatRelease) {
   std::vector<DiagnosisExperiment> rig = SimulatePoints(3, AddDropouts, 43);
   CutOff(0.85, &Record::heat_release, &rig);
   const Diagnosis diagnosis = DiagnoseAmong({"intermittency", "q_clipping", "channel_skew"}, rig);
@@ -140,7 +140,7 @@ TEST(Diagnose, AFluctuatingGainIsSeenBesideClippedHeatRelease) {
 
 // With half of q lost, what its repair gets wrong looks like damping that moves with the amplitude:
 // clipping alone is the answer, and the two together are not excluded.
-TEST(LongDiagnose, WhatRepairedHeatReleaseMayFeignIsNotAsserted) {
+TEST(LongDiagnose, WhatMayBeSpuriousInRepairedHeatReleaseIsNotAsserted) {
   std::vector<DiagnosisExperiment> rig = SimulateRig();
   CutOff(0.75, &Record::heat_release, &rig);
   const Diagnosis alone = DiagnoseAmong({"q_clipping", "nonlinear_damping"}, rig);
@@ -157,7 +157,7 @@ TEST(LongDiagnose, WhatRepairedHeatReleaseMayFeignIsNotAsserted) {
             std::vector<std::string>{"mains_hum+q_clipping+nonlinear_damping"});
 }
 
-TEST(Diagnose, AnExtraModeIsSeenBesideFewLevels) {
+TEST(Diagnose, AnExtraModeIsFoundGivenFewLevels) {
   std::vector<DiagnosisExperiment> rig = SimulatePoints(
       3, [](RigParameters* one) { AddMode(2.2, 0.04, 0.05, one); }, 47);
   for (DiagnosisExperiment& experiment : rig) {
@@ -244,13 +244,13 @@ TEST(LongDiagnose, AnEdgeInTheSamplesThatNothingExplainsIsUnknown) {
 }
 
 // It is as free as the low-pass, yet what it learns on two points is of no use on the third.
-TEST(Diagnose, AnEffectOfNoMeaningLeavesTheGap) {
+TEST(Diagnose, APlaceboLeavesTheGap) {
   const Diagnosis diagnosis = DiagnoseAmong(
       {"q_sensor_lowpass", "channel_skew"},
       SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)}));
   EXPECT_EQ(diagnosis.effect, "q_sensor_lowpass");
   EXPECT_GT(diagnosis.candidates[0].shrinkage, 0.8);
-  EXPECT_LT(diagnosis.shrinkage_no_meaning, 0.03);
+  EXPECT_LT(diagnosis.placebo_shrinkage, 0.03);
 }
 
 // The columns of every transfer effect against central differences of the residual at fixed

@@ -1,4 +1,4 @@
-// Rigs from a simulator that shares no code with this one; what was withheld stands beside them.
+// Rigs from a simulator that shares no code with this one; their folder tells what was withheld.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -62,7 +62,7 @@ TEST(LongReference, WhatBothHaveIsNotNamed) {
   const Diagnosis same = Diagnose(rig, options);
   EXPECT_EQ(same.kind, VerdictKind::kNone) << same.effect;
 
-  // The rig has a skew besides.
+  // The rig has a skew in addition.
   SkewQ(&rig, 2e-4);
   const Diagnosis skewed = Diagnose(rig, options);
   ASSERT_EQ(skewed.kind, VerdictKind::kEffect);
@@ -93,7 +93,7 @@ TEST(Reference, IsClippedAsOftenAsTheRig) {
 
 // Behind a low-pass, which the reference has as a factor after the flame, a saturation is no part
 // of the flame's any more: cut B sees it as a slower flame.
-TEST(LongReference, WhatClippingFeignsIsNotNamed) {
+TEST(LongReference, SpuriousGainOfClippingIsNotNamed) {
   const std::shared_ptr<const Instrument> low_pass =
       std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 150.0);
   DiagnosisOptions options;

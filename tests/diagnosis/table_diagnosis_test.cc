@@ -1,4 +1,4 @@
-// The lag that a published table allows, against closed forms: (3) with table 2 of the seed, the
+// The lag that a published table allows, against closed forms: (3) with table 2 of the paper, the
 // passivity of G, and tables made from a loop whose sensor lags by a known angle.
 #include "diagnosis/table_diagnosis.h"
 
@@ -24,7 +24,7 @@ Experiment Row(const char* name, double f, double phase_deg, double gain) {
   return row;
 }
 
-std::vector<Experiment> Seed() {
+std::vector<Experiment> PaperTable() {
   return {Row("exp1", 219.9, -5.74, 12.14), Row("exp2", 209.1, -9.44, 13.15),
           Row("exp3", 205.7, -14.35, 14.79), Row("exp4", 202.7, -19.18, 16.05)};
 }
@@ -39,8 +39,8 @@ TableLimits Limits() {
 }
 
 TEST(TableDiagnosis, DelayIsEquationThree) {
-  const double tau_ms[] = {3.338, 3.461, 3.452, 3.437};  // the seed's tables, recomputed
-  const std::vector<Experiment> rows = Seed();
+  const double tau_ms[] = {3.338, 3.461, 3.452, 3.437};  // the paper's tables, recomputed
+  const std::vector<Experiment> rows = PaperTable();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_NEAR(1e3 * DelayAtLag(rows[i], 0.0), tau_ms[i], 6e-4);
     // A lag of 45 degrees moves it to about 2.8 ms.
@@ -48,13 +48,13 @@ TEST(TableDiagnosis, DelayIsEquationThree) {
   }
 }
 
-TEST(TableDiagnosis, SeedAllowsASmallLagAtMost) {
-  const TableDiagnosis table = DiagnoseTable(Seed(), Limits());
+TEST(TableDiagnosis, PapersTableAllowsASmallLagAtMost) {
+  const TableDiagnosis table = DiagnoseTable(PaperTable(), Limits());
   ASSERT_TRUE(table.lag.any);
   EXPECT_LT(table.lag.low_deg, table.lag.high_deg);
   // Passive: 270 + Delta - 900 f / f2, with the line at most 1.96 times 10 Hz above 750.
   double least_deg = 90.0;
-  for (const Experiment& row : Seed()) {
+  for (const Experiment& row : PaperTable()) {
     const double own = 270.0 + row.phase_deg - 900.0 * row.frequency_hz / 769.6;
     EXPECT_FALSE(AgreesAtLag(row, own + 0.01, Limits())) << row.name;
     EXPECT_FALSE(AgreesAtLag(row, 45.0, Limits())) << row.name;

@@ -28,7 +28,7 @@ TEST(Verdict, FollowsTheEvidence) {
   EXPECT_GT(Weigh(far).unknown, 0.95);
   // Few levels take nothing off the likelihood, yet there they are.
   Evidence steps = nothing;
-  steps.seen = true;
+  steps.model_free = true;
   EXPECT_EQ(Weigh(steps).none, 0.0);
   EXPECT_EQ(Weigh(steps).unknown, 0.0);
   Evidence misfit = found;
@@ -39,12 +39,12 @@ TEST(Verdict, FollowsTheEvidence) {
   EXPECT_GT((1.0 - Weigh(line).none) * Weigh(line).unknown, 0.85);
 }
 
-TEST(Verdict, WhatAnEffectOfNoMeaningDoesAsWellIsNoCause) {
-  EXPECT_TRUE(IsNoBetterThanNoMeaning(0.26, 0.33));
-  EXPECT_FALSE(IsNoBetterThanNoMeaning(0.90, 0.38));
-  EXPECT_FALSE(IsNoBetterThanNoMeaning(-0.10, 0.01));
-  EXPECT_FALSE(IsNoBetterThanNoMeaning(0.2, std::nan("")));
-  EXPECT_FALSE(IsNoBetterThanNoMeaning(std::nan(""), std::nan("")));
+TEST(Verdict, WhatAPlaceboDoesAsWellIsNoCause) {
+  EXPECT_TRUE(IsNoBetterThanPlacebo(0.26, 0.33));
+  EXPECT_FALSE(IsNoBetterThanPlacebo(0.90, 0.38));
+  EXPECT_FALSE(IsNoBetterThanPlacebo(-0.10, 0.01));
+  EXPECT_FALSE(IsNoBetterThanPlacebo(0.2, std::nan("")));
+  EXPECT_FALSE(IsNoBetterThanPlacebo(std::nan(""), std::nan("")));
 }
 
 TEST(Verdict, WhatNoiseReachesIsNoDetection) {

@@ -40,7 +40,7 @@ TEST(FitIntervals, DoubtOfTheNoiseFloorDoesNotAverageOut) {
   residuals[ResidualKind::kTransfer].enabled = true;
   ModelSpec model = DefaultModelSpec();
   model[ParameterKind::kTau].fixed = true;
-  const Acoustics<double> truth{204.0, 0.15, 5500.0, 0.0, kSeedHarmonicRatio};
+  const Acoustics<double> truth{204.0, 0.15, 5500.0, 0.0, kPaperHarmonicRatio};
   for (const double step_hz : {20.0, 1.0}) {
     Experiment experiment;
     experiment.name = "exp1";

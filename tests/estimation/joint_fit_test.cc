@@ -36,8 +36,8 @@ const FitParameter& Find(const JointFit& fit, const std::string& name) {
   return fit.parameters.front();
 }
 
-TEST(ClosedForm, DelaysOfTheSeedsTable) {
-  // notes to the seed, item 4.
+TEST(ClosedForm, DelaysOfThePapersTable) {
+  // notes to the paper, item 4.
   const std::vector<double> expected_ms = {3.338, 3.461, 3.452, 3.437, 3.459, 3.511};
   const std::vector<Experiment> experiments = R228();
   for (std::size_t i = 0; i < experiments.size(); ++i) {
@@ -59,7 +59,7 @@ TEST(JointFit, PublishedTableIsFittedWithinItsTolerances) {
 }
 
 TEST(JointFit, LoopGainsOfThePublishedTable) {
-  // notes to the seed, item 2: gain 2 pi f |Phi'(0)|, which every fit of the gains reproduces.
+  // notes to the paper, item 2: gain 2 pi f |Phi'(0)|, which every fit of the gains reproduces.
   const std::vector<double> expected = {1.179, 1.221, 1.281, 1.280, 0.940, 0.443};
   const JointProblem problem(R228(), DefaultModelSpec(), WithoutPriors());
   const JointFit fit = SolveJoint(problem, {}, 1, 1);
@@ -108,7 +108,7 @@ TEST(JointFit, WithoutPriorsOneDirectionAnExperimentIsFree) {
                                                " trade off along ("));
     EXPECT_TRUE(std::isinf(Find(fit, "exp" + std::to_string(i + 1) + ".xi").std_relative));
     EXPECT_TRUE(std::isfinite(Find(fit, "exp" + std::to_string(i + 1) + ".tau_s").std_relative));
-    // Along the closed form of the seed's notes, item 6.
+    // Along the closed form of the paper's notes, item 6.
     const Experiment& experiment = problem.experiments()[i];
     const double h = 1e-6;
     const double xi = fit.models[i].xi;
@@ -125,7 +125,7 @@ TEST(JointFit, WithoutPriorsOneDirectionAnExperimentIsFree) {
   }
 }
 
-std::complex<double> SeedLoop(const LoopModel& m, double f);
+std::complex<double> PaperLoop(const LoopModel& m, double f);
 
 TEST(JointFit, NonHarmonicLineDeterminesTheSecondMode) {
   ModelSpec model = DefaultModelSpec();
@@ -154,7 +154,7 @@ TEST(JointFit, NonHarmonicLineDeterminesTheSecondMode) {
   // Without the line M is free within more than a factor e; with it, it is held.
   EXPECT_GT(stated_std_of_M(without_line, without), 3.0);
   EXPECT_LT(stated_std_of_M(with_line, with), 1.0);
-  // The ratio that the seed's figures 11 and 12 imply is 0.415 for experiment 1 (notes, item 9).
+  // The ratio that the paper's figures 11 and 12 imply is 0.415 for experiment 1 (notes, item 9).
   EXPECT_NEAR(with.models[0].M / with.models[0].N, 0.415, 0.15);
   // Section 4 asks for magnitude above one there, which that ratio does not give (0.87, the same
   // note): with its residual the second mode grows.
@@ -162,9 +162,9 @@ TEST(JointFit, NonHarmonicLineDeterminesTheSecondMode) {
   const JointFit loud = SolveJoint(JointProblem(experiments, model, residuals), {}, 1, 2);
   for (std::size_t i = 0; i < 4; ++i) {
     const double quiet_gain =
-        std::abs(SeedLoop(with.models[i], 750.0) * *experiments[i].flame_slope);
+        std::abs(PaperLoop(with.models[i], 750.0) * *experiments[i].flame_slope);
     const double loud_gain =
-        std::abs(SeedLoop(loud.models[i], 750.0) * *experiments[i].flame_slope);
+        std::abs(PaperLoop(loud.models[i], 750.0) * *experiments[i].flame_slope);
     EXPECT_GT(loud_gain, quiet_gain) << i;
     EXPECT_GT(loud_gain, 0.9) << i;
   }
@@ -228,7 +228,7 @@ TEST(JointFit, RobustLossLimitsAnOutlier) {
 
 // --- Parameters drawn, characteristics computed, parameters recovered. ---
 
-std::complex<double> SeedLoop(const LoopModel& m, double f) {
+std::complex<double> PaperLoop(const LoopModel& m, double f) {
   const std::complex<double> s(0.0, 2.0 * kPi * f);
   const double w = 2.0 * kPi * m.omega_hz;
   const std::complex<double> G = m.N * s / (s * s + 2.0 * w * m.xi * s + w * w) +
@@ -238,7 +238,7 @@ std::complex<double> SeedLoop(const LoopModel& m, double f) {
 
 // Bisection for arg L = 180 degrees in [lo, hi]; the phase of -L must fall through zero there.
 double Crossing(const LoopModel& model, double lo, double hi) {
-  const auto phase = [&](double f) { return std::arg(-SeedLoop(model, f)); };
+  const auto phase = [&](double f) { return std::arg(-PaperLoop(model, f)); };
   for (int i = 0; i < 200; ++i) {
     const double middle = 0.5 * (lo + hi);
     (phase(middle) > 0.0 ? lo : hi) = middle;
@@ -249,8 +249,8 @@ double Crossing(const LoopModel& model, double lo, double hi) {
 // Scans for a downward crossing between lo and hi hertz; zero when there is none.
 double FindCrossing(const LoopModel& model, double lo, double hi) {
   for (double f = lo; f < hi; f += 0.5) {
-    const double here = std::arg(-SeedLoop(model, f));
-    const double next = std::arg(-SeedLoop(model, f + 0.5));
+    const double here = std::arg(-PaperLoop(model, f));
+    const double next = std::arg(-PaperLoop(model, f + 0.5));
     if (here > 0.0 && next <= 0.0 && here - next < kPi) return Crossing(model, f, f + 0.5);
   }
   return 0.0;
@@ -291,7 +291,7 @@ TEST(JointFit, RecoversDrawnParameters) {
       if (experiment.frequency_hz == 0.0 || line_hz == 0.0) break;
       const std::complex<double> s(0.0, 2.0 * kPi * experiment.frequency_hz);
       const std::complex<double> G =
-          SeedLoop(rig, experiment.frequency_hz) * std::exp(rig.tau_s * s) / s;
+          PaperLoop(rig, experiment.frequency_hz) * std::exp(rig.tau_s * s) / s;
       experiment.gain = std::abs(G);
       experiment.phase_deg = std::arg(G) * 180.0 / kPi;
       experiment.lines = {{line_hz, 0.0}};

@@ -186,26 +186,26 @@ TEST(Residuals, JacobiansAreCorrectAtRandomPoints) {
   }
 }
 
-// The seed's equations with std::complex and no code of model/.
-std::complex<double> SeedAcoustics(double omega_hz, double xi, double N, double M, double ratio,
-                                   double f) {
+// The paper's equations with std::complex and no code of model/.
+std::complex<double> PaperAcoustics(double omega_hz, double xi, double N, double M, double ratio,
+                                    double f) {
   const std::complex<double> s(0.0, 2.0 * kPi * f);
   const double w = 2.0 * kPi * omega_hz;
   const double v = ratio * w;
   return N * s / (s * s + 2.0 * w * xi * s + w * w) + M * s / (s * s + 2.0 * v * xi * s + v * v);
 }
 
-TEST(Residuals, GainAndPhaseMatchTheSeedsFullForm) {
+TEST(Residuals, GainAndPhaseMatchThePapersFullForm) {
   const std::vector<double> logs = {std::log(200.0), std::log(0.2), std::log(6000.0),
                                     std::log(2500.0)};
-  const std::complex<double> G = SeedAcoustics(200.0, 0.2, 6000.0, 2500.0, 3.0, 215.0);
+  const std::complex<double> G = PaperAcoustics(200.0, 0.2, 6000.0, 2500.0, 3.0, 215.0);
   const CostPtr gain(GainEqualityResidual::CreateFull({215.0, 12.0, 0.01}, {}));
   EXPECT_NEAR(Evaluate(*gain, logs), std::log(std::abs(G) / 12.0) / 0.01, 1e-9);
   const CostPtr phase(PhaseEqualityResidual::CreateFull({215.0, -10.0, 0.5}, {}));
   EXPECT_NEAR(Evaluate(*phase, logs), (std::arg(G) * 180.0 / kPi + 10.0) / 0.5, 1e-9);
 }
 
-TEST(Residuals, ReducedFormIsTheSeedsClosedForm) {
+TEST(Residuals, ReducedFormIsThePapersClosedForm) {
   // (5c): at omega = f the phase is zero and the gain is N / (2 xi omega).
   const std::vector<double> logs = {std::log(200.0), std::log(0.2), std::log(6000.0)};
   const CostPtr phase(PhaseEqualityResidual::CreateReduced({200.0, 0.0, 1.0}));
@@ -222,7 +222,7 @@ TEST(Residuals, PhaseWrapsAcrossHalfATurn) {
   EXPECT_NEAR(Evaluate(*phase, logs), 1.0, 1e-9);
 }
 
-TEST(Residuals, LimitCyclePhaseVanishesAtTheSeedsDelay) {
+TEST(Residuals, LimitCyclePhaseVanishesAtThePapersDelay) {
   // With the phase of G zero, (3) gives tau = 270 / (360 f).
   const double tau_s = 270.0 / 360.0 / 200.0;
   const CostPtr phase(LimitCyclePhaseResidual::CreateReduced({200.0, 1.0}));
@@ -249,7 +249,7 @@ TEST(Residuals, DelayDerivativeIsExactAndNotZero) {
 
 TEST(Residuals, LimitCycleGainIsOneSided) {
   const std::vector<double> logs = {std::log(200.0), std::log(0.2), std::log(6000.0)};
-  const double gain = std::abs(SeedAcoustics(200.0, 0.2, 6000.0, 0.0, 3.0, 200.0));
+  const double gain = std::abs(PaperAcoustics(200.0, 0.2, 6000.0, 0.0, 3.0, 200.0));
   const double critical_slope = -1.0 / (gain * 2.0 * kPi * 200.0);
   const CostPtr above(LimitCycleGainResidual::CreateReduced({200.0, 1.2 * critical_slope, 0.05}));
   EXPECT_EQ(Evaluate(*above, logs), 0.0);
@@ -267,8 +267,8 @@ TEST(Residuals, SecondCrossingCarriesTheLinesOwnError) {
 TEST(Residuals, SecondModeMinorIsTheShareBeyondWhatIsAllowed) {
   const std::vector<double> logs = {std::log(200.0), std::log(0.2), std::log(6000.0),
                                     std::log(9000.0)};
-  const double share = std::abs(SeedAcoustics(200.0, 0.2, 0.0, 9000.0, 3.0, 215.0)) /
-                       std::abs(SeedAcoustics(200.0, 0.2, 6000.0, 0.0, 3.0, 215.0));
+  const double share = std::abs(PaperAcoustics(200.0, 0.2, 0.0, 9000.0, 3.0, 215.0)) /
+                       std::abs(PaperAcoustics(200.0, 0.2, 6000.0, 0.0, 3.0, 215.0));
   const CostPtr above(SecondModeMinorResidual::CreateFull({215.0, 0.5 * share, 0.01}, {}));
   EXPECT_NEAR(Evaluate(*above, logs), 0.5 * share / 0.01, 1e-9);
   const CostPtr below(SecondModeMinorResidual::CreateFull({215.0, 1.01 * share, 0.01}, {}));
@@ -284,7 +284,7 @@ TEST(Residuals, SecondCrossingGainAsksForMoreThanOne) {
         SecondCrossingGain(line_hz, -0.703e-4, 0.05), {3.0, true}));
     return Evaluate(*cost, {std::log(215.0), std::log(0.2), std::log(6609.0), std::log(ratio)});
   };
-  const double gain = std::abs(SeedAcoustics(215.0, 0.2, 6609.0, 0.415 * 6609.0, 3.0, line_hz)) *
+  const double gain = std::abs(PaperAcoustics(215.0, 0.2, 6609.0, 0.415 * 6609.0, 3.0, line_hz)) *
                       2.0 * kPi * line_hz * 0.703e-4;
   EXPECT_NEAR(gain, 0.87, 0.01);
   EXPECT_NEAR(residual(0.415), (1.0 - gain) / 0.05, 1e-9);

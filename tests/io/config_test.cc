@@ -211,7 +211,7 @@ TEST(Config, SolverFamilyAnalysis) {
       "  test: {gain_tolerance: 0.02, phase_tolerance_deg: 0.6, loop_phase_tolerance_deg: 2,\n"
       "         loop_gain_min: 1.1, second_crossing_tolerance_deg: 12, omega_spread_max: 0.15,\n"
       "         xi_max: 0.4, xi_increasing: false, transfer_distance_max: 3.08}\n"
-      "analysis: {method: seed, delay_branch: 1, min_frequency_hz: 50, max_frequency_hz: 400}\n");
+      "analysis: {method: paper, delay_branch: 1, min_frequency_hz: 50, max_frequency_hz: 400}\n");
   EXPECT_EQ(config.solver.starts, 3);
   EXPECT_EQ(config.solver.max_iterations, 1000);
   EXPECT_EQ(config.family.members, 50);
@@ -226,7 +226,9 @@ TEST(Config, SolverFamilyAnalysis) {
   EXPECT_EQ(test.xi_max, 0.4);
   EXPECT_FALSE(test.xi_increasing);
   EXPECT_EQ(test.transfer_distance_max, 3.08);
-  EXPECT_EQ(config.analysis.method, CharacteristicsMethod::kSeed);
+  EXPECT_EQ(config.analysis.method, CharacteristicsMethod::kPaper);
+  EXPECT_EQ(Load(kGood + "analysis: {method: seed}\n").analysis.method,
+            CharacteristicsMethod::kPaper);
   EXPECT_EQ(config.analysis.delay_branch, 1);
   EXPECT_EQ(config.analysis.min_frequency_hz, 50.0);
   EXPECT_EQ(config.analysis.max_frequency_hz, 400.0);

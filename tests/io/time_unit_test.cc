@@ -23,7 +23,7 @@ TEST(TimeUnit, NamesEndWithTheirUnit) {
   }
 }
 
-TEST(TimeUnit, ARateBesideTheTimesTells) {
+TEST(TimeUnit, ARateWithTheTimesTells) {
   EXPECT_EQ(TimeUnitOfRates(5.0, 5000.0, 0.01), 1e-3);
   EXPECT_EQ(TimeUnitOfRates(0.0501, 50000.0, 0.01), 1e-6);
   EXPECT_EQ(TimeUnitOfRates(5000.0, 5000.0, 0.01), 1.0);

@@ -26,7 +26,7 @@ constexpr int kRigs = 200;
 constexpr double kRateHz = 40000.0;
 using Complex64 = std::complex<double>;
 
-// Loops around the seed's, the largest gain at a crossing between 0.8 and 2, and the gain at high
+// Loops around the paper's, the largest gain at a crossing between 0.8 and 2, and the gain at high
 // frequency, |Phi'(0)| (N + M), below 0.8 of it and of one.
 ClosedLoop RandomRig(std::uint64_t index) {
   RandomStream random(DeriveSeed(20011, index));

@@ -10,7 +10,7 @@
 #include "model/harmonic_balance.h"
 #include "model/ramp.h"
 #include "model/simulate.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -33,7 +33,7 @@ double LineAmplitude(const SimulatedRecord& record, std::size_t begin, std::size
 SimulatedRecord NoisyRun(double m_over_n, double density, double duration_s, std::uint64_t seed,
                          std::size_t start_cycle) {
   SimulationCase one;
-  one.rig.model = SeedLoop(m_over_n);
+  one.rig.model = PaperLoop(m_over_n);
   one.rig.noise.combustion_density = density;
   one.rig.noise.combustion_corner_hz = 1500.0;
   one.rig.past = PastOnCycle(LimitCycles(one.rig.model, 900.0).at(start_cycle));
@@ -44,7 +44,7 @@ SimulatedRecord NoisyRun(double m_over_n, double density, double duration_s, std
 }
 
 TEST(Attractors, Figure11TwoLines) {
-  // At 5 kHz, as in the seed; ten times its 16 000 samples, for a broad line's frequency scatters.
+  // At 5 kHz, as in the paper; ten times its 16 000 samples, for a broad line's frequency scatters.
   const SimulatedRecord record = NoisyRun(0.415, 2e-7, 32.0, 11, 0);
   ASSERT_EQ(record.pressure.size(), 160000u);
   constexpr std::size_t kSegment = 1000;
@@ -73,8 +73,8 @@ TEST(Attractors, Figure11TwoLines) {
   EXPECT_NEAR(frequency[first], 216.3, 5.0);
   EXPECT_NEAR(frequency[second], 746.0, 10.0);
   // Where Floquet's multipliers put the upper mode on top of the cycle.
-  const LimitCycle cycle = LimitCycles(SeedLoop(0.415), 300.0).at(0);
-  const FloquetMultipliers floquet = CycleStability(SeedLoop(0.415), cycle);
+  const LimitCycle cycle = LimitCycles(PaperLoop(0.415), 300.0).at(0);
+  const FloquetMultipliers floquet = CycleStability(PaperLoop(0.415), cycle);
   const double offset_hz = std::abs(std::arg(floquet.multipliers[1])) / kTwoPi * cycle.frequency_hz;
   EXPECT_NEAR(3.0 * cycle.frequency_hz + offset_hz, 745.9, 0.5);
   // A line of its own: ten times what is between the two, and weaker and broader than the first.
@@ -128,13 +128,13 @@ TEST(Attractors, SweepsUpAndDownSwitchAtDifferentPlaces) {
   // one, which attracts until 0.625 (tests/model/continuation_test.cc).
   const auto sweep = [](double from, double to, std::size_t start_cycle) {
     SimulationCase one;
-    one.rig.model = SeedLoop(from);
+    one.rig.model = PaperLoop(from);
     one.rig.noise.combustion_density = 1e-10;  // enough to leave a cycle that no longer attracts
     one.rig.noise.combustion_corner_hz = 1500.0;
     one.rig.past = PastOnCycle(LimitCycles(one.rig.model, 900.0).at(start_cycle));
     one.rig.effects = {std::make_shared<LoopSchedule>(
-        std::vector<LoopSchedule::Point>{{0.0, SeedLoop(from).loop, SeedLoop(from).flame},
-                                         {40.0, SeedLoop(to).loop, SeedLoop(to).flame}})};
+        std::vector<LoopSchedule::Point>{{0.0, PaperLoop(from).loop, PaperLoop(from).flame},
+                                         {40.0, PaperLoop(to).loop, PaperLoop(to).flame}})};
     SimulationOptions options;
     options.duration_s = 40.0;
     return Simulate(one, options);

@@ -10,7 +10,7 @@
 
 #include "model/crossings.h"
 #include "model/simulate.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -20,17 +20,17 @@ int Count(const Branch& branch, BifurcationKind kind) {
                                         [kind](const Bifurcation& b) { return b.kind == kind; }));
 }
 
-Branch SeedBranch(double m_over_n, std::size_t which) {
+Branch PaperBranch(double m_over_n, std::size_t which) {
   ContinuationOptions options;
   options.parameter_min = 0.2;
   options.parameter_max = 1.05;
-  const auto cycles = LimitCycles(SeedLoop(m_over_n), 900.0);
-  return ContinueCycle([](double r) { return SeedLoop(r); }, m_over_n, cycles.at(which), options);
+  const auto cycles = LimitCycles(PaperLoop(m_over_n), 900.0);
+  return ContinueCycle([](double r) { return PaperLoop(r); }, m_over_n, cycles.at(which), options);
 }
 
 TEST(Continuation, CyclesNear215And750HzCoexist) {
-  const Branch low = SeedBranch(0.415, 0);
-  const Branch high = SeedBranch(0.8, 1);
+  const Branch low = PaperBranch(0.415, 0);
+  const Branch high = PaperBranch(0.8, 1);
   EXPECT_NEAR(low.points.front().cycle.frequency_hz, 216.0, 1.0);
   EXPECT_NEAR(high.points.back().cycle.frequency_hz, 750.0, 5.0);
 
@@ -40,7 +40,7 @@ TEST(Continuation, CyclesNear215And750HzCoexist) {
   ASSERT_EQ(Count(high, BifurcationKind::kHopf), 1);
   const auto hopf = std::find_if(high.bifurcations.begin(), high.bifurcations.end(),
                                  [](auto& b) { return b.kind == BifurcationKind::kHopf; });
-  const ClosedLoop at_hopf = SeedLoop(hopf->parameter);
+  const ClosedLoop at_hopf = PaperLoop(hopf->parameter);
   const auto crossings = PhaseCrossings(at_hopf.loop, at_hopf.flame.slope, 900.0);
   EXPECT_NEAR(crossings.back().gain, 1.0, 1e-9);
   EXPECT_NEAR(hopf->parameter, 0.5405, 0.0005);
@@ -56,7 +56,7 @@ TEST(Continuation, CyclesNear215And750HzCoexist) {
 
   // The ends are where simulation says: a cycle with a small push keeps or leaves its frequency.
   const auto keeps = [](double m_over_n, std::size_t which) {
-    const ClosedLoop model = SeedLoop(m_over_n);
+    const ClosedLoop model = PaperLoop(m_over_n);
     const auto cycles = LimitCycles(model, 900.0);
     SimulationCase one;
     one.rig.model = model;
@@ -91,7 +91,7 @@ TEST(Continuation, CyclesNear215And750HzCoexist) {
 // A flame off its centre is steeper at some amplitude than at rest: the cycle is born unstable,
 // towards lower gain, and turns stable in a fold.
 ClosedLoop OffsetLoop(double gain_factor) {
-  ClosedLoop model = SeedLoop(0.1);
+  ClosedLoop model = PaperLoop(0.1);
   model.flame.slope *= gain_factor;
   model.flame.offset = 1.1 * model.flame.saturation / std::abs(model.flame.slope);
   return model;
@@ -148,7 +148,7 @@ TEST(Continuation, ThroughTheDelay) {
   options.parameter_min = 0.0034;
   options.parameter_max = 0.0035;
   const auto path = [](double tau_s) {
-    ClosedLoop model = SeedLoop(0.415);
+    ClosedLoop model = PaperLoop(0.415);
     model.loop.tau_s = tau_s;
     return model;
   };

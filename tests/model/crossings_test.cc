@@ -11,7 +11,7 @@
 #include "model/poles.h"
 #include "model/random_stream.h"
 #include "model/sensitivity.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -75,7 +75,7 @@ TEST(Crossings, GainCrossingsAreComplete) {
 }
 
 TEST(Crossings, MarginsAreWhereStabilityChanges) {
-  const ClosedLoop model = SeedLoop(0.415);
+  const ClosedLoop model = PaperLoop(0.415);
   const double slope = 0.8 * model.flame.slope;  // stable
   const LoopMargins margins = Margins(model.loop, slope, 2000.0);
   ASSERT_TRUE(margins.stable);
@@ -94,7 +94,7 @@ TEST(Crossings, MarginsAreWhereStabilityChanges) {
 }
 
 TEST(Crossings, NyquistCurveIsSmoothAndEndsWhereAsked) {
-  const ClosedLoop model = SeedLoop(0.415);
+  const ClosedLoop model = PaperLoop(0.415);
   const auto curve = NyquistCurve(model.loop, model.flame.slope, 1000.0);
   EXPECT_EQ(curve.back().frequency_hz, 1000.0);
   for (std::size_t i = 1; i < curve.size(); ++i) {

@@ -10,7 +10,7 @@
 #include "model/crossings.h"
 #include "model/floquet.h"
 #include "model/prediction.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -22,7 +22,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 // frequencies, Q_k by quadrature of Phi(v(t)) on a grid of its own.
 TEST(HarmonicBalance, SolutionSatisfiesTheLoop) {
   for (const FlameShape shape : {FlameShape::kTanh, FlameShape::kArctan, FlameShape::kAlgebraic}) {
-    ClosedLoop model = SeedLoop(0.415);
+    ClosedLoop model = PaperLoop(0.415);
     model.flame.shape = shape;
     model.flame.offset = 1200.0;  // even harmonics too
     model.flame.slope *= 1.3;
@@ -55,7 +55,7 @@ TEST(HarmonicBalance, SolutionSatisfiesTheLoop) {
 TEST(HarmonicBalance, SmallCycleIsTheDescribingFunctions) {
   // Just above the threshold, with a cubic flame, D(A) = k (1 - a^2 / 9): to first order in the
   // excess of gain, a^2 = 9 (1 - 1 / gain) and the frequency is the crossing's.
-  ClosedLoop model = SeedLoop(0.1);
+  ClosedLoop model = PaperLoop(0.1);
   model.flame.shape = FlameShape::kCubic;
   const double gain = PhaseCrossings(model.loop, model.flame.slope, 300.0).front().gain;
   constexpr double kExcess = 1e-4;
@@ -70,14 +70,14 @@ TEST(HarmonicBalance, SmallCycleIsTheDescribingFunctions) {
 }
 
 TEST(HarmonicBalance, NoCycleBelowTheThreshold) {
-  ClosedLoop model = SeedLoop(0.415);
+  ClosedLoop model = PaperLoop(0.415);
   model.flame.slope *= 0.8;
   EXPECT_TRUE(LimitCycles(model, 2000.0).empty());
   EXPECT_FALSE(SolveLimitCycle(model, 216.0, 5000.0).has_value());
 }
 
 TEST(HarmonicBalance, ClippedFlameConvergesSlowlyButDoes) {
-  ClosedLoop model = SeedLoop(0.2);
+  ClosedLoop model = PaperLoop(0.2);
   model.flame.shape = FlameShape::kPiecewiseLinear;
   HarmonicBalanceOptions options;
   options.tolerance = 1e-4;
@@ -88,12 +88,12 @@ TEST(HarmonicBalance, ClippedFlameConvergesSlowlyButDoes) {
 
 TEST(Prediction, GathersWhatTheLoopWillDo) {
   // Between 0.625 and 0.923 two cycles attract; at 0.415 one; with less gain none, and rest does.
-  EXPECT_EQ(PredictLoop(SeedLoop(0.75), 4.2).attracting_cycles(), 2);
-  const LoopPrediction one = PredictLoop(SeedLoop(0.415), 4.2);
+  EXPECT_EQ(PredictLoop(PaperLoop(0.75), 4.2).attracting_cycles(), 2);
+  const LoopPrediction one = PredictLoop(PaperLoop(0.415), 4.2);
   EXPECT_EQ(one.attracting_cycles(), 1);
   EXPECT_FALSE(one.rest_is_stable());
   EXPECT_FALSE(one.margins.stable);
-  ClosedLoop weak = SeedLoop(0.415);
+  ClosedLoop weak = PaperLoop(0.415);
   weak.flame.slope *= 0.8;
   const LoopPrediction none = PredictLoop(weak, 4.2);
   EXPECT_TRUE(none.cycles.empty());
@@ -105,7 +105,7 @@ TEST(Prediction, GathersWhatTheLoopWillDo) {
 TEST(Floquet, SmallCycleRelaxesAtTwiceItsExcessGrowth) {
   // Near the threshold the amplitude obeys da/dt = sigma a (1 - a^2 / a_0^2), which relaxes at
   // -2 sigma, sigma being the growth rate from rest.
-  ClosedLoop model = SeedLoop(0.1);
+  ClosedLoop model = PaperLoop(0.1);
   const double gain = PhaseCrossings(model.loop, model.flame.slope, 300.0).front().gain;
   model.flame.slope *= 1.003 / gain;
   const auto cycles = LimitCycles(model, 300.0);

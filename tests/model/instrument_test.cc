@@ -15,7 +15,7 @@
 #include "model/prediction.h"
 #include "model/ramp.h"
 #include "model/simulate.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -123,7 +123,7 @@ double Density(const std::vector<double>& x, double rate_hz, double f, std::size
 // With a flame that does nothing q is the noise alone, and p is G's answer to it.
 TEST(Noise, HasItsStatedSpectrum) {
   SimulationCase one;
-  one.rig.model = SeedLoop(0.415);
+  one.rig.model = PaperLoop(0.415);
   one.rig.model.flame.slope = -1e-30;
   one.seed = 4;
   SimulationOptions options;
@@ -148,7 +148,7 @@ TEST(Noise, HasItsStatedSpectrum) {
 
 TEST(Noise, StableLoopColoursItAsPredicted) {
   SimulationCase one;
-  one.rig.model = SeedLoop(0.415);
+  one.rig.model = PaperLoop(0.415);
   one.rig.model.flame.slope *= 0.75;         // gain 0.88 at 216 Hz, 0.66 at 746 Hz
   one.rig.noise.combustion_density = 1e-12;  // far from saturation
   one.rig.noise.combustion_corner_hz = 2000.0;
@@ -179,7 +179,7 @@ TEST(Noise, StableLoopColoursItAsPredicted) {
 
 TEST(Noise, SensorsAreWhiteWithTheirStandardDeviation) {
   SimulationCase one;
-  one.rig.model = SeedLoop(0.415);
+  one.rig.model = PaperLoop(0.415);
   one.rig.noise.pressure_sensor_std = 0.3;
   one.rig.noise.heat_release_sensor_std = 0.02;
   one.seed = 8;
@@ -205,7 +205,7 @@ TEST(Noise, SensorsAreWhiteWithTheirStandardDeviation) {
 
 TEST(Simulate, RecordAgreesWithTrueSignals) {
   SimulationCase one;
-  one.rig.model = SeedLoop(0.415);
+  one.rig.model = PaperLoop(0.415);
   one.rig.past = PastOnCycle(LimitCycles(one.rig.model, 300.0).at(0));
   SimulationOptions options;
   options.duration_s = 0.2;
@@ -224,7 +224,7 @@ TEST(Ramp, EndsOnTheCycleOfItsLastParameters) {
   // The delay and the natural frequency move by a few per cent in a second; then the cycle must be
   // harmonic balance's of the new parameters.
   SimulationCase one;
-  one.rig.model = SeedLoop(0.3);
+  one.rig.model = PaperLoop(0.3);
   one.rig.past = PastOnCycle(LimitCycles(one.rig.model, 300.0).at(0));
   one.rig.effects = {
       std::make_shared<ParameterRamp>(RampedParameter::kTau, 1.0, 1.03, 0.1, 1.1),

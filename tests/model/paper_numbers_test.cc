@@ -1,4 +1,4 @@
-// What the seed's section 4 says of the loop at 750 Hz, in figures 8 and 11 to 14. Where a printed
+// What the paper's section 4 says of the loop at 750 Hz, in figures 8 and 11 to 14. Where a printed
 // number and the equations disagree, the test holds both.
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "model/crossings.h"
 #include "model/sensitivity.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -55,7 +55,7 @@ TEST(PaperNumbers, Figure14DelayPhaseAt750Hz) {
 TEST(PaperNumbers, Figure14ThreePercentInTauMoveThePhaseByMoreThanFiftyDegrees) {
   // tau = {3.37, 3.47, 3.57} ms are 3 % on each side: more than 50 degrees between the outer two,
   // 27 for one side.
-  LoopParameters<double> loop = SeedLoop(kMOverN).loop;
+  LoopParameters<double> loop = PaperLoop(kMOverN).loop;
   loop.tau_s = 0.00347;
   const double per_second = std::abs(LoopSensitivityAt(loop, 750.0)[LoopParameter::kTau].phase_deg);
   EXPECT_GT(per_second * 0.0002, 50.0);
@@ -64,7 +64,7 @@ TEST(PaperNumbers, Figure14ThreePercentInTauMoveThePhaseByMoreThanFiftyDegrees) 
 }
 
 TEST(PaperNumbers, TotalPhaseIs180AtTheSecondCrossingNear746Hz) {
-  const ClosedLoop model = SeedLoop(kMOverN);
+  const ClosedLoop model = PaperLoop(kMOverN);
   const auto crossings = PhaseCrossings(model.loop, model.flame.slope, 900.0);
   // -180 at the first crossing, -540 between the modes, -900 near 746 Hz.
   ASSERT_EQ(crossings.size(), 3u);
@@ -82,7 +82,7 @@ TEST(PaperNumbers, TotalPhaseIs180AtTheSecondCrossingNear746Hz) {
 TEST(PaperNumbers, Figure12TwoCrossings) {
   // "The two bullets are at 215 Hz (the inner one) and at 746 Hz (the outer one)."
   const auto at = [](double m_over_n) {
-    const ClosedLoop model = SeedLoop(m_over_n);
+    const ClosedLoop model = PaperLoop(m_over_n);
     return PhaseCrossings(model.loop, model.flame.slope, 900.0);
   };
   // The M/N that puts the second crossing at 746 Hz makes it the inner one, below one ...
@@ -102,7 +102,7 @@ TEST(PaperNumbers, Figure12TwoCrossings) {
 TEST(PaperNumbers, SecondCrossingIsSetByTheDelay) {
   // "the spectral location of the non-harmonic signal is mainly determined by tau": 1 % of tau
   // moves it more than eight times as far as 1 % of omega.
-  const LoopParameters<double> loop = SeedLoop(kMOverN).loop;
+  const LoopParameters<double> loop = PaperLoop(kMOverN).loop;
   const LoopSensitivity s = LoopSensitivityAt(loop, 745.958);
   const double by_tau = 0.01 * loop.tau_s * s.CrossingShiftHz(LoopParameter::kTau);
   const double by_omega = 0.01 * loop.acoustics.omega_hz * s.CrossingShiftHz(LoopParameter::kOmega);

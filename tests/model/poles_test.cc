@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/floquet.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -51,7 +51,7 @@ TEST(Poles, CountIsCompleteAtHighGainLowDampingAndLongDelay) {
   for (const Rig& rig :
        {Rig{0.02, 0.1, 0.003, 0.3}, Rig{0.2, 1.0, 0.02, 1.0}, Rig{0.3, 0.0, 0.001, 2.0},
         Rig{0.9, 0.4, 0.0035, 3.0}, Rig{0.05, 2.0, 0.008, 0.8}}) {
-    ClosedLoop model = SeedLoop(rig.m_over_n);
+    ClosedLoop model = PaperLoop(rig.m_over_n);
     model.loop.acoustics.xi = rig.xi;
     model.loop.tau_s = rig.tau_s;
     const PoleSet set = ClosedLoopPoles(model.loop, rig.gain * model.flame.slope, {-0.3, 7.0});
@@ -65,7 +65,7 @@ TEST(Poles, CountIsCompleteAtHighGainLowDampingAndLongDelay) {
 }
 
 TEST(Poles, NeutralChainTendsToItsLine) {
-  const ClosedLoop model = SeedLoop(0.415);
+  const ClosedLoop model = PaperLoop(0.415);
   const double line = std::log(-model.flame.slope * 1.415 * 6609.0) / model.loop.tau_s;
   const PoleSet set = ClosedLoopPoles(model.loop, model.flame.slope, {-0.15, 8000.0 / 215.0});
   ASSERT_TRUE(set.complete);
@@ -85,14 +85,14 @@ TEST(Poles, NeutralChainTendsToItsLine) {
 TEST(Poles, OfAVanishingSlopeAreTheModes) {
   for (const double m_over_n : {0.0, 0.4}) {
     for (const double slope : {0.0, -1e-30, -1e-9}) {
-      const ClosedLoop model = SeedLoop(m_over_n);
+      const ClosedLoop model = PaperLoop(m_over_n);
       const auto pole = RightmostPole(model.loop, slope);
       ASSERT_TRUE(pole.has_value()) << slope;
       // Of s^2 + 2 xi w s + w^2, xi = 0.2 at 215 Hz; the slope moves it by k N = 7e-6 of w.
       EXPECT_NEAR(pole->growth_rate, -0.2 * kTwoPi * 215.0, 1e-4 * kTwoPi * 215.0) << slope;
       EXPECT_NEAR(pole->frequency_hz, 215.0 * std::sqrt(1.0 - 0.04), 0.02) << slope;
     }
-    ClosedLoop slow = SeedLoop(m_over_n);
+    ClosedLoop slow = PaperLoop(m_over_n);
     slow.loop.acoustics.xi = 1.25;  // roots at -w / 2 and -2 w
     const auto pole = RightmostPole(slow.loop, 0.0);
     ASSERT_TRUE(pole.has_value());
@@ -105,7 +105,7 @@ TEST(Poles, OfAVanishingSlopeAreTheModes) {
 // tau; off it by 2 xi w / (tau s) and the like.
 TEST(Poles, OfALargeSlopeAreTheDelays) {
   for (const double slope : {-1.0, -1e10, -1e26}) {
-    const ClosedLoop model = SeedLoop(0.4);
+    const ClosedLoop model = PaperLoop(0.4);
     const auto pole = RightmostPole(model.loop, slope);
     ASSERT_TRUE(pole.has_value()) << slope;
     const double growth = std::log(-slope * 6609.0 * 1.4) / model.loop.tau_s;
@@ -114,7 +114,7 @@ TEST(Poles, OfALargeSlopeAreTheDelays) {
 }
 
 TEST(Floquet, OfALinearFlameAreTheExponentialsOfThePoles) {
-  ClosedLoop model = SeedLoop(0.415);
+  ClosedLoop model = PaperLoop(0.415);
   model.flame.shape = FlameShape::kLinear;
   LimitCycle any;  // the slope is the same everywhere, so that every orbit will do
   any.frequency_hz = 216.0;

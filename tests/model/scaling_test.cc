@@ -17,7 +17,7 @@
 #include "model/poles.h"
 #include "model/prediction.h"
 #include "model/simulate.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -51,7 +51,7 @@ ClosedLoop Scaled(ClosedLoop model, const Units& u) {
 
 // The growth rates that were wrong above 2 kHz: of the published loop at every decade.
 TEST(Scaling, GrowthRatesOfALoopAtAnyFrequency) {
-  const ClosedLoop model = SeedLoop(0.415);
+  const ClosedLoop model = PaperLoop(0.415);
   const Pole of_the_paper = *RightmostPole(model.loop, model.flame.slope);
   const PoleSet all = ClosedLoopPoles(model.loop, model.flame.slope);
   ASSERT_TRUE(all.complete);
@@ -69,7 +69,7 @@ TEST(Scaling, GrowthRatesOfALoopAtAnyFrequency) {
 }
 
 TEST(Scaling, PolesCrossingsAndMarginsBitForBit) {
-  const ClosedLoop model = SeedLoop(0.415);
+  const ClosedLoop model = PaperLoop(0.415);
   const LoopPrediction expected = PredictLoop(model, 4.2);
   ASSERT_FALSE(expected.poles.poles.empty());
   ASSERT_FALSE(expected.crossings.empty());
@@ -109,8 +109,8 @@ Branch BranchOf(const Units& u) {
   options.parameter_min = 0.3;
   options.parameter_max = 0.6;
   options.stability = false;
-  const auto cycles = LimitCycles(Scaled(SeedLoop(0.415), u), 4.2 * 215.0 * u.a);
-  return ContinueCycle([&](double r) { return Scaled(SeedLoop(r), u); }, 0.415, cycles.at(0),
+  const auto cycles = LimitCycles(Scaled(PaperLoop(0.415), u), 4.2 * 215.0 * u.a);
+  return ContinueCycle([&](double r) { return Scaled(PaperLoop(r), u); }, 0.415, cycles.at(0),
                        options);
 }
 
@@ -132,7 +132,7 @@ TEST(Scaling, ContinuationTakesTheSameSteps) {
 TEST(Scaling, SimulationBitForBit) {
   const auto run = [](const Units& u) {
     SimulationCase one;
-    one.rig.model = Scaled(SeedLoop(0.415), u);
+    one.rig.model = Scaled(PaperLoop(0.415), u);
     one.rig.noise.combustion_corner_hz = 500.0 * u.a;
     one.rig.noise.combustion_density = 1e-7 * u.c * u.c / u.a;
     one.rig.noise.pressure_sensor_std = 1e-3 * u.b;

@@ -10,14 +10,14 @@
 #include "model/harmonic_balance.h"
 #include "model/ramp.h"
 #include "model/simulate.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
 
 SimulationCase MakeCase(int index, FlameShape shape) {
   SimulationCase one;
-  one.rig.model = SeedLoop(0.3 + 0.05 * index);
+  one.rig.model = PaperLoop(0.3 + 0.05 * index);
   one.rig.model.loop.tau_s += 1.7e-5 * index;
   one.rig.model.loop.acoustics.omega_hz -= 1.3 * index;
   one.rig.model.flame.shape = shape;

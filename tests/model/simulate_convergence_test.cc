@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/simulate.h"
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -130,7 +130,7 @@ class ManufacturedSource final : public LoopEffect {
 
 double NonlinearError(double tau_s, double internal_hz) {
   RigParameters rig;
-  rig.model = SeedLoop(0.415);
+  rig.model = PaperLoop(0.415);
   rig.model.loop.tau_s = tau_s;
   for (int i = 0; i < 2; ++i) {
     rig.past.push_back(

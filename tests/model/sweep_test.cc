@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/model/seed_loop.h"
+#include "tests/model/paper_loop.h"
 
 namespace howl {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kTo = 1.05;
 
 SimulationCase OnTheLowerCycle() {
   SimulationCase one;
-  one.rig.model = SeedLoop(kFrom);
+  one.rig.model = PaperLoop(kFrom);
   one.rig.noise.combustion_density = 1e-9;  // enough to leave a cycle that no longer attracts
   one.rig.noise.combustion_corner_hz = 1500.0;
   one.rig.past = PastOnCycle(LimitCycles(one.rig.model, 300.0).at(0));
@@ -34,10 +34,10 @@ TEST(Sweep, JumpsWhereTheBranchesEnd) {
   ContinuationOptions limits;
   limits.parameter_min = 0.2;
   limits.parameter_max = kTo;
-  const auto path = [](double ratio) { return SeedLoop(ratio); };
+  const auto path = [](double ratio) { return PaperLoop(ratio); };
   const auto branch = [&](double at, std::size_t which) {
     return StableIntervals(
-        ContinueCycle(path, at, LimitCycles(SeedLoop(at), 900.0).at(which), limits));
+        ContinueCycle(path, at, LimitCycles(PaperLoop(at), 900.0).at(which), limits));
   };
   const auto both = Intersect(branch(0.415, 0), branch(0.8, 1));
   ASSERT_EQ(both.size(), 1u);
@@ -72,7 +72,7 @@ TEST(Sweep, JumpsWhereTheBranchesEnd) {
       near_a_jump = near_a_jump || std::abs(window.parameter - jump.parameter) < 0.04;
     }
     if (near_a_jump) continue;
-    const auto cycles = LimitCycles(SeedLoop(window.parameter), 900.0);
+    const auto cycles = LimitCycles(PaperLoop(window.parameter), 900.0);
     const LimitCycle& cycle = window.frequency_hz < 400.0 ? cycles.front() : cycles.back();
     EXPECT_NEAR(window.frequency_hz / cycle.frequency_hz, 1.0, 5e-4) << window.parameter;
     EXPECT_NEAR(window.pressure_amplitude / cycle.pressure_amplitude(), 1.0, 0.01)
@@ -84,12 +84,12 @@ TEST(Sweep, OneCycleHasNoHysteresis) {
   // The delay from 3.3 to 3.6 ms and back: the frequency falls with it, and no jump.
   const SweepOptions options{.from = 0.0033, .to = 0.0036, .one_way_s = 5.0, .steps = 10};
   SimulationCase one = OnTheLowerCycle();
-  one.rig.model = SeedLoop(0.2);
+  one.rig.model = PaperLoop(0.2);
   const std::vector<SweepWindow> windows = SweepInTime(one, SweptParameter::kTau, options);
   EXPECT_TRUE(FindJumps(windows).empty());
   EXPECT_TRUE(FindHysteresis(windows, options).empty());
   for (const SweepWindow& window : windows) {
-    ClosedLoop model = SeedLoop(0.2);
+    ClosedLoop model = PaperLoop(0.2);
     model.loop.tau_s = window.parameter;
     EXPECT_NEAR(window.frequency_hz, LimitCycles(model, 300.0).at(0).frequency_hz, 0.2);
   }
@@ -101,13 +101,13 @@ TEST(Sweep, AtRestThereIsNoLineToJumpFrom) {
   // the cycle comes and goes at the same place.
   const SweepOptions options{.from = 0.6, .to = 1.4, .one_way_s = 20.0, .steps = 20};
   SimulationCase one = OnTheLowerCycle();
-  one.rig.model = SeedLoop(0.1);
+  one.rig.model = PaperLoop(0.1);
   one.rig.past.clear();
   const std::vector<SweepWindow> windows = SweepInTime(one, SweptParameter::kSlopeFactor, options);
   EXPECT_TRUE(FindJumps(windows).empty());
   for (const SweepWindow& window : windows) {
     const auto cycles = LimitCycles(
-        WithParameter(SeedLoop(0.1), SweptParameter::kSlopeFactor, window.parameter), 300.0);
+        WithParameter(PaperLoop(0.1), SweptParameter::kSlopeFactor, window.parameter), 300.0);
     if (window.parameter < 0.75) {
       EXPECT_TRUE(cycles.empty());
       EXPECT_LT(window.pressure_amplitude, 0.05) << window.parameter;
@@ -121,7 +121,7 @@ TEST(Sweep, AtRestThereIsNoLineToJumpFrom) {
 
 TEST(Sweep, WithParameterSetsThatParameterAlone) {
   for (const SweptParameter parameter : kSweptParameters) {
-    const ClosedLoop base = SeedLoop(0.5);
+    const ClosedLoop base = PaperLoop(0.5);
     const ClosedLoop moved = WithParameter(base, parameter, 1.25);
     const auto values = [](const ClosedLoop& m) {
       const auto& a = m.loop.acoustics;
@@ -134,8 +134,8 @@ TEST(Sweep, WithParameterSetsThatParameterAlone) {
     }
     EXPECT_EQ(changed, 1) << SweptParameterName(parameter);
   }
-  EXPECT_DOUBLE_EQ(WithParameter(SeedLoop(0.5), SweptParameter::kMOverN, 0.9).loop.acoustics.M,
-                   SeedLoop(0.9).loop.acoustics.M);
+  EXPECT_DOUBLE_EQ(WithParameter(PaperLoop(0.5), SweptParameter::kMOverN, 0.9).loop.acoustics.M,
+                   PaperLoop(0.9).loop.acoustics.M);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ import time
 
 SKIP = 77
 MEMBERS = 10000
-# Tables 2 and 3 of the seed.
+# Tables 2 and 3 of the paper.
 EXPERIMENTS = [
     ("exp1", 0.56, 219.9, -5.74, 12.14, -0.703e-4), ("exp2", 0.53, 209.1, -9.44, 13.15, -0.707e-4),
     ("exp3", 0.51, 205.7, -14.35, 14.79, -0.670e-4), ("exp4", 0.49, 202.7, -19.18, 16.05, -0.626e-4),

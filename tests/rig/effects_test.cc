@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "tests/rig/rig_setting.h"
+#include "tests/rig/two_point_rig.h"
 
 namespace rig {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/rig/rig_setting.h"
+#include "tests/rig/two_point_rig.h"
 
 namespace rig {
 namespace {

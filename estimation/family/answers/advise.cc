@@ -30,7 +30,8 @@ SurvivalResult TestFurther(const FamilyProblem& problem, std::span<const Member>
           InterpolateModel(problem.experiments, member, experiment.phi);
       if (!model) continue;
       tested = true;
-      // One at a time: what couples experiments was tested when the member was made.
+      // Experiments are tested one at a time, because conditions that couple experiments were
+      // tested when the member was made.
       const ConditionSet one =
           Falsify(std::span(&experiment, 1), std::span(&*model, 1), problem.test);
       for (const Condition condition : kConditions) {
@@ -70,7 +71,8 @@ std::vector<Advice> Advise(std::span<const Member> members,
       for (std::size_t truth = 0; truth < values.size(); truth += step, ++truths) {
         double kept = static_cast<double>(members.size() - values.size());
         for (const double value : values) {
-          // Chance that the measurement of the truth falls within reach of this member's value.
+          // The probability that the measurement of the truth falls within reach of this member's
+          // value.
           const double distance = (value - values[truth]) / measurement.std;
           kept += NormalBelow(kept_within - distance) - NormalBelow(-kept_within - distance);
         }

@@ -1,4 +1,4 @@
-// What further experiments would do to the family: which members survive experiments that were
+// The effect of further experiments on the family: which members survive experiments that were
 // made, and which experiment, not made yet, would remove most of the family.
 #ifndef HOWL_ESTIMATION_FAMILY_ANSWERS_ADVISE_H_
 #define HOWL_ESTIMATION_FAMILY_ANSWERS_ADVISE_H_
@@ -25,14 +25,14 @@ struct SurvivalResult {
   SurvivalCounts counts;
 };
 
-// Each further experiment meets the member's model of the experiment of the same phi, else the
-// model interpolated in phi. Its gain, phase, loop phase, loop gain and lines are tested, with its
-// own frequency. Further experiments outside the measured range of phi test nothing; a member that
-// none tests is kUntested.
+// Each further experiment is compared with the member's model of the experiment with the same phi,
+// else with the model interpolated in phi. Its gain, phase, loop phase, loop gain and lines are
+// tested, with its own frequency. Further experiments outside the measured range of phi test
+// nothing; a member that none tests is kUntested.
 SurvivalResult TestFurther(const FamilyProblem& problem, std::span<const Member> members,
                            std::span<const Experiment> further);
 
-// A measurement that could be made: what a member predicts for it, and how well it would be known.
+// A measurement that could be made: a member's prediction of it, and the error that it would have.
 struct Measurement {
   std::string name;
   std::string unit;
@@ -63,8 +63,9 @@ struct MeasurementStds {
   double line_relative = 2.0 / 750.0;       // 2 Hz of the paper's 750 Hz
 };
 
-// Where the line that the paper sees near 750 Hz is looked for, in multiples of the limit cycle's
-// frequency: about the second mode, whose frequency is harmonic_ratio times the first's.
+// The band in which the line that the paper observes near 750 Hz is looked for, in multiples of the
+// limit cycle's frequency. It lies about the second mode, whose frequency is harmonic_ratio times
+// the first's.
 Range LineBand(double frequency_hz, double harmonic_ratio);
 
 // The measurements that a rig offers: the limit cycle's frequency, and phase and gain of G there,

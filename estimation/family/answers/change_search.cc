@@ -37,7 +37,7 @@ bool GrowsUpwards(const ChangeTarget& target) {
   return target.kind == ChangeKind::kCondition ? !IsLeast(target.condition) : target.is_upper;
 }
 
-// More where the last round's search had missed a member.
+// The effort grows where the last round's search had missed a member.
 Effort EffortOf(int round) {
   return round == 0 ? Effort::kQuick : (round == 1 ? Effort::kUsual : Effort::kThorough);
 }
@@ -164,7 +164,7 @@ std::optional<double> ChangeSearch::FromOff() {
 }
 
 double ChangeSearch::Bisect(double wide, Effort effort) {
-  // A local search mostly ends at the edge: then one look suffices.
+  // A local search mostly ends at the edge; then one evaluation suffices.
   double tight = Less(wide, 1.0 - kSearched);
   if (HasMember(tight, effort)) {
     wide = Nearer(tight);
@@ -176,7 +176,7 @@ double ChangeSearch::Bisect(double wide, Effort effort) {
     if (middle == tight || middle == wide) break;
     if (HasMember(middle, effort)) {
       wide = Nearer(middle);
-      // A member short of where a search had found none: that search had missed it.
+      // A member at a value where a search had found none shows that the search had missed it.
       if (std::abs(wide - value_) <= std::abs(tight - value_)) tight = value_;
     } else {
       tight = middle;
@@ -199,14 +199,14 @@ std::optional<double> ChangeSearch::NearestLocally() {
   }
   std::optional<double> nearest;
   for (const Member& start : starts) {
-    const std::optional<Approach> inside = search_without.FindMember(start);
+    const std::optional<LocalSolution> inside = search_without.FindMember(start);
     if (!inside || !Holds(without, inside->member)) continue;
-    const std::optional<Approach> approach = search.Minimise(inside->member, soft);
-    if (!approach || !Holds(without, approach->member)) continue;
-    const double passed = ValuePassed(problem_, target_, approach->member);
+    const std::optional<LocalSolution> solution = search.Minimise(inside->member, soft);
+    if (!solution || !Holds(without, solution->member)) continue;
+    const double passed = ValuePassed(problem_, target_, solution->member);
     if (nearest && std::abs(passed - value_) >= std::abs(*nearest - value_)) continue;
     nearest = passed;
-    member_ = approach->member;
+    member_ = solution->member;
   }
   return nearest;
 }
@@ -217,10 +217,10 @@ void ChangeSearch::LeastViolated() {
   double least = kInfinity;
   const auto try_start = [&](const std::optional<Member>& start) {
     if (!start) return;
-    const std::optional<Approach> approach = search.FindMember(*start);
-    if (!approach || approach->violation >= least) return;
-    least = approach->violation;
-    member_ = approach->member;
+    const std::optional<LocalSolution> solution = search.FindMember(*start);
+    if (!solution || solution->violation >= least) return;
+    least = solution->violation;
+    member_ = solution->member;
   };
   if (problem_.HasTransfer()) try_start(search.FromTransfer());
   for (const double xi : {0.1, 0.03}) try_start(search.Nominal(xi, 0.2));

@@ -12,10 +12,11 @@
 
 namespace howl {
 
-// Of a search for a member: from the member found last, from more starts, with draws at random.
+// The effort of a search for a member: from the member found last, from more starts, or with draws
+// at random.
 enum class Effort { kQuick, kUsual, kThorough };
 
-// Of the members known those to start from: the ones that passed most conditions come last.
+// The known members from which to start; those that pass most conditions come last.
 std::span<const Member> LastOf(std::span<const Member> known);
 
 class ChangeSearch {
@@ -24,33 +25,35 @@ class ChangeSearch {
                std::span<const Member> known)
       : problem_(problem), target_(target), known_(known), value_(ValueNow(problem, target)) {}
 
-  // Whether the family has a member at the value. Keeps the member, but exact windows decide
-  // without one.
+  // True if the family has a member at the value. The member is kept, except where exact windows
+  // decide without one.
   bool HasMember(double value, Effort effort = Effort::kUsual);
 
-  // Of a limit or a bound: the nearest value that has a member, from `off`, which has one.
+  // The nearest value of a limit or a bound that has a member, searched from `off`, which has one.
   std::optional<double> NearestOfMonotone();
 
-  // Of a datum: outwards to both sides until either has a member, then back to the edge.
+  // The nearest value of a datum that has a member, searched outwards to both sides until either
+  // has one, then back to the edge.
   std::optional<double> NearestOfDatum();
 
   std::optional<Member> MemberAt(double value) const;
   bool IsEmptyAt(double value) const;
 
  private:
-  // A value for "as good as none", that the search for members can work with.
+  // A value so wide that it is as good as no limit, with which the search for members can work.
   double Off() const;
   std::vector<Member> Starts() const;
   double Less(double value, double share) const { return value_ + share * (value - value_); }
-  // What the member found at the value would pass, where that is nearer still.
+  // The limit that the member found at the value would just pass, where that is nearer still.
   double Nearer(double value) const;
   // The nearest displacement between the two shares of the datum, of which the larger has a member.
   double EdgeOfDatum(double sign, double tight, double wide);
   // The first of ever wider values that has a member, by exact windows.
   std::optional<double> WideEnough();
-  // What a member without the limit or bound would pass, or what a local search makes of it.
+  // The limit that a member of the family without the limit or bound would just pass, or a nearer
+  // one that a local search finds from it.
   std::optional<double> FromOff();
-  // Between too tight and wide enough.
+  // Bisects between a value that is too tight and one that is wide enough.
   double Bisect(double wide, Effort effort);
   // The least violation of the one condition that local searches reach from members of the family
   // without it. The search has no row for the least loop gain, which is a bound of its own.

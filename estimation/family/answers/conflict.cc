@@ -70,7 +70,7 @@ void FindMinimalSets(const FamilyProblem& problem, int threads, std::vector<Memb
   }
 }
 
-// No change of a limit helps that is not in every minimal set.
+// The change of a limit can only help if the limit is in every minimal set.
 bool IsInAll(const Conflict& conflict, Condition condition) {
   return std::all_of(conflict.minimal_sets.begin(), conflict.minimal_sets.end(),
                      [&](const std::vector<Condition>& set) {
@@ -92,7 +92,7 @@ Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
   }
   std::vector<Member> known;
   FindMinimalSets(problem, threads, known, conflict);
-  // A proof that a part of the conditions exclude each other is one that all do.
+  // A proof that some of the conditions exclude each other is a proof that all do.
   conflict.proved = whole == Feasibility::kEmpty ||
                     std::find(conflict.sets_proved.begin(), conflict.sets_proved.end(), true) !=
                         conflict.sets_proved.end();
@@ -107,8 +107,8 @@ Conflict ExplainEmpty(const FamilyProblem& problem, int threads) {
     conflict.changes[k] = FindSmallestChange(problem, target, known);
   });
   if (conflict.proved) return conflict;
-  // What a search without proof has called empty may have a member after all, next to one of those
-  // that were found since.
+  // A set that a search called empty without proof may have a member after all, near one of the
+  // members that were found since.
   for (const SmallestChange& change : conflict.changes) {
     if (!change.helps) continue;
     std::optional<Member> member = FindMemberNear(problem, change.member);

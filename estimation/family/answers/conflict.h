@@ -15,19 +15,19 @@ namespace howl {
 
 struct Conflict {
   bool is_empty = false;
-  bool proved = false;  // else it rests on a search that found no member
+  bool proved = false;  // false: a search found no member
   Member member;        // where the family is not empty
   // By increasing size. An empty set: the bounds of the parameters exclude each other.
   std::vector<std::vector<Condition>> minimal_sets;
   std::vector<bool> sets_proved;  // of each
-  // Of every limit that binds, bound that was given and datum that the test looks at.
+  // The changes of every limit that binds, bound that was given and datum that the test looks at.
   std::vector<SmallestChange> changes;
 };
 
 // Sets of all conditions are tried from the smallest. `threads` as in RunUnits.
 Conflict ExplainEmpty(const FamilyProblem& problem, int threads = 1);
 
-// The names over all minimal sets, each once: the `empty_because` of a result.
+// The names of the conditions in all minimal sets, each once: the `empty_because` of a result.
 std::vector<std::string_view> ConflictNames(const Conflict& conflict);
 
 }  // namespace howl

@@ -11,7 +11,7 @@ namespace {
 constexpr int kSteps = 200;  // of a side's range, each searched for one change of sign
 constexpr int kHalvings = 40;
 
-// NaN: no crossing on the way; a path that has no loop further on has no crossing there either.
+// NaN if there is no crossing on the way; a path that has no loop further on has no crossing there.
 double FirstCrossing(const OperatingPoints& points, const MemberPath& path, double from,
                      double to) {
   double before = from;

@@ -91,7 +91,7 @@ std::optional<Profile> ProfileFamily(const FamilyProblem& problem, const MemberQ
     soft.Insert(condition);
   }
   // The best fit, and how far members reach.
-  std::optional<Approach> best;
+  std::optional<LocalSolution> best;
   Range reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const auto widen = [&](const Member& member) {
     const double value = quantity.value(member);
@@ -103,14 +103,14 @@ std::optional<Profile> ProfileFamily(const FamilyProblem& problem, const MemberQ
     for (const double sign : {-1.0, 1.0}) {
       if (const auto far = search.Farthest(start, quantity, sign, scale)) widen(*far);
     }
-    const std::optional<Approach> inside = search.FindMember(start);
+    const std::optional<LocalSolution> inside = search.FindMember(start);
     if (!inside || !Holds(problem, inside->member)) continue;
-    std::optional<Approach> fit = search.Minimise(inside->member, soft);
+    std::optional<LocalSolution> fit = search.Minimise(inside->member, soft);
     if (fit && (!best || fit->violation < best->violation)) best = std::move(fit);
   }
   if (!best) return std::nullopt;
   const ConstrainedMinimum minimise = [&](double value, const std::vector<double>& start) {
-    const std::optional<Approach> fit =
+    const std::optional<LocalSolution> fit =
         search.Minimise(FromFlat(start, problem.model.harmonic_ratio), soft, &quantity, value);
     if (!fit) return ConstrainedFit{std::nan(""), {}, false};
     return ConstrainedFit{fit->violation, Flat(fit->member), fit->converged};

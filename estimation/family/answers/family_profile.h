@@ -18,9 +18,9 @@ namespace howl {
 // The points' parameters: omega_hz, xi, N, M, tau_s of each experiment in turn.
 inline constexpr std::size_t kProfileParameters = 5;
 
-// Followed from the best-fitting member found near `members` to the farthest members of both
-// directions. Nothing where no local search can be made (estimation/family/local/local_search.h) or
-// none of `members` is one.
+// The profile is followed from the best-fitting member near `members` to the farthest members of
+// both directions. No value where no local search can be made
+// (estimation/family/local/local_search.h) or none of `members` is one.
 std::optional<Profile> ProfileFamily(const FamilyProblem& problem, const MemberQuantity& quantity,
                                      const std::vector<Member>& members,
                                      std::size_t max_points = 30);

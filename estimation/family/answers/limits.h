@@ -9,15 +9,16 @@
 
 namespace howl {
 
-// In the unit of the condition's key; nullptr for a condition that has none (xi_increasing).
+// The limit in the unit of the condition's key; nullptr for a condition that has none
+// (xi_increasing).
 double* LimitOf(MembershipTest& test, Condition condition);
 
-// A least value, not a largest one: the family grows as it falls.
+// True for a least value instead of a largest one: the family grows as it falls.
 bool IsLeast(Condition condition);
 
 void SwitchOff(MembershipTest& test, Condition condition);
 
-// The condition is on, and the problem has something that it looks at.
+// True where the condition is on and applies to something in the problem.
 bool Binds(const FamilyProblem& problem, Condition condition);
 
 // The test with only the given conditions left on.

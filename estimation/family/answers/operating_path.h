@@ -1,8 +1,8 @@
 // One member of the family between and beyond the operating points that were measured.
 //
-// At each measured operating parameter phi_k a member has a loop. What is carried from point to
-// point is what an experiment fixes, so that a parameter that it leaves open (xi) does not spoil
-// it:
+// At each measured operating parameter phi_k a member has a loop. The quantities that are
+// interpolated from point to point are those that an experiment determines, so that a parameter
+// that it leaves open (xi) does not spoil them:
 //
 //   y = (ln f, ln |G(j 2 pi f)|, ln xi, ln tau, M / N, ln |Phi'(0)|),   f: where arg L is 180
 //   degrees
@@ -86,15 +86,15 @@ struct OperatingLoop {
 
 class MemberPath {
  public:
-  // Nothing where the member's loop has no crossing within a fifth of an experiment's frequency.
+  // No value where the member's loop has no crossing within a fifth of an experiment's frequency.
   // `random` draws e, and the slopes at rest within their standard deviations where these are
   // known (never so flat that a reliable experiment has less loop gain than the test asks for).
   static std::optional<MemberPath> Make(const FamilyProblem& problem, const OperatingPoints& points,
                                         std::span<const LoopModel> member, UnitRandom random);
 
-  // Nothing where no loop has that frequency, gain, damping and delay. `points` as it was made.
+  // No value where no loop has that frequency, gain, damping and delay. `points` as it was made.
   std::optional<OperatingLoop> At(const OperatingPoints& points, double phi) const;
-  // ln |L Phi'(0)| at the crossing; nothing without a loop or without a flame slope.
+  // ln |L Phi'(0)| at the crossing; no value without a loop or without a flame slope.
   std::optional<double> LogLoopGain(const OperatingPoints& points, double phi) const;
 
  private:

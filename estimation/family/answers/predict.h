@@ -1,4 +1,4 @@
-// What the family says of things that were not measured.
+// Predictions of the family for quantities that were not measured.
 //
 // An expression of the parameters has a guaranteed interval (estimation/family/bounds/enclose.h
 // with EncloseOptions::expressions). Everything else is evaluated member by member: its interval is
@@ -27,10 +27,11 @@ struct Prediction {
   std::size_t members = 0;      // that have a value
 };
 
-// A member's value; nothing where it has none.
+// A member's value; no value where it has none.
 using MemberPredictor = std::function<std::optional<double>(std::span<const LoopModel>)>;
 
-// Members are asked on `threads` threads (0: all cores); the answer does not depend on the number.
+// Members are evaluated on `threads` threads (0: all cores); the answer does not depend on the
+// number.
 Prediction PredictSampled(std::string name, std::span<const Member> members,
                           const MemberPredictor& predictor, int threads = 1);
 
@@ -39,21 +40,21 @@ Prediction PredictSampled(std::string name, std::span<const Member> members,
 //
 //   |L(j 2 pi f) D(A)| = 1,
 //
-// and harmonic balance (model/harmonic_balance.h) refines frequency and amplitude. Nothing where
+// and harmonic balance (model/harmonic_balance.h) refines frequency and amplitude. No value where
 // the loop has no such crossing or its gain at rest does not exceed one there.
 std::optional<double> PressureAmplitude(const LoopModel& model, const Flame<double>& flame,
                                         double frequency_hz);
 
 // A frequency within (lo, hi) at which arg L = 180 degrees (mod 360): the one nearest to the middle
-// of the band. Near 750 Hz it is the seed's non-harmonic line.
+// of the band. Near 750 Hz it is the paper's non-harmonic line.
 std::optional<double> CrossingNear(const LoopModel& model, const Range& band_hz);
 
-// |L(j 2 pi f) Phi'(0)| there: above one, the loop can oscillate at the line by itself.
+// |L(j 2 pi f) Phi'(0)| at that frequency: above one, the loop can oscillate at the line by itself.
 std::optional<double> LineGain(const LoopModel& model, const Range& band_hz, double flame_slope);
 
-// A member at a phi that was not measured. The rule: each parameter is linear in phi between the
-// two neighbouring experiments (so xi still does not fall with phi, and omega stays within its
-// spread); nothing outside the measured range.
+// A member at a phi that was not measured. Each parameter is linear in phi between the two
+// neighbouring experiments (so xi still does not fall with phi, and omega stays within its
+// spread); no value outside the measured range.
 std::optional<LoopModel> InterpolateModel(std::span<const Experiment> experiments,
                                           std::span<const LoopModel> models, double phi);
 
@@ -63,8 +64,8 @@ std::optional<double> InterpolatedFrequency(std::span<const Experiment> experime
                                             std::span<const LoopModel> models, double phi,
                                             double reach = 0.2);
 
-// The value that stands nearest to `share` of the way through them; infinite ones have their place.
-// At least one, in ascending order.
+// The quantile: the value nearest to the share `share` of the way through the values, of which
+// there must be at least one, in ascending order; infinite ones count.
 double NearestRank(std::span<const double> ascending, double share);
 
 }  // namespace howl

@@ -38,7 +38,7 @@ class AmplitudeTable {
     }
   }
 
-  // Times Q / |k|; nothing where the flame does not saturate so far.
+  // Times Q / |k|; no value where the flame does not saturate so far.
   std::optional<double> At(double loop_gain) const {
     const auto above = std::ranges::find_if(gain_, [&](double gain) { return gain >= loop_gain; });
     if (above == gain_.end()) return std::nullopt;

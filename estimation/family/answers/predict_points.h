@@ -1,5 +1,5 @@
-// What the members of the family do at operating points that were not measured: each member's path
-// (operating_path.h) gives its loop there, and the loop its answers,
+// Predictions of the family's members at operating points that were not measured: each member's
+// path (operating_path.h) gives its loop there, and the loop gives
 //
 //   frequency    where arg L = 180 degrees (1a)
 //   growth rate  of the rest state: of the pole that carries the oscillation (oscillation_pole.h)
@@ -28,7 +28,7 @@
 
 namespace howl {
 
-// Of the members' values, NaN without any: median, and what holds 95 % of them.
+// The median of the members' values, and the interval that holds 95 % of them; NaN without any.
 struct SampledValue {
   double median = std::numeric_limits<double>::quiet_NaN();
   double lo = std::numeric_limits<double>::quiet_NaN();
@@ -36,7 +36,7 @@ struct SampledValue {
 };
 SampledValue Summarise(std::vector<double> values);  // those that are finite
 
-// What saturates the cycle.
+// The flame's saturation, which limits the cycle.
 struct PredictedFlame {
   // Of each experiment whose record gave one; empty where none did. Between them the saturation's
   // logarithm is linear in phi, shape and offset are those of the nearest, beyond them all are.
@@ -63,18 +63,19 @@ struct PointPrediction {
   double share_unstable = std::numeric_limits<double>::quiet_NaN();
 };
 
-// A point for each phi. Without a flame slope in any experiment, frequencies alone.
+// A prediction for each phi; without a flame slope in any experiment it has frequencies alone.
 std::vector<PointPrediction> PredictPoints(const FamilyProblem& problem,
                                            const OperatingPoints& points,
                                            std::span<const MemberPath> paths,
                                            const PredictedFlame& flame, std::span<const double> phi,
                                            int threads);
 
-// The half width of the guaranteed frequency at a measured point; nothing with two modes, whose
+// The half width of the guaranteed frequency at a measured point; no value with two modes, whose
 // phase may rise, and without a bound of tau or a tolerance.
 std::optional<double> GuaranteedReachHz(const FamilyProblem& problem, double tau_min_s);
 
-// Where the cycle begins and ends: going up and down from the measured point of the largest median
+// The range of phi in which there is a cycle: going up and down from the measured point of the
+// largest median
 // loop gain, the first phi at which a path's loop gain |L Phi'(0)| at the first mode's crossing
 // falls to one (the growth rate of that mode crosses zero there), up to as far beyond the measured
 // points as their range is wide. Paths that are stable at the start are left out.

@@ -52,7 +52,7 @@ class Walker {
         branch.end = FindEdge(best_value, last, point, branch.points);
         return branch;
       }
-      // A tenth of the way up to the edge a step; a step far beyond that passes a bend unseen.
+      // A step goes a tenth of the way up to the edge; one far beyond that would miss a bend.
       const double climbed = std::abs(point.cost - last.cost) / std::max(rise_, 1e-300);
       if (climbed > kSteepest && point.cost > last.cost && refined < kMostRefined) {
         step = 0.3 * std::abs(value - last.value);

@@ -5,8 +5,8 @@
 // is cropped at symmetric bounds.
 //
 // Self-check: every point is minimised a second time, from its outer neighbour, on the way back. A
-// point whose two minima differ has not converged; it is flagged, and the lower one is kept. So is
-// a cost below that of the start, which then was no best fit.
+// point whose two minima differ has not converged; it is flagged, and the lower one is kept. A cost
+// below that of the start is flagged too, because the start then was not the best fit.
 #ifndef HOWL_ESTIMATION_FAMILY_ANSWERS_PROFILE_H_
 #define HOWL_ESTIMATION_FAMILY_ANSWERS_PROFILE_H_
 

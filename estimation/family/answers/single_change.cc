@@ -19,7 +19,8 @@ namespace {
 constexpr Range kBeyond{1e-3, 8e-3};  // of the change: how far beyond v* `pasted` may lie
 constexpr double kLess = 0.99;
 
-// Whether any change of the experiment's data can help: not where the others have no member.
+// Whether any change of the experiment's data can help, which it cannot where the other experiments
+// have no member.
 bool OthersHaveMember(const FamilyProblem& problem, std::size_t experiment,
                       std::span<const Member> known) {
   if (problem.experiments.size() == 1) return true;
@@ -35,7 +36,7 @@ bool OthersHaveMember(const FamilyProblem& problem, std::size_t experiment,
 
 void Finish(ChangeSearch& search, SmallestChange& change) {
   const double by = *change.needed - change.value;
-  // A number of few digits first, v* as it is where that has no member.
+  // A number of few digits is tried first, and v* itself where that has no member.
   for (const double pasted :
        {ShortestBetween(*change.needed + kBeyond.lo * by, *change.needed + kBeyond.hi * by),
         *change.needed}) {

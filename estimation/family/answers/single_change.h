@@ -23,11 +23,11 @@ namespace howl {
 
 enum class ChangeKind { kCondition, kBound, kDatum };
 
-// What an experiment states of itself, in the order of kDatumNames. kReliable: that the experiment
-// is, which is either so or not.
+// The data that an experiment states, in the order of kDatumNames. kReliable is whether the
+// experiment is reliable, which can only be switched.
 enum class Datum { kFrequency, kPhase, kGain, kFlameSlope, kReliable };
 
-// As in configs.
+// The names in configs.
 std::string_view DatumName(Datum datum);
 
 // The one number that is changed.
@@ -57,13 +57,15 @@ struct SmallestChange {
   bool less_is_proved_empty = false;  // one per cent less than `pasted`, of the change
 };
 
-// Every limit that binds, every bound that the user gave, every datum that the test looks at.
+// The targets of change: every limit that binds, every bound that the user gave, and every datum
+// that the test looks at.
 std::vector<ChangeTarget> ChangeTargets(const FamilyProblem& problem);
 
 double ValueNow(const FamilyProblem& problem, const ChangeTarget& target);
 FamilyProblem Changed(const FamilyProblem& problem, const ChangeTarget& target, double value);
 
-// Of an empty family. `known`: members of the family without some of its conditions, to start from.
+// The smallest change in an empty family. `known`: members of the family without some of its
+// conditions, to start from.
 SmallestChange FindSmallestChange(const FamilyProblem& problem, const ChangeTarget& target,
                                   std::span<const Member> known);
 

@@ -59,11 +59,11 @@ LocalLeast LeastXiLocally(FamilyProblem problem, const std::vector<Member>& star
   problem.test.xi_max = std::numeric_limits<double>::infinity();
   const LocalSearch free(problem);
   for (const Member& start : starts) {
-    const std::optional<Approach> inside = free.FindMember(start);
+    const std::optional<LocalSolution> inside = free.FindMember(start);
     if (!inside || !Holds(problem, inside->member)) continue;
     FamilyProblem limited = problem;
     limited.test.xi_max = 1.01 * LargestXi(inside->member);
-    const std::optional<Approach> least = LocalSearch(limited).Minimise(inside->member, soft);
+    const std::optional<LocalSolution> least = LocalSearch(limited).Minimise(inside->member, soft);
     if (!least || !Holds(problem, least->member)) continue;
     const double xi = LargestXi(least->member);
     result.agreed &= !best || std::abs(*best - xi) < kAgreement;
@@ -72,7 +72,7 @@ LocalLeast LeastXiLocally(FamilyProblem problem, const std::vector<Member>& star
   return result;
 }
 
-// Members to start local searches from: with all the spread that is asked for anywhere.
+// Members from which local searches start, with the largest spread that is asked for.
 std::vector<Member> LocalStarts(const FamilyProblem& problem, double omega_spread,
                                 std::uint64_t seed) {
   constexpr std::size_t kStarts = 6;

@@ -1,4 +1,4 @@
-// The trade-off between a nearly constant omega and a small xi (the seed's two qualitative
+// The trade-off between a nearly constant omega and a small xi (the paper's two qualitative
 // conditions pull against each other): the smallest largest-xi that any member has when omega may
 // spread by no more than a given omega_spread over the experiments.
 //
@@ -26,8 +26,8 @@ struct TradeoffPoint {
   bool exact = true;
 };
 
-// xi_max of the problem's test is left aside: the curve tells what it would have to be. The other
-// conditions hold as they are.
+// xi_max of the problem's test is ignored, because the curve tells what it would have to be. The
+// other conditions hold as they are.
 TradeoffPoint ComputeTradeoff(const FamilyProblem& problem, double omega_spread,
                               std::uint64_t seed = 0);
 

@@ -11,8 +11,9 @@ namespace howl {
 
 namespace {
 
-// A search draws best within tolerances of a moderate size, and a member at those is one without
-// them: they stand for "switched off", from narrow to wide, before the real thing.
+// A search draws best within tolerances of a moderate size, and a member within those is a member
+// without them. Such tolerances are tried in the place of "switched off", from narrow to wide,
+// before the conditions are really switched off.
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr MembershipTest kModerate[] = {
     {0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false, 8.0, 0.3, 0.0},

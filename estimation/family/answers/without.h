@@ -1,4 +1,4 @@
-// The family without some of its test's conditions: whether it has a member, and one.
+// Whether the family without some of its test's conditions has a member, and which.
 #ifndef HOWL_ESTIMATION_FAMILY_ANSWERS_WITHOUT_H_
 #define HOWL_ESTIMATION_FAMILY_ANSWERS_WITHOUT_H_
 

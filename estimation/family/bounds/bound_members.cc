@@ -15,7 +15,7 @@ constexpr std::size_t kLocalStarts = 2;
 
 Range Around(const Interval& x) { return {x.lower(), x.upper()}; }
 
-// The best choice of ends so far, with some of them changed.
+// The focus of the best member so far, with some of its ends changed.
 DrawFocus Mutated(BoundSearch& search) {
   DrawFocus focus = search.focus;
   constexpr double kEnds[] = {0.0, 1.0, 0.5};
@@ -32,27 +32,27 @@ DrawFocus Mutated(BoundSearch& search) {
 
 // False where the experiment that is asked for comes out no better than the best so far, whatever
 // the others do: the random numbers of the draw are then used up.
-bool IsWorthDrawing(const BoundSetting& setting, BoundSearch& search, const DrawFocus& focus,
+bool IsWorthDrawing(const BoundContext& context, BoundSearch& search, const DrawFocus& focus,
                     Member& models) {
   if (search.quantity.expression != nullptr) return true;  // of other experiments too
-  const std::optional<Preview> preview = setting.drawer->PreviewFocused(search.random, focus);
+  const std::optional<Preview> preview = context.drawer->PreviewFocused(search.random, focus);
   if (!preview) return true;
   if (preview->model) {
-    models.resize(setting.problem.experiments.size());
+    models.resize(context.problem.experiments.size());
     models[search.quantity.experiment] = *preview->model;
-    if (search.quantity.sign * setting.Value(search.quantity, models) > search.inner) return true;
+    if (search.quantity.sign * context.Value(search.quantity, models) > search.inner) return true;
   }
   search.random.SetState(preview->state);
   return false;
 }
 
 // One draw; true where it is the best so far.
-bool TryFocus(const BoundSetting& setting, BoundSearch& search, const DrawFocus& focus,
+bool TryFocus(const BoundContext& context, BoundSearch& search, const DrawFocus& focus,
               Member& models, DrawGlobals& globals) {
-  if (!setting.drawer || !setting.drawer->HasSupport()) return false;
-  if (!IsWorthDrawing(setting, search, focus, models)) return false;
-  if (!setting.drawer->DrawFocused(search.random, focus, models, globals)) return false;
-  const double value = search.quantity.sign * setting.Value(search.quantity, models);
+  if (!context.drawer || !context.drawer->HasSupport()) return false;
+  if (!IsWorthDrawing(context, search, focus, models)) return false;
+  if (!context.drawer->DrawFocused(search.random, focus, models, globals)) return false;
+  const double value = search.quantity.sign * context.Value(search.quantity, models);
   if (!(value > search.inner)) return false;
   search.inner = value;
   search.witness = models;
@@ -60,14 +60,14 @@ bool TryFocus(const BoundSetting& setting, BoundSearch& search, const DrawFocus&
   return true;
 }
 
-bool CanClimb(const BoundSetting& setting) {
-  return setting.local.IsSupported() && !setting.base.empty() &&
-         (setting.contractor.TwoModes() || setting.problem.HasTransfer());
+bool CanClimb(const BoundContext& context) {
+  return context.local.IsSupported() && !context.base.empty() &&
+         (context.contractor.TwoModes() || context.problem.HasTransfer());
 }
 
 }  // namespace
 
-void DrawTowardsBound(const BoundSetting& setting, BoundSearch& search) {
+void DrawTowardsBound(const BoundContext& context, BoundSearch& search) {
   constexpr int kRounds = 8;
   constexpr int kDraws = 40;
   Member models;
@@ -88,7 +88,7 @@ void DrawTowardsBound(const BoundSetting& setting, BoundSearch& search) {
         focus.tau_s = around(best.tau_s);
       }
       DrawGlobals globals;
-      if (TryFocus(setting, search, focus, models, globals)) {
+      if (TryFocus(context, search, focus, models, globals)) {
         best = globals;
         any = true;
       }
@@ -99,16 +99,16 @@ void DrawTowardsBound(const BoundSetting& setting, BoundSearch& search) {
   }
 }
 
-void DrawInCell(const BoundSetting& setting, const Cell& cell, BoundSearch& search) {
-  const int draws = setting.contractor.TwoModes() ? 3 : 6;
+void DrawInCell(const BoundContext& context, const Cell& cell, BoundSearch& search) {
+  const int draws = context.contractor.TwoModes() ? 3 : 6;
   Member models;
   DrawGlobals globals;
   const ExperimentBox& box = cell.boxes[search.quantity.experiment];
   for (int draw = 0; draw < draws; ++draw) {
     DrawFocus focus = Mutated(search);
     focus.xi = Around(box[kCellXi]);
-    if (setting.contractor.HasWindow()) focus.window_hz = Around(cell.window_hz);
-    for (const CellVariable shared : setting.contractor.Shared()) {
+    if (context.contractor.HasWindow()) focus.window_hz = Around(cell.window_hz);
+    for (const CellVariable shared : context.contractor.Shared()) {
       if (shared == kCellM || shared == kCellRelative) focus.second = Around(box[shared]);
       if (shared == kCellN) focus.N = Around(box[shared]);
       if (shared == kCellTau) focus.tau_s = Around(box[shared]);
@@ -118,30 +118,30 @@ void DrawInCell(const BoundSetting& setting, const Cell& cell, BoundSearch& sear
     };
     finite(focus.second);
     finite(focus.N);
-    TryFocus(setting, search, focus, models, globals);
+    TryFocus(context, search, focus, models, globals);
     search.focus.xi = search.focus.window_hz = search.focus.second = search.focus.N =
         search.focus.tau_s = DrawFocus::kUnset;
   }
 }
 
-void ClimbTowardsBound(const BoundSetting& setting, double scale, BoundSearch& search) {
-  if (!CanClimb(setting) || search.witness.empty()) return;
+void ClimbTowardsBound(const BoundContext& context, double scale, BoundSearch& search) {
+  if (!CanClimb(context) || search.witness.empty()) return;
   MemberQuantity quantity;
   quantity.value = [&](std::span<const LoopModel> models) {
-    return setting.Value(search.quantity, models);
+    return context.Value(search.quantity, models);
   };
-  for (std::size_t i = 0; i < setting.problem.experiments.size(); ++i) {
+  for (std::size_t i = 0; i < context.problem.experiments.size(); ++i) {
     if (search.quantity.DependsOn(i)) quantity.experiments.push_back(i);
   }
   std::vector<Member> starts{search.witness};
   for (std::size_t k = 0; k < kLocalStarts; ++k) {
-    starts.push_back(setting.base[search.random.Index(setting.base.size())]);
+    starts.push_back(context.base[search.random.Index(context.base.size())]);
   }
   for (const Member& start : starts) {
     std::optional<Member> member =
-        setting.local.Farthest(start, quantity, search.quantity.sign, scale);
+        context.local.Farthest(start, quantity, search.quantity.sign, scale);
     if (!member) continue;
-    const double value = search.quantity.sign * setting.Value(search.quantity, *member);
+    const double value = search.quantity.sign * context.Value(search.quantity, *member);
     if (!(value > search.inner)) continue;
     search.inner = value;
     search.witness = *std::move(member);

@@ -1,24 +1,24 @@
-// Members towards a bound: what makes the search's `inner` wide. Each function keeps a member where
-// it has a larger sign * value than the best so far. What it does not find proves nothing.
+// Searches for members towards a bound, which widen the search's `inner`. Each function keeps a
+// member that has a larger sign * value than the best so far. Not finding one proves nothing.
 #ifndef HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_MEMBERS_H_
 #define HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_MEMBERS_H_
 
+#include "estimation/family/bounds/bound_context.h"
 #include "estimation/family/bounds/bound_search.h"
-#include "estimation/family/bounds/bound_setting.h"
 #include "estimation/family/bounds/cell.h"
 
 namespace howl {
 
-// Draws: ends of the tolerances at random, and what is shared by all experiments from ranges that
-// shrink around the best.
-void DrawTowardsBound(const BoundSetting& setting, BoundSearch& search);
+// Draws at random at the ends of the tolerances, with shared parameters from ranges that shrink
+// around the best.
+void DrawTowardsBound(const BoundContext& context, BoundSearch& search);
 
 // Draws within the part of the cell that all experiments share.
-void DrawInCell(const BoundSetting& setting, const Cell& cell, BoundSearch& search);
+void DrawInCell(const BoundContext& context, const Cell& cell, BoundSearch& search);
 
-// From the best member found and from some others to the farthest that a local search reaches;
-// `scale`: a typical range of the quantity.
-void ClimbTowardsBound(const BoundSetting& setting, double scale, BoundSearch& search);
+// Climbs from the best member found and from some others to the farthest that a local search
+// reaches; `scale`: a typical range of the quantity.
+void ClimbTowardsBound(const BoundContext& context, double scale, BoundSearch& search);
 
 }  // namespace howl
 

@@ -1,5 +1,5 @@
-// What a search for a bound makes as large as it can: sign * value, where the value is a parameter
-// of one experiment's model, or an expression in its place. sign = -1 asks for the lower end.
+// The quantity that a search for a bound maximises: sign * value, where the value is a parameter of
+// one experiment's model, or an expression in its place. sign = -1 asks for the lower end.
 //
 //   sign * value of a member  <=  reach of a cell        for every member in the cell
 //
@@ -30,8 +30,8 @@ struct BoundQuantity {
   }
 };
 
-// Without the sign. A loop gain is that with the slope at rest, of all that the data allow, at
-// which it reaches farthest.
+// The value without the sign. A loop gain is that with the slope at rest at which it reaches
+// farthest, of all slopes that the data allow.
 double ValueOf(const BoundQuantity& quantity, const FamilyProblem& problem,
                std::span<const LoopModel> models);
 

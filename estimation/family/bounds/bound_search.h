@@ -1,7 +1,7 @@
-// Where the search for one bound is. For the quantity sign * value
+// The state of the search for one bound. For the quantity sign * value
 // (estimation/family/bounds/bound_quantity.h), over all members,
 //
-//   inner  <=  largest sign * value  <=  outer  =  max(inner, settled, reach of the heap's cells)
+//   inner  <=  largest sign * value  <=  outer  =  max(inner, finest_reach, reach of the heap)
 //
 // with `inner` the value of the best member found, and `outer` widened by the rounding of the test.
 // No member found: inner = -infinity. Nothing proved: outer = +infinity.
@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "estimation/family/bounds/bound_context.h"
 #include "estimation/family/bounds/bound_quantity.h"
-#include "estimation/family/bounds/bound_setting.h"
 #include "estimation/family/bounds/cell.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/problem/random.h"
@@ -27,11 +27,11 @@ struct BoundSearch {
   BoundQuantity quantity;
   double range = 0.0;  // of the value over the members to start from
   SearchState state = SearchState::kNew;
-  double inner = -kUnbounded;    // sign * value, of `witness`
-  double settled = -kUnbounded;  // sign * reach of cells too fine to split
-  double outer = kUnbounded;     // sign * value, once the search has ended
-  Member witness;                // empty: none was found
-  DrawFocus focus;               // of the best member
+  double inner = -kUnbounded;         // sign * value, of `witness`
+  double finest_reach = -kUnbounded;  // sign * reach of cells too fine to split
+  double outer = kUnbounded;          // sign * value, once the search has ended
+  Member witness;                     // empty: none was found
+  DrawFocus focus;                    // of the best member
   UnitRandom random{0, 0};
   std::vector<Cell> heap;  // by reach, the farthest first
   CellCounts counts;
@@ -42,13 +42,14 @@ struct BoundSearch {
 
 // Appends the searches for the lower and the upper end of the quantity, whose sign is not looked
 // at. The draws of a search depend on its place among all.
-void AddBothEnds(const BoundSetting& setting, BoundQuantity quantity,
+void AddBothEnds(const BoundContext& context, BoundQuantity quantity,
                  std::vector<BoundSearch>& searches);
 
-// What the search has left to reach: its best member, what is settled and the cells of its heap.
+// The farthest that the search may still reach: by its best member, by the cells that are too fine
+// to split, and by those of its heap.
 double OuterSoFar(const BoundSearch& search);
 
-// By the reach of its cell.
+// Orders cells of the heap by their reach.
 void PushCell(BoundSearch& search, Cell&& cell);
 Cell PopFarthestCell(BoundSearch& search);
 

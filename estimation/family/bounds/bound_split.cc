@@ -58,7 +58,7 @@ class WidestVariables {
   std::array<Scored, kTrials> widest_{};
 };
 
-// What a variable is about, of an experiment: the scale of one that has no end.
+// A typical size of a variable of an experiment, which is the scale of a variable without an end.
 double Typical(const Experiment& experiment, CellVariable variable) {
   switch (variable) {
     case kCellOmega:
@@ -75,15 +75,15 @@ double Typical(const Experiment& experiment, CellVariable variable) {
   }
 }
 
-void OfferAll(const BoundSetting& setting, const BoundQuantity& quantity, Cell& cell,
+void OfferAll(const BoundContext& context, const BoundQuantity& quantity, Cell& cell,
               WidestVariables& widest) {
-  const CellContractor& contractor = setting.contractor;
-  const bool has_transfer = setting.problem.HasTransfer();
-  const Cell& root = setting.root;
+  const CellContractor& contractor = context.contractor;
+  const bool has_transfer = context.problem.HasTransfer();
+  const Cell& root = context.root;
   if (contractor.HasWindow() && cell.boxes.size() > 1) {
     // Transfers fix each omega by itself.
     widest.Offer(cell.window_hz, root.window_hz, has_transfer ? 0.05 : 1.0,
-                 Typical(setting.problem.experiments[0], kCellOmega));
+                 Typical(context.problem.experiments[0], kCellOmega));
   }
   const double rest =
       quantity.expression ? 1e-3 : (contractor.TwoModes() && !has_transfer ? 0.4 : 0.1);
@@ -93,7 +93,7 @@ void OfferAll(const BoundSetting& setting, const BoundQuantity& quantity, Cell& 
     const ExperimentBox& from = root.boxes[i];
     const auto offer = [&](CellVariable variable, double weight) {
       widest.Offer(box[variable], from[variable], weight,
-                   Typical(setting.problem.experiments[i], variable));
+                   Typical(context.problem.experiments[i], variable));
     };
     offer(kCellXi, own ? 1.0 : rest);
     offer(kCellOmega, own ? 1.0 : rest);
@@ -108,16 +108,16 @@ void OfferAll(const BoundSetting& setting, const BoundQuantity& quantity, Cell& 
   }
 }
 
-// The farther of what the variable's halves reach; -infinity where neither holds a member.
-double ReachWhenSplit(const BoundSetting& setting, const BoundQuantity& quantity, Cell& cell,
+// The farther reach of the variable's two halves; -infinity where neither can hold a member.
+double ReachWhenSplit(const BoundContext& context, const BoundQuantity& quantity, Cell& cell,
                       Interval& variable) {
   const Interval whole = variable;
   double reach = -kUnbounded;
   for (const Interval& half : Halves(whole)) {
     variable = half;
     Cell child = cell;
-    if (setting.contractor.Contract(child)) {
-      reach = std::max(reach, setting.Reach(quantity, child));
+    if (context.contractor.Contract(child)) {
+      reach = std::max(reach, context.Reach(quantity, child));
     }
   }
   variable = whole;
@@ -136,18 +136,18 @@ std::array<Interval, 2> Halves(const Interval& x) {
   return {Interval(x.lower(), middle), Interval(middle, x.upper())};
 }
 
-Interval* ChooseSplit(const BoundSetting& setting, const BoundQuantity& quantity, Cell& cell) {
-  const std::size_t trials = setting.problem.HasTransfer() ? kTransferTrials : kTrials;
+Interval* ChooseSplit(const BoundContext& context, const BoundQuantity& quantity, Cell& cell) {
+  const std::size_t trials = context.problem.HasTransfer() ? kTransferTrials : kTrials;
   // An expression and the two-mode equations link many variables: the widest need not help.
-  const bool tries = quantity.expression || setting.contractor.TwoModes();
+  const bool tries = quantity.expression || context.contractor.TwoModes();
   WidestVariables widest(tries ? trials : 1);
-  OfferAll(setting, quantity, cell, widest);
+  OfferAll(context, quantity, cell, widest);
   if (!tries) return widest.Kept().front().variable;
   Interval* best = nullptr;
   double best_reach = kUnbounded;
   for (const WidestVariables::Scored& candidate : widest.Kept()) {
     if (candidate.variable == nullptr) break;
-    const double reach = ReachWhenSplit(setting, quantity, cell, *candidate.variable);
+    const double reach = ReachWhenSplit(context, quantity, cell, *candidate.variable);
     if (best == nullptr || reach < best_reach) {
       best = candidate.variable;
       best_reach = reach;

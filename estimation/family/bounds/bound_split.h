@@ -1,5 +1,5 @@
-// Where to halve a cell in the search for a bound. A variable's width counts relative to the root
-// cell's,
+// Chooses the variable in which a cell is halved in the search for a bound. A variable's width
+// counts relative to the root cell's,
 //
 //   score = weight * width / root width      (of the logarithms, where the root spans decades)
 //
@@ -10,14 +10,14 @@
 
 #include <array>
 
+#include "estimation/family/bounds/bound_context.h"
 #include "estimation/family/bounds/bound_quantity.h"
-#include "estimation/family/bounds/bound_setting.h"
 #include "estimation/family/bounds/cell.h"
 
 namespace howl {
 
 // A variable of `cell`; nullptr where all are too fine to split. The cell is the same afterwards.
-Interval* ChooseSplit(const BoundSetting& setting, const BoundQuantity& quantity, Cell& cell);
+Interval* ChooseSplit(const BoundContext& context, const BoundQuantity& quantity, Cell& cell);
 
 // The lower half, then the upper: geometric where the interval spans more than a factor of four.
 std::array<Interval, 2> Halves(const Interval& x);

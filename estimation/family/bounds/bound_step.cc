@@ -12,8 +12,8 @@ namespace howl {
 
 namespace {
 
-void PushWhereItReaches(const BoundSetting& setting, BoundSearch& search, Cell&& cell) {
-  cell.bound = setting.Reach(search.quantity, cell);
+void PushWhereItReaches(const BoundContext& context, BoundSearch& search, Cell&& cell) {
+  cell.bound = context.Reach(search.quantity, cell);
   if (cell.bound <= search.inner) {
     ++search.counts.undecided;
     return;
@@ -21,23 +21,23 @@ void PushWhereItReaches(const BoundSetting& setting, BoundSearch& search, Cell&&
   PushCell(search, std::move(cell));
 }
 
-void Start(const BoundSetting& setting, double scale, BoundSearch& search) {
+void Start(const BoundContext& context, double scale, BoundSearch& search) {
   search.state = SearchState::kRunning;
-  if (setting.root_empty) {
+  if (context.root_empty) {
     ++search.counts.outside;
   } else {
-    DrawTowardsBound(setting, search);
-    ClimbTowardsBound(setting, scale, search);
-    PushWhereItReaches(setting, search, Cell(setting.root));
+    DrawTowardsBound(context, search);
+    ClimbTowardsBound(context, scale, search);
+    PushWhereItReaches(context, search, Cell(context.root));
   }
 }
 
-void Finish(const BoundSetting& setting, BoundSearch& search, SearchState state) {
+void Finish(const BoundContext& context, BoundSearch& search, SearchState state) {
   search.state = state;
   search.outer = OuterSoFar(search);
   const BoundQuantity& quantity = search.quantity;
   VLOG(2) << (quantity.sign > 0.0 ? "highest " : "lowest ")
-          << setting.problem.experiments[quantity.experiment].name << "."
+          << context.problem.experiments[quantity.experiment].name << "."
           << (quantity.expression ? "expression" : FamilyParameterName(quantity.parameter))
           << ": a member at " << quantity.sign * search.inner << ", none beyond "
           << quantity.sign * search.outer << "; " << search.cells << " boxes"
@@ -48,21 +48,21 @@ void Finish(const BoundSetting& setting, BoundSearch& search, SearchState state)
   search.heap.shrink_to_fit();
 }
 
-void SplitFarthest(const BoundSetting& setting, BoundSearch& search) {
+void SplitFarthest(const BoundContext& context, BoundSearch& search) {
   Cell cell = PopFarthestCell(search);
   ++search.cells;
-  DrawInCell(setting, cell, search);
-  Interval* const split = ChooseSplit(setting, search.quantity, cell);
+  DrawInCell(context, cell, search);
+  Interval* const split = ChooseSplit(context, search.quantity, cell);
   if (split == nullptr) {
     ++search.counts.undecided;
-    search.settled = std::max(search.settled, cell.bound);
+    search.finest_reach = std::max(search.finest_reach, cell.bound);
     return;
   }
   for (const Interval& half : Halves(*split)) {
     *split = half;
     Cell child = cell;
-    if (setting.contractor.Contract(child)) {
-      PushWhereItReaches(setting, search, std::move(child));
+    if (context.contractor.Contract(child)) {
+      PushWhereItReaches(context, search, std::move(child));
     } else {
       ++search.counts.outside;
     }
@@ -75,16 +75,16 @@ double BoundTolerance(const BoundLimits& limits, const BoundSearch& search) {
   return 0.5 * limits.width * search.range;
 }
 
-void StepBound(const BoundSetting& setting, const BoundLimits& limits, BoundSearch& search) {
+void StepBound(const BoundContext& context, const BoundLimits& limits, BoundSearch& search) {
   const double tolerance = BoundTolerance(limits, search);
   if (search.state == SearchState::kNew) {
-    return Start(setting, tolerance / (0.5 * limits.width), search);
+    return Start(context, tolerance / (0.5 * limits.width), search);
   }
   if (search.heap.empty() || search.heap.front().bound <= search.inner + tolerance) {
-    return Finish(setting, search, SearchState::kClosed);
+    return Finish(context, search, SearchState::kClosed);
   }
-  if (search.cells >= limits.max_cells) return Finish(setting, search, SearchState::kBudget);
-  SplitFarthest(setting, search);
+  if (search.cells >= limits.max_cells) return Finish(context, search, SearchState::kBudget);
+  SplitFarthest(context, search);
 }
 
 }  // namespace howl

@@ -10,8 +10,8 @@
 
 #include <cstddef>
 
+#include "estimation/family/bounds/bound_context.h"
 #include "estimation/family/bounds/bound_search.h"
-#include "estimation/family/bounds/bound_setting.h"
 
 namespace howl {
 
@@ -22,8 +22,8 @@ struct BoundLimits {
 
 double BoundTolerance(const BoundLimits& limits, const BoundSearch& search);
 
-// The first step looks for members and pushes the root cell. Not for a search that is done.
-void StepBound(const BoundSetting& setting, const BoundLimits& limits, BoundSearch& search);
+// The first step looks for members and pushes the root cell. The search must not be done.
+void StepBound(const BoundContext& context, const BoundLimits& limits, BoundSearch& search);
 
 }  // namespace howl
 

@@ -84,7 +84,7 @@ bool VisitModel(Model& model, const Visitor& visit) {
 
 template <typename Search, typename Visitor>
 bool VisitEnds(Search& search, const Visitor& visit) {
-  return visit(search.inner) && visit(search.settled) && visit(search.outer) &&
+  return visit(search.inner) && visit(search.finest_reach) && visit(search.outer) &&
          visit(search.focus.xi_end) && visit(search.focus.phase_end) &&
          visit(search.focus.gain_end) && visit(search.focus.loop_phase_end) &&
          visit(search.focus.omega_end);
@@ -132,7 +132,7 @@ bool Read(std::istream& in, std::size_t experiments, BoundSearch& search) {
   return true;
 }
 
-// So that a damaged length asks for no memory.
+// A limit on lengths, so that a damaged length does not claim memory.
 std::size_t BytesLeft(std::istream& in) {
   const std::istream::pos_type here = in.tellg();
   in.seekg(0, std::ios::end);
@@ -151,8 +151,8 @@ bool ReadHead(std::istream& in, Head& head) {
   return in >> magic >> head.searches >> head.experiments && magic == kMagic;
 }
 
-// The text of the next search; nothing where it is not what was written. Where a length is damaged,
-// so are all that follow: where the next begins is not known.
+// The text of the next search; no value where it is not what was written. Where a length is
+// damaged, so are all that follow: where the next begins is not known.
 std::optional<std::string> NextSearch(std::istream& in) {
   std::size_t size = 0;
   std::uint64_t hash = 0;

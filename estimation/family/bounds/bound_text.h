@@ -21,7 +21,7 @@ void WriteBoundSearches(std::ostream& out, std::size_t experiments,
                         const std::vector<BoundSearch>& searches);
 
 // Into searches of the same problem and options. A search whose bytes do not have their hash is
-// left as it was, and counted: each is a unit of its own. Nothing where the text is not of this
+// left as it was, and counted: each is a unit of its own. No value where the text is not of this
 // form, or of another problem; the searches are then all as they were.
 std::optional<std::size_t> ReadBoundSearches(std::istream& in, std::size_t experiments,
                                              std::vector<BoundSearch>& searches);

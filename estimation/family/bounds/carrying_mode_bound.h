@@ -1,4 +1,4 @@
-// What (5b) says of the first mode. With the second mode's share s = |M U_r| / |N U_1| < 1 at the
+// Bounds of the first mode by (5b). With the second mode's share s = |M U_r| / |N U_1| < 1 at the
 // cycle, G = N U_1 (1 + z) with |z| <= s, so that N U_1 is nearly G itself,
 //
 //   |G| / (1 + s) <= |N U_1| <= |G| / (1 - s),     |arg(N U_1) - arg G| <= asin s

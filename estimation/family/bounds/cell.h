@@ -1,9 +1,9 @@
 // A cell of the search for guaranteed bounds: an interval for every parameter of every experiment,
 // and for the low end of the window that omega_spread_max allows. N enters an experiment only
 // through the gain and tau only through the loop phase, so the tangent t of the phase lag, the gain
-// and the loop phase error stand beside the parameters as variables of their own: the conditions of
-// the test are then bounds on variables, and what links the variables are the exact relations of
-// closed_form.h and two_mode_solve.h.
+// and the loop phase error are variables of their own in addition to the parameters. The conditions
+// of the test are then bounds on variables, and the exact relations of closed_form.h and
+// two_mode_solve.h link the variables.
 #ifndef HOWL_ESTIMATION_FAMILY_BOUNDS_CELL_H_
 #define HOWL_ESTIMATION_FAMILY_BOUNDS_CELL_H_
 

@@ -37,7 +37,7 @@ Interval Cosine(const Interval& x, const Interval& y) {
   return {std::max(lo, -1.0), std::min(hi, 1.0)};
 }
 
-// Of a phase in (-pi, pi / 2); nothing where z may lie elsewhere.
+// Of a phase in (-pi, pi / 2); no value where z may lie elsewhere.
 std::optional<Interval> PhaseOf(const Complex<Interval>& z) {
   if (z.re.lower() > 0.0) return Arctangent(z.im / z.re);
   if (z.im.upper() < 0.0) return -(Arctangent(z.re / z.im) + Widened(kPi / 2));

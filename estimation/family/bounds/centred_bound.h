@@ -1,4 +1,5 @@
-// What links an experiment's variables at the limit cycle and at its lines, in the mean value form
+// The relations between an experiment's variables at the limit cycle and at its lines, in the mean
+// value form
 // (estimation/family/bounds/centred_response.h):
 //
 //   0 = Im N,   N = Re N,   |G(f_l)| >= second_crossing_gain_min / (w_l |Phi'(0)|),

@@ -8,8 +8,8 @@
 #include <ostream>
 #include <utility>
 
+#include "estimation/family/bounds/bound_context.h"
 #include "estimation/family/bounds/bound_search.h"
-#include "estimation/family/bounds/bound_setting.h"
 #include "estimation/family/bounds/bound_step.h"
 #include "estimation/family/bounds/bound_text.h"
 #include "estimation/parallel.h"
@@ -24,9 +24,9 @@ std::size_t DefaultMaxCells(const FamilyProblem& problem) {
 }
 
 // sign * outer, of an interrupted search too.
-double OuterOf(const BoundSetting& setting, const BoundSearch& search) {
+double OuterOf(const BoundContext& context, const BoundSearch& search) {
   if (search.state == SearchState::kNew) {
-    return setting.root_empty ? -kUnbounded : setting.Reach(search.quantity, setting.root);
+    return context.root_empty ? -kUnbounded : context.Reach(search.quantity, context.root);
   }
   return search.state == SearchState::kRunning ? OuterSoFar(search) : search.outer;
 }
@@ -51,7 +51,7 @@ double EnclosedBound::Excess() const {
 
 struct Enclosure::Impl {
   EncloseOptions options;
-  BoundSetting setting;
+  BoundContext context;
   BoundLimits limits;
   // Two for each quantity, the lower and the upper end: parameters, then expressions.
   std::vector<BoundSearch> searches;
@@ -59,7 +59,7 @@ struct Enclosure::Impl {
 
   Impl(const FamilyProblem& problem, const EncloseOptions& asked)
       : options(asked),
-        setting(problem, asked.seed),
+        context(problem, asked.seed),
         limits{asked.width, asked.max_cells != 0 ? asked.max_cells : DefaultMaxCells(problem)} {
     for (std::size_t i = 0; options.parameters && i < problem.experiments.size(); ++i) {
       for (const FamilyParameter parameter : kFamilyParameters) {
@@ -67,12 +67,12 @@ struct Enclosure::Impl {
         // One search serves all experiments that share a parameter.
         const bool shared = IsSharedParameter(problem, parameter);
         if (shared && i > 0) continue;
-        AddBothEnds(setting, {.experiment = i, .parameter = parameter, .shared = shared}, searches);
+        AddBothEnds(context, {.experiment = i, .parameter = parameter, .shared = shared}, searches);
       }
     }
     first_expression = searches.size();
     for (const BoundedExpression& bounded : options.expressions) {
-      AddBothEnds(setting, {.experiment = bounded.experiment, .expression = &bounded.expression},
+      AddBothEnds(context, {.experiment = bounded.experiment, .expression = &bounded.expression},
                   searches);
     }
   }
@@ -80,7 +80,7 @@ struct Enclosure::Impl {
   EnclosedBound BoundAt(std::size_t lower_end) const {
     const BoundSearch& lower = searches[lower_end];
     const BoundSearch& upper = searches[lower_end + 1];
-    return {.outer = {0.0 - OuterOf(setting, lower), OuterOf(setting, upper)},
+    return {.outer = {0.0 - OuterOf(context, lower), OuterOf(context, upper)},
             .inner = {0.0 - lower.inner, upper.inner},
             .closed = MeetsWidth(limits, lower) && MeetsWidth(limits, upper)};
   }
@@ -95,7 +95,7 @@ bool Enclosure::Run(const std::function<bool()>& interrupted) {
     BoundSearch& search = impl_->searches[k];
     while (!search.IsDone()) {
       if (interrupted && interrupted()) return;
-      StepBound(impl_->setting, impl_->limits, search);
+      StepBound(impl_->context, impl_->limits, search);
     }
   });
   const bool complete = IsComplete();
@@ -114,7 +114,7 @@ bool Enclosure::IsComplete() const {
 }
 
 bool Enclosure::IsBounded(std::size_t experiment, FamilyParameter parameter) const {
-  return HasParameter(impl_->setting.problem, experiment, parameter);
+  return HasParameter(impl_->context.problem, experiment, parameter);
 }
 
 EnclosedBound Enclosure::Bound(std::size_t experiment, FamilyParameter parameter) const {
@@ -160,11 +160,11 @@ std::vector<Member> Enclosure::Witnesses() const {
 }
 
 void Enclosure::Save(std::ostream& out) const {
-  WriteBoundSearches(out, impl_->setting.problem.experiments.size(), impl_->searches);
+  WriteBoundSearches(out, impl_->context.problem.experiments.size(), impl_->searches);
 }
 
 bool Enclosure::Load(std::istream& in) {
-  return ReadBoundSearches(in, impl_->setting.problem.experiments.size(), impl_->searches)
+  return ReadBoundSearches(in, impl_->context.problem.experiments.size(), impl_->searches)
       .has_value();
 }
 

@@ -24,7 +24,7 @@ using ExpressionError = FormulaError;
 
 class Expression {
  public:
-  // Nothing on an error, which is then told.
+  // No value on an error, which is then told.
   static std::optional<Expression> Parse(std::string_view text,
                                          std::span<const Experiment> experiments,
                                          ExpressionError& error);

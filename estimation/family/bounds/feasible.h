@@ -19,7 +19,7 @@ enum class Feasibility {
 // estimation/family/members/window.h decide, exactly and in microseconds.
 bool HasExactWindows(const FamilyProblem& problem);
 
-// A member, by search.
+// A member by draws at random, or from the transfers' centres where the test looks at transfers.
 std::optional<Member> FindMember(const FamilyProblem& problem);
 
 // A member, by a local search from the start alone, which need not be one.
@@ -35,7 +35,7 @@ std::optional<Member> FindMemberFrom(const FamilyProblem& problem, std::span<con
 // intervals that there is none, then draws at random.
 Feasibility DecideFeasible(const FamilyProblem& problem, bool thorough = true);
 
-// By those local searches alone.
+// Decides by those local searches alone.
 std::optional<Member> FindMemberLocally(const FamilyProblem& problem);
 
 }  // namespace howl

@@ -14,7 +14,7 @@ namespace {
 // For the rounding of the test itself, which is evaluated in doubles.
 constexpr double kSlack = 1e-13;
 
-// What the conditions say of a box.
+// The verdict of the conditions on a box.
 struct Verdict {
   bool all = true;    // every point passes
   bool none = false;  // no point passes

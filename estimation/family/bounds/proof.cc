@@ -18,8 +18,8 @@ namespace {
 constexpr double kFinest = 1e-9;   // of a root cell: no split below
 constexpr std::size_t kTried = 6;  // variables that are tried for a split, with two modes
 
-// What a split may halve. N, M and their ratio follow from the rest; where they are shared they
-// are added.
+// The variables that a split may halve. N, M and their ratio follow from the rest; where they are
+// shared they are added.
 constexpr std::array kSplitVariables = {kCellXi, kCellOmega, kCellTangent, kCellGain, kCellTau};
 
 // The finite width of a variable as a share of the root's; 1 where the root has no finite one.
@@ -88,8 +88,8 @@ class Prover {
     return widest;
   }
 
-  // What contraction leaves of the cell's halves, split where it leaves least; nothing where the
-  // cell is too fine to split.
+  // The halves of the cell after contraction, split in the variable that leaves least; no value
+  // where the cell is too fine to split.
   std::optional<std::vector<Cell>> Split(Cell& cell) const {
     std::optional<std::vector<Cell>> best;
     double best_size = 0.0;

@@ -52,7 +52,7 @@ class Follower {
   bool Run() {
     barrier_ = Barrier(c_, task_, state_, rows_);
     if (!std::isfinite(barrier_)) return false;
-    // Of s, or of the quantity in units of its scale.
+    // The tolerance of s, or of the quantity in units of its scale.
     const double gap = task_.has_s ? 5e-7 : 2e-5;
     const double conditions = static_cast<double>(rows_.size() + 2 * static_cast<std::size_t>(n_));
     // On the central path s exceeds its least value by conditions / t.

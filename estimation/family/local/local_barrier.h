@@ -30,8 +30,8 @@ struct BarrierTask {
   double at = 0.0;
 };
 
-// From `state`, which keeps the rows, to where the task ends, in place. False where the state is
-// not inside, or a step cannot be taken; `state` is then the last iterate.
+// Moves `state`, which must keep the rows, to where the task ends. False where the state is not
+// inside, or a step cannot be taken; `state` is then the last iterate.
 bool FollowCentralPath(const LocalCoordinates& coordinates, const BarrierTask& task,
                        LocalState& state);
 

@@ -35,7 +35,7 @@ struct ConditionRow {
   double Slack(double s) const { return weight * s + value; }
 };
 
-// What is minimised; all else is kept.
+// The violations that are minimised; all other conditions are kept.
 struct SoftConditions {
   ConditionSet conditions;
   bool domain = false;
@@ -45,7 +45,8 @@ struct SoftConditions {
 bool ConditionRows(const LocalCoordinates& c, LocalState& state, const SoftConditions& soft,
                    std::vector<ConditionRow>* rows);
 
-// Of the soft conditions, at least zero; infinite where the state is no model.
+// The largest violation of the soft conditions, at least zero; infinite where the state is no
+// model.
 double LargestViolation(const LocalCoordinates& c, LocalState& state, const SoftConditions& soft);
 
 }  // namespace howl

@@ -30,8 +30,8 @@ bool IsSupported(const LocalCoordinates& c) {
                       [](const ExperimentTarget& target) { return target.IsEmpty(); });
 }
 
-// Of ln M or ln (M / N). Without bounds of the user's: far from anything that the gain allows, in
-// units of 2 pi f |G| for M, which N is of the order of.
+// The range of ln M or ln (M / N). Without bounds of the user's it goes beyond anything that the
+// gain allows, in units of 2 pi f |G| for M, which is the order of N.
 Range SecondBox(const LocalCoordinates& c) {
   double unit = 1.0;
   if (!c.relative) unit = c.targets[0].w_rad_s * c.problem.experiments[0].gain;

@@ -33,7 +33,7 @@ std::array<T, kLocals> Variables(const std::array<double, kLocals>& u) {
   return v;
 }
 
-// What the wanted response and the damping make of an experiment.
+// The constants of an experiment that follow from the wanted response and the damping.
 template <typename T>
 struct Response {
   T xi;
@@ -134,7 +134,7 @@ bool TwoModes(const LocalCoordinates& c, double f, const Response<T>& response, 
   return true;
 }
 
-// What the test asks of the second mode.
+// The quantities of the second mode that the test uses.
 template <typename T>
 void SecondModeAsked(const LocalCoordinates& c, std::size_t experiment, LocalPoint<T>& point) {
   using std::exp;

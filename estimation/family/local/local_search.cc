@@ -60,7 +60,7 @@ LocalSearch::~LocalSearch() = default;
 
 bool LocalSearch::IsSupported() const { return impl_->coordinates.supported; }
 
-std::optional<Approach> LocalSearch::FindMember(const Member& start, double enough) const {
+std::optional<LocalSolution> LocalSearch::FindMember(const Member& start, double enough) const {
   const LocalCoordinates& c = impl_->coordinates;
   LocalState state;
   if (!c.supported || !StateOf(c, start, state)) return std::nullopt;
@@ -72,16 +72,17 @@ std::optional<Approach> LocalSearch::FindMember(const Member& start, double enou
   const double violation = LargestViolation(c, state, task.soft);
   if (!std::isfinite(violation)) return std::nullopt;
   state.s = violation + 0.1;
-  Approach approach;
-  if (violation > enough) approach.converged = FollowCentralPath(c, task, state);
-  if (!MemberOf(c, state, approach.member)) return std::nullopt;
-  approach.violation = LargestViolation(c, state, task.soft);
-  approach.converged |= approach.violation <= enough;
-  return approach;
+  LocalSolution solution;
+  if (violation > enough) solution.converged = FollowCentralPath(c, task, state);
+  if (!MemberOf(c, state, solution.member)) return std::nullopt;
+  solution.violation = LargestViolation(c, state, task.soft);
+  solution.converged |= solution.violation <= enough;
+  return solution;
 }
 
-std::optional<Approach> LocalSearch::Minimise(const Member& start, const ConditionSet& soft,
-                                              const MemberQuantity* quantity, double at) const {
+std::optional<LocalSolution> LocalSearch::Minimise(const Member& start, const ConditionSet& soft,
+                                                   const MemberQuantity* quantity,
+                                                   double at) const {
   const LocalCoordinates& c = impl_->coordinates;
   LocalState state;
   if (!c.supported || !StateOf(c, start, state)) return std::nullopt;
@@ -97,20 +98,20 @@ std::optional<Approach> LocalSearch::Minimise(const Member& start, const Conditi
   const double violation = LargestViolation(c, state, task.soft);
   if (!std::isfinite(violation)) return std::nullopt;
   state.s = violation + 0.1;
-  Approach approach;
-  approach.converged = FollowCentralPath(c, task, state);
-  if (!MemberOf(c, state, approach.member)) return std::nullopt;
-  approach.violation = LargestViolation(c, state, task.soft);
+  LocalSolution solution;
+  solution.converged = FollowCentralPath(c, task, state);
+  if (!MemberOf(c, state, solution.member)) return std::nullopt;
+  solution.violation = LargestViolation(c, state, task.soft);
   if (quantity != nullptr &&
-      !(std::abs(quantity->value(approach.member) - at) <= 1e-7 * std::max(std::abs(at), 1e-300))) {
+      !(std::abs(quantity->value(solution.member) - at) <= 1e-7 * std::max(std::abs(at), 1e-300))) {
     return std::nullopt;
   }
-  return approach;
+  return solution;
 }
 
 std::optional<Member> LocalSearch::Farthest(const Member& start, const MemberQuantity& quantity,
                                             double sign, double scale) const {
-  const std::optional<Approach> inside = FindMember(start);
+  const std::optional<LocalSolution> inside = FindMember(start);
   if (!inside || !(inside->violation < 1.0)) return std::nullopt;
   const LocalCoordinates& c = impl_->coordinates;
   LocalState state;
@@ -156,8 +157,8 @@ std::optional<Member> LocalSearch::FromTransfer() const {
   for (const Experiment& experiment : problem.experiments) {
     if (!experiment.transfer_ellipsoid) return std::nullopt;
     const TransferVector& centre = experiment.transfer_ellipsoid->Centre();
-    // Where a transfer says nothing of the second mode its fit ends anywhere, at the least of sizes
-    // too, and no search comes back from there.
+    // Where a transfer does not determine the second mode, its fit may end anywhere, even at the
+    // smallest size, from which no search comes back.
     const double ln_M = experiment.transfer_ellipsoid->IsDetermined(3)
                             ? centre(3)
                             : centre(2) + std::log(kUnknownMOverN);

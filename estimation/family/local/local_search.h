@@ -16,9 +16,9 @@
 
 namespace howl {
 
-// A model, and how far it uses the conditions that were minimised: the largest error over its
-// tolerance. At most one: a member.
-struct Approach {
+// The end of a local search: a model, and its largest violation of the conditions that were
+// minimised (the largest error over its tolerance). At most one: the model is a member.
+struct LocalSolution {
   Member member;
   double violation = 0.0;
   bool converged = false;
@@ -34,26 +34,27 @@ class LocalSearch {
   // False where omega, xi or N is shared, or omega_spread_max is zero.
   bool IsSupported() const;
 
-  // Minimises the largest violation of all conditions until it is below `enough`. Nothing where the
-  // start is no model of the kind (a second mode that no omega goes with).
-  std::optional<Approach> FindMember(const Member& start, double enough = 0.97) const;
+  // Minimises the largest violation of all conditions until it is below `enough`. No value where
+  // the start is no model of the kind (a second mode that no omega goes with).
+  std::optional<LocalSolution> FindMember(const Member& start, double enough = 0.97) const;
 
   // Minimises the largest violation of the conditions in `soft` among the models that keep the
   // others, `start` being one. With a quantity, among those where it has the value `at`.
-  std::optional<Approach> Minimise(const Member& start, const ConditionSet& soft,
-                                   const MemberQuantity* quantity = nullptr, double at = 0.0) const;
+  std::optional<LocalSolution> Minimise(const Member& start, const ConditionSet& soft,
+                                        const MemberQuantity* quantity = nullptr,
+                                        double at = 0.0) const;
 
   // The member with the largest sign * quantity that the search reaches from `start`, a member;
-  // `scale`: a typical range of the quantity. Nothing where it found none.
+  // `scale`: a typical range of the quantity. No value where it found none.
   std::optional<Member> Farthest(const Member& start, const MemberQuantity& quantity, double sign,
                                  double scale) const;
 
   // A model for each experiment with that damping and about that M / N, at the measured phase and
-  // gain, to start from; nothing where there is no such model.
+  // gain, to start from; no value where there is no such model.
   std::optional<Member> Nominal(double xi, double relative) const;
 
   // A model for each experiment from the centre of its transfer and the characteristics, to start
-  // from; nothing where an experiment has no transfer, or no such model.
+  // from; no value where an experiment has no transfer, or no such model.
   std::optional<Member> FromTransfer() const;
 
  private:

@@ -1,6 +1,6 @@
-// Where a local search is: the coordinates of every experiment
-// (estimation/family/local/local_coordinates.h) and s, the bound on what is minimised. To and from
-// a member: the models with these coordinates, what is shared being equal to the last digit.
+// The state of a local search: the coordinates of every experiment
+// (estimation/family/local/local_coordinates.h) and s, the bound on what is minimised. It is
+// converted to and from a member, whose shared parameters are equal to the last digit.
 #ifndef HOWL_ESTIMATION_FAMILY_LOCAL_LOCAL_STATE_H_
 #define HOWL_ESTIMATION_FAMILY_LOCAL_LOCAL_STATE_H_
 
@@ -19,7 +19,7 @@ struct LocalState {
   std::vector<double> omega_hz;  // where the last root was
 };
 
-// Drawn inside the boxes; false where a coordinate is not finite.
+// Pulls the state inside the boxes; false where a coordinate is not finite.
 bool StateOf(const LocalCoordinates& c, const Member& member, LocalState& state);
 
 // False where there is no such model; the roots are left in `state`.
@@ -27,7 +27,7 @@ bool ModelOf(const LocalCoordinates& c, std::size_t experiment, LocalState& stat
              LoopModel& model);
 bool MemberOf(const LocalCoordinates& c, LocalState& state, Member& member);
 
-// By length * step; s, with `has_s`, is the last of the step.
+// Moves the state by length * step; with `has_s` the step's last entry is that of s.
 LocalState Moved(const LocalCoordinates& c, const LocalState& state, const Eigen::VectorXd& step,
                  double length, bool has_s);
 

@@ -1,5 +1,5 @@
 // d quantity / d coordinates (estimation/family/local/local_coordinates.h) by central differences;
-// one experiment is rebuilt at a time, so that the cost is that of the experiments it depends on.
+// one experiment is rebuilt at a time, so that only the experiments that it depends on cost time.
 #ifndef HOWL_ESTIMATION_FAMILY_LOCAL_QUANTITY_GRADIENT_H_
 #define HOWL_ESTIMATION_FAMILY_LOCAL_QUANTITY_GRADIENT_H_
 

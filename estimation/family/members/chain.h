@@ -16,7 +16,7 @@ namespace howl {
 
 class XiChain {
  public:
-  // Not `increasing`: nothing is ordered.
+  // Where `increasing` is false, nothing is ordered.
   XiChain(std::span<const ExperimentTarget> targets, bool increasing);
 
   // False when the chain is empty. The work grows as the number of experiments does.
@@ -34,9 +34,9 @@ class XiChain {
   std::vector<std::size_t> link_of_;
 };
 
-// What values that were fixed in a chain, in any order, leave to the others: the largest of the
-// links below and the smallest of those above, from two binary indexed trees (Fenwick 1994), so
-// that each value costs the logarithm of the number of links.
+// The intervals that values fixed in a chain, in any order, leave to the others: between the
+// largest of the links below and the smallest of those above, from two binary indexed trees
+// (Fenwick 1994), so that each value costs the logarithm of the number of links.
 class FixedInChain {
  public:
   void Reset(const XiChain& chain);

@@ -85,7 +85,7 @@ struct MemberDrawer::Impl {
     const bool any_shared = shared_omega || shared_xi || shared_N || shared_tau;
     if (supported && !two_modes && !any_shared && p.model.own.empty() &&
         std::isfinite(window.factor)) {
-      // xi is drawn from a floor on, which the windows do not know.
+      // xi is drawn from a floor on, which the windows do not contain.
       WindowProblem drawn = window;
       drawn.xi = xi;
       const std::optional<Range> windows = FeasibleWindows(drawn);
@@ -160,7 +160,7 @@ struct MemberDrawer::Impl {
   }
 
   // arg(N U_1), where the second mode adds at most its share s to it, (5b): arg G to within asin s.
-  // Nothing where the share says nothing.
+  // No value where the share bounds nothing.
   std::optional<Range> FirstModePhase(const Range& phase_rad) const {
     const double share = problem.test.second_mode_share_max;
     if (!(share < 1.0)) return std::nullopt;
@@ -239,8 +239,8 @@ struct MemberDrawer::Impl {
       if (!two_modes) {
         xis[i] = XiInWindow(target, window_hz, own_xi[i]);
       } else if (first) {
-        // The first mode is all but alone: the condition of one mode, its tolerance wider by the
-        // other's share.
+        // The first mode is all but alone, so the condition of one mode holds with a tolerance that
+        // is wider by the other mode's share.
         target.phase_rad = *first;
         xis[i] = XiInWindow(target, window_hz, own_xi[i]);
       } else {

@@ -31,8 +31,8 @@ struct Enumeration {
   EnumerationCounts counts;
 };
 
-// What an attempt fixed for all experiments: the low end of the window of omega, and the shared
-// parameters.
+// The values that an attempt fixes for all experiments: the low end of the window of omega, and the
+// shared parameters.
 struct DrawGlobals {
   double window_hz = 0.0;
   double second = 0.0;  // M or M / N
@@ -66,8 +66,8 @@ struct DrawFocus {
   }
 };
 
-// Of a draw: the model of the experiment that it is focused on, and the state of the random numbers
-// after it. No model: the draw is sure to fail.
+// The preview of a draw: the model of the experiment on which it is focused, and the state of the
+// random numbers after it. No model: the draw is sure to fail.
 struct Preview {
   std::optional<LoopModel> model;
   std::uint64_t state = 0;
@@ -90,7 +90,7 @@ class MemberDrawer {
   bool DrawFocused(UnitRandom& random, const DrawFocus& focus, Member& models,
                    DrawGlobals& globals) const;
   // What DrawFocused would draw for focus.experiment, with the same random numbers, without the
-  // others' models: the work does not grow with their number. Nothing where that cannot be told.
+  // others' models: the work does not grow with their number. No value where that cannot be told.
   std::optional<Preview> PreviewFocused(UnitRandom random, const DrawFocus& focus) const;
 
  private:
@@ -106,7 +106,7 @@ class MemberDrawer {
 Enumeration EnumerateMembers(const FamilyProblem& problem, std::size_t count, std::uint64_t seed,
                              int threads = 1);
 
-// The same, with a drawer of the problem's that is at hand: its pilot search is dear.
+// The same with a drawer that exists already, because its pilot search is expensive.
 Enumeration EnumerateMembers(const FamilyProblem& problem, const MemberDrawer& drawer,
                              std::size_t count, std::uint64_t seed, int threads = 1);
 

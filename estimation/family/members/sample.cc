@@ -218,8 +218,8 @@ class Chart {
     return ranges_[i][static_cast<std::size_t>(kind)];
   }
 
-  // What the other experiments leave to one: the ends of omega over them, and the range of xi
-  // between the next links of the chain, which those beyond keep already.
+  // The ranges that the other experiments leave to one: the ends of omega over them, and the range
+  // of xi between the next links of the chain, which keep to those beyond already.
   struct Others {
     Range omega_hz{std::numeric_limits<double>::infinity(), 0.0};
     Range xi{kNever, -kNever};

@@ -17,26 +17,27 @@ namespace {
 
 constexpr double kWellInside = 0.9;  // of every tolerance, as chains like to begin
 
-// A long bent valley takes more than one search: each begins where the last one ended, for as long
-// as that brings it nearer.
-std::optional<Member> Approached(const FamilyProblem& problem, const LocalSearch& search,
-                                 const Member& start) {
+// A member found by a row of local searches. A long bent valley takes more than one: each begins
+// where the last one ended, for as long as that reduces the violation.
+std::optional<Member> FindMemberInSteps(const FamilyProblem& problem, const LocalSearch& search,
+                                        const Member& start) {
   constexpr int kMostSearches = 10;
   constexpr double kNearer = 0.99;
   Member from = start;
   double violation = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMostSearches; ++k) {
-    std::optional<Approach> approach = search.FindMember(from, kWellInside);
-    if (!approach || !(approach->violation < kNearer * violation)) return std::nullopt;
-    if (Holds(problem, approach->member)) return std::move(approach->member);
-    violation = approach->violation;
-    from = std::move(approach->member);
+    std::optional<LocalSolution> solution = search.FindMember(from, kWellInside);
+    if (!solution || !(solution->violation < kNearer * violation)) return std::nullopt;
+    if (Holds(problem, solution->member)) return std::move(solution->member);
+    violation = solution->violation;
+    from = std::move(solution->member);
   }
   return std::nullopt;
 }
 
-// From a member of the rest of the test the ellipsoid is drawn in by steps, where it is too long in
-// one direction and too thin in the others to be reached at once.
+// A member found from one that passes the rest of the test, by shrinking the transfers' tolerance
+// in steps: the ellipsoid may be too long in one direction and too thin in the others to be reached
+// at once.
 std::optional<Member> ByNarrowing(const FamilyProblem& problem, Member member) {
   constexpr double kStep = 0.25;
   double distance = 0.0;
@@ -48,7 +49,7 @@ std::optional<Member> ByNarrowing(const FamilyProblem& problem, Member member) {
   while (distance > problem.test.transfer_distance_max) {
     distance = std::max(kStep * distance, problem.test.transfer_distance_max);
     step.test.transfer_distance_max = distance;
-    std::optional<Member> nearer = Approached(step, LocalSearch(step), member);
+    std::optional<Member> nearer = FindMemberInSteps(step, LocalSearch(step), member);
     if (!nearer) return std::nullopt;
     member = *std::move(nearer);
   }
@@ -58,13 +59,13 @@ std::optional<Member> ByNarrowing(const FamilyProblem& problem, Member member) {
 std::optional<Member> FirstMember(const FamilyProblem& problem, const LocalSearch& search) {
   constexpr std::size_t kTried = 8;
   if (const std::optional<Member> centre = search.FromTransfer()) {
-    if (std::optional<Member> member = Approached(problem, search, *centre)) return member;
+    if (std::optional<Member> member = FindMemberInSteps(problem, search, *centre)) return member;
   }
   FamilyProblem without = problem;
   without.test.transfer_distance_max = std::numeric_limits<double>::infinity();
   const std::vector<Member> starts = EnumerateMembers(without, kTried, 0, 1).members;
   for (const Member& start : starts) {
-    if (std::optional<Member> member = Approached(problem, search, start)) return member;
+    if (std::optional<Member> member = FindMemberInSteps(problem, search, start)) return member;
   }
   for (const Member& start : starts) {
     if (std::optional<Member> member = ByNarrowing(problem, start)) return member;

@@ -45,9 +45,9 @@ std::optional<double> LeastDistance(const FamilyProblem& without, const FamilyPr
   soft.Insert(Condition::kTransfer);
   std::optional<double> least;
   for (const Member& start : starts) {
-    const std::optional<Approach> member = search.FindMember(start);
+    const std::optional<LocalSolution> member = search.FindMember(start);
     if (!member || !Holds(without, member->member)) continue;
-    const std::optional<Approach> near = nearest.Minimise(member->member, soft);
+    const std::optional<LocalSolution> near = nearest.Minimise(member->member, soft);
     if (!near || !Holds(without, near->member)) continue;
     const double distance = LargestDistance(problem, near->member);
     if (!least || distance < *least) least = distance;

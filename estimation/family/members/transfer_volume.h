@@ -1,6 +1,6 @@
-// What a condition on the transfer does to the family's volume: the ratio of the Lebesgue volumes
-// (of the free natural parameters, as in estimation/family/members/sample.h) with and without
-// transfer_distance_max.
+// The effect of a condition on the transfer on the family's volume: the ratio of the Lebesgue
+// volumes (of the free natural parameters, as in estimation/family/members/sample.h) with and
+// without transfer_distance_max.
 //
 // The ratio is far too small for a share of draws. Members are taken from the family without the
 // condition to the one with it through a row of distances, each the 30 % quantile of the largest

@@ -19,7 +19,7 @@ namespace howl {
 // xi ordered by phi, and no least gain at a line: that may ask for more than the least xi.
 bool HasGreedyTradeoff(const FamilyProblem& problem);
 
-// The smallest largest-xi found under the problem's own omega_spread_max; nothing where no member
+// The smallest largest-xi found under the problem's own omega_spread_max; no value where no member
 // was found.
 std::optional<double> GreedySmallestXi(const FamilyProblem& problem);
 

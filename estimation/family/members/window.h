@@ -1,4 +1,4 @@
-// Where the window of omega that omega_spread_max allows can lie, one mode, exactly.
+// The exact range in which the window of omega that omega_spread_max allows can lie, for one mode.
 //
 // With the window [v, S v], S = 1 + omega_spread_max, y = sinh(ln(f / omega)) and t = tan(-theta),
 // an experiment's members fulfil y = xi t, so that xi has a partner in the window exactly where
@@ -41,7 +41,7 @@ struct XiBounds {
   std::vector<XiBound> upper;
 };
 
-// Of one experiment, by a finite window; bounds of xi itself are none of them.
+// The terms of one experiment with a finite window; bounds of xi itself are not among them.
 XiBounds XiBoundsOf(const ExperimentTarget& target, double factor);
 
 // Reads the above from a problem; tolerances shrunk by `margin` as in MakeTargets.
@@ -51,7 +51,7 @@ WindowProblem MakeWindowProblem(const FamilyProblem& problem, double margin = 1e
 // lo > hi where there is none.
 Range XiInWindow(const ExperimentTarget& target, const Range& window_hz, const Range& xi);
 
-// The feasible low ends v of the window; nothing when no v is feasible, so that the family is
+// The feasible low ends v of the window; no value when no v is feasible, so that the family is
 // empty. With an infinite factor any v does, and the answer tells only of the rest.
 std::optional<Range> FeasibleWindows(const WindowProblem& problem);
 

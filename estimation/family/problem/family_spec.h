@@ -1,4 +1,5 @@
-// How much of the family of unfalsified models is listed, and what a member has to pass.
+// The config's choices for the family of unfalsified models: how many members are listed, and which
+// test they have to pass.
 #ifndef HOWL_ESTIMATION_FAMILY_PROBLEM_FAMILY_SPEC_H_
 #define HOWL_ESTIMATION_FAMILY_PROBLEM_FAMILY_SPEC_H_
 

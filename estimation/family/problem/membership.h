@@ -95,7 +95,7 @@ struct MembershipTest {
   double second_crossing_gain_min = 1.0;
 };
 
-// How far one experiment's model is from the data; zero is a perfect fit.
+// The errors of one experiment's model against the data; zero is a perfect fit.
 struct ExperimentErrors {
   double gain_error = 0.0;            // |z| / gain - 1
   double phase_error_deg = 0.0;       // arg z - phase, wrapped
@@ -111,17 +111,18 @@ struct ExperimentErrors {
   double second_crossing_gain = std::numeric_limits<double>::quiet_NaN();
 };
 
-// In the full form (5a); with M = 0 it is the reduced form (5c).
+// Errors in the full form (5a); with M = 0 it is the reduced form (5c).
 ExperimentErrors ComputeErrors(const Experiment& experiment, const LoopModel& model);
 
-// second_crossing_gain_min looks at the experiment: like loop_gain_min, at reliable ones alone.
+// True where second_crossing_gain_min applies to the experiment: like loop_gain_min, to reliable
+// ones alone.
 bool TestsLineGain(const Experiment& experiment, const MembershipTest& test);
 
 // Smallest |L Phi'(0)| over the experiment's lines; NaN without lines or without a flame slope.
 double SecondCrossingGain(const Experiment& experiment, const LoopParameters<double>& loop);
 
-// second_mode_share_max and second_crossing_gain_min alone, of a model with two modes; its tau does
-// not matter.
+// Tests second_mode_share_max and second_crossing_gain_min alone, for a model with two modes; its
+// tau does not matter.
 bool KeepsSecondMode(const Experiment& experiment, const LoopModel& model,
                      const MembershipTest& test);
 

@@ -1,10 +1,10 @@
-// What a family is a family of: the experiments, the form of the model, the test that a member
-// passes, and the domain that its parameters live in.
+// The problem of a family: the experiments, the form of the model, the test that a member passes,
+// and the domain of its parameters.
 //
 // The test sees a delay only modulo one period of the limit cycle, so the domain fixes the branch:
 //   2 pi f tau = 3 pi / 2 + phase - loop phase error + 2 pi delay_periods,
 // with both errors within half a turn. delay_periods = 0 is the shortest positive delay, as in the
-// seed's (3).
+// paper's (3).
 #ifndef HOWL_ESTIMATION_FAMILY_PROBLEM_PROBLEM_H_
 #define HOWL_ESTIMATION_FAMILY_PROBLEM_PROBLEM_H_
 
@@ -56,7 +56,7 @@ struct FamilyProblem {
   }
   // The domain of one parameter of an experiment; a fixed one is held at its initial value.
   Range RangeOf(ParameterKind kind, std::size_t experiment) const;
-  // Holds those of all experiments.
+  // A range that holds the domains of all experiments.
   Range RangeOf(ParameterKind kind) const;
 };
 

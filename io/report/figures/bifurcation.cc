@@ -34,7 +34,7 @@ const char* KindName(BifurcationKind kind) {
 std::optional<Figure> BifurcationFigure(const ReportInput& input) {
   const MeasuredPoint* reference = input.Reference();
   if (reference == nullptr || input.Fitted(reference->name) == nullptr) return std::nullopt;
-  // A fit that did not converge is no loop: its parameters stand where its search gave up.
+  // A fit that did not converge gives no loop: its parameters are those where its search gave up.
   if (!input.solution.value("converged", false)) return std::nullopt;
   const LoopModel& model = input.Fitted(reference->name)->model;
   const double response = std::abs(RateAt(model, reference->frequency_hz.value));
@@ -59,7 +59,7 @@ std::optional<Figure> BifurcationFigure(const ReportInput& input) {
     options.parameter_min = 0.5;
     options.parameter_max = highest;
     options.max_points = 90;
-    // For the eye: a picture needs no ten digits.
+    // A picture does not need ten digits.
     options.first_step = 0.05;
     options.max_step = 0.1;
     options.balance.tolerance = 1e-7;

@@ -1,4 +1,4 @@
-// Figure 9 of the seed: Bode's diagrams of G, one for each experiment, with the measured points.
+// Figure 9 of the paper: Bode's diagrams of G, one for each experiment, with the measured points.
 // The curves are the joint fit's and one member's of the family.
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,8 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
     high = std::max(high, point->frequency_hz.value);
   }
   const std::vector<double> grid = LinearGrid(0.6 * low, 1.5 * high, kGridPoints);
-  // Beside the fit, the member whose omega varies least: the seed's first qualitative condition.
+  // In addition to the fit, the member whose omega varies least, by the paper's first qualitative
+  // condition.
   std::optional<std::size_t> steady;
   if (input.members) steady = input.members->Thinned(2).front();
   CsvWriter csv("curve,frequency_hz,gain,phase_deg");
@@ -52,7 +53,7 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "bode_all";
-  figure.seed = "9";
+  figure.paper_figure = "9";
   figure.title = "Acoustics G at every operating point";
   figure.caption = "Solid: the joint fit, one choice among many" +
                    (steady ? "; dashed: member " + std::to_string(*steady + 1) +

@@ -1,4 +1,4 @@
-// Figure 8 of the seed for the data at hand: Bode's diagram of G at one experiment for members of
+// Figure 8 of the paper for the data at hand: Bode's diagram of G at one experiment for members of
 // the family, which all pass through the measured point and differ elsewhere.
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ std::optional<Figure> FamilyBodeFigure(const ReportInput& input) {
 
   Figure figure;
   figure.name = "bode_family";
-  figure.seed = "8";
+  figure.paper_figure = "8";
   figure.title = "Acoustics G that the data cannot reject, " + reference->name;
   figure.caption = std::to_string(drawn.size()) + " of " +
                    std::to_string(input.members->models.size()) +

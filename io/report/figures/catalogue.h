@@ -11,7 +11,7 @@
 
 namespace howl {
 
-std::optional<Figure> RecordsFigure(const ReportInput& input);             // seed, figure 1
+std::optional<Figure> RecordsFigure(const ReportInput& input);             // the paper, figure 1
 std::optional<Figure> SpectraFigure(const ReportInput& input);             // 2
 std::optional<Figure> DelayFigure(const ReportInput& input);               // 4
 std::optional<Figure> FlameScatterFigure(const ReportInput& input);        // 5

@@ -1,4 +1,4 @@
-// A trial's confusion matrix: what was withheld, and what the diagnosis answered.
+// A trial's confusion matrix: the withheld effects against the diagnoses.
 #include <algorithm>
 
 #include "io/report/figures/catalogue.h"

@@ -1,4 +1,4 @@
-// What several figures draw: frequency grids, decibels, phases, the flame that a slope belongs to.
+// Curves that several figures draw: frequency grids, decibels, phases, and the flame of a slope.
 #ifndef HOWL_IO_REPORT_FIGURES_CURVES_H_
 #define HOWL_IO_REPORT_FIGURES_CURVES_H_
 
@@ -33,8 +33,8 @@ std::optional<ShownRecord> ReferenceRecord(const ReportInput& input);
 // one, as the flame's describing function does on a limit cycle.
 double DrawnSlope(const MeasuredPoint& point, const LoopModel& model);
 
-// Which loop howl simulate ran for an experiment, as sentences with a space before them: for
-// captions of what is drawn from its record.
+// Sentences, with a space before them, on the loop that howl simulate ran for an experiment; they
+// are for captions of what is drawn from its record.
 std::string SimulationRemark(const ReportInput& input, const std::string& experiment);
 
 // Highest frequency of figures about the reference: beyond its third harmonic and the second mode.

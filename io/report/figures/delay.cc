@@ -1,4 +1,4 @@
-// Figure 4 of the seed: the delay of (3) beside the period of the limit cycle.
+// Figure 4 of the paper: the delay of (3) with the period of the limit cycle.
 #include <cmath>
 
 #include "estimation/analysis/half_width.h"
@@ -45,7 +45,7 @@ std::optional<Figure> DelayFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "delay";
-  figure.seed = "4";
+  figure.paper_figure = "4";
   figure.title = "Delay, beside the period of the limit cycle";
   figure.caption = "The delay τ from the q-to-p phase, equation (3)" +
                    std::string(any_interval ? ", with 95 % intervals" : "") +

@@ -1,4 +1,4 @@
-// Figure 6 of the seed: the flame's characteristic in every experiment.
+// Figure 6 of the paper: the flame's characteristic in every experiment.
 #include <cmath>
 #include <set>
 
@@ -35,7 +35,7 @@ std::optional<Figure> FlameCurvesFigure(const ReportInput& input) {
   if (names.empty()) return std::nullopt;
   Figure figure;
   figure.name = "flame_curves";
-  figure.seed = "6";
+  figure.paper_figure = "6";
   figure.title = measured ? "Flame characteristics" : "Flame characteristics, simulated records";
   figure.caption =
       "Means of q in bins of the delayed derivative of pressure, for each operating point." +

@@ -1,4 +1,4 @@
-// Figure 5 of the seed: q against the delayed derivative of p in one experiment, and the
+// Figure 5 of the paper: q against the delayed derivative of p in one experiment, and the
 // characteristic that bin means make of the cloud.
 #include <cmath>
 
@@ -49,7 +49,7 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "flame_scatter";
-  figure.seed = "5";
+  figure.paper_figure = "5";
   figure.title = std::string(shown->simulated ? "Flame, simulated record of " : "Flame, ") +
                  shown->record->name;
   figure.caption =

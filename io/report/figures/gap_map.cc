@@ -1,5 +1,5 @@
-// Where the model falls short: blocks of the loop, frequency bands and experiments of the
-// diagnosis.
+// The map of the gap: blocks of the loop, frequency bands and experiments where the model falls
+// short.
 #include <algorithm>
 #include <cmath>
 

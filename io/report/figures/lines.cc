@@ -1,4 +1,4 @@
-// Figure 10 of the seed: harmonic and non-harmonic lines over the operating parameter, and where
+// Figure 10 of the paper: harmonic and non-harmonic lines over the operating parameter, and where
 // the model's loop closes a second time.
 #include <cmath>
 
@@ -73,7 +73,7 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "lines";
-  figure.seed = "10";
+  figure.paper_figure = "10";
   figure.title = "Harmonic and non-harmonic lines over the operating parameter";
   figure.caption =
       "Multiples of the measured limit-cycle frequency" +

@@ -1,4 +1,4 @@
-// Figure 7 of the seed: the loop's gain at rest over the operating parameter, and where it reaches
+// Figure 7 of the paper: the loop's gain at rest over the operating parameter, and where it reaches
 // one and the limit cycle vanishes.
 #include <cmath>
 
@@ -44,7 +44,7 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   if (!(low < high)) return std::nullopt;
   const VanishingPhi vanishing = Vanishing(input);
   const double range = high - low;
-  // A crossing far away says only that the gain does not change: it is told, not drawn.
+  // A crossing far away shows only that the gain does not change, so it is stated and not drawn.
   const bool near = vanishing.available && std::isfinite(vanishing.phi) &&
                     vanishing.phi > low - 1.5 * range && vanishing.phi < high + 1.5 * range;
   double left = low - 0.06 * range;
@@ -65,7 +65,7 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "loop_gain";
-  figure.seed = "7";
+  figure.paper_figure = "7";
   figure.title = "Loop gain at the limit cycle";
   figure.caption = "gain · 2π f · |Φ'(0)|, condition (1b): a limit cycle needs more than one";
   figure.caption += any_interval ? ", with 95 % intervals." : ".";

@@ -1,4 +1,4 @@
-// Figure 12 of the seed: Nyquist's curve of the loop at one experiment, with its crossings of the
+// Figure 12 of the paper: Nyquist's curve of the loop at one experiment, with its crossings of the
 // negative real axis.
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   const double loop_gain = std::abs(slope) * std::abs(RateAt(model, reference->frequency_hz.value));
   const double max_hz = 4.2 * reference->frequency_hz.value;
   CsvWriter csv("curve,re,im,frequency_hz,label");
-  // Of the fit: members that run far away leave the picture.
+  // The range is that of the fit; members that go far beyond it leave the picture.
   double left = -1.2, right = 1.0, bottom = -1.0, top = 1.0;
   const auto add = [&](const std::string& curve, const LoopModel& loop, double step_deg) {
     for (const NyquistPoint& point : NyquistCurve(loop.Loop(), slope, max_hz, step_deg)) {
@@ -83,7 +83,7 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
 
   Figure figure;
   figure.name = "nyquist";
-  figure.seed = "12";
+  figure.paper_figure = "12";
   figure.title = "Nyquist's curve of the loop, " + reference->name;
   figure.caption = "|Φ'(0)| L(j 2π f) up to " + Number(std::round(max_hz)) +
                    " Hz for the joint fit" + (drawn.empty() ? "" : " and some members (thin)") +

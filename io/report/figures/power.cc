@@ -1,4 +1,5 @@
-// A trial's power: how severe an effect must be for the diagnosis to name it in 90 % of cases.
+// A trial's power: the severity that an effect must have for the diagnosis to name it in 90 % of
+// cases.
 #include <algorithm>
 #include <cmath>
 

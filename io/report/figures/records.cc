@@ -1,4 +1,4 @@
-// Figure 1 of the seed: p and q of one experiment over 80 ms.
+// Figure 1 of the paper: p and q of one experiment over 80 ms.
 #include <cmath>
 
 #include "io/report/figures/catalogue.h"
@@ -9,7 +9,7 @@
 namespace howl {
 namespace {
 
-constexpr double kSeedWindow_s = 0.080;
+constexpr double kPaperWindow_s = 0.080;
 constexpr double kShownPeriods = 8.0;
 
 }  // namespace
@@ -19,7 +19,7 @@ std::optional<Figure> RecordsFigure(const ReportInput& input) {
   if (!shown) return std::nullopt;
   const Record& record = shown->record->record;
   const MeasuredPoint* point = input.Measured(shown->record->name);
-  double window_s = kSeedWindow_s;
+  double window_s = kPaperWindow_s;
   if (point != nullptr && point->has_cycle()) {
     window_s = std::max(window_s, kShownPeriods / point->frequency_hz.value);
   }
@@ -39,7 +39,7 @@ std::optional<Figure> RecordsFigure(const ReportInput& input) {
   const std::string name = shown->record->name;
   Figure figure;
   figure.name = "records";
-  figure.seed = "1";
+  figure.paper_figure = "1";
   figure.title = (shown->simulated ? "Simulated record of " : "Record of ") + name;
   figure.caption = (shown->simulated ? "No measured record is at hand: this is what the loop "
                                        "does when simulated, in "

@@ -1,4 +1,4 @@
-// What is left of the gap: before, with the best effect, and the floor that a right model leaves.
+// The gap before, the gap with the best effect, and the floor that a right model leaves.
 #include <algorithm>
 #include <cmath>
 

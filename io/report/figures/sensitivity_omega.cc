@@ -1,4 +1,4 @@
-// Figure 13 of the seed: s G(s) for three values of omega, about the fitted one. Far above the
+// Figure 13 of the paper: s G(s) for three values of omega, about the fitted one. Far above the
 // third mode gain and phase hardly move.
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace howl {
 namespace {
 
-constexpr double kStep = 0.075;  // the seed's 185, 200 and 215 Hz
+constexpr double kStep = 0.075;  // the paper's 185, 200 and 215 Hz
 constexpr int kGridPoints = 240;
 
 }  // namespace
@@ -38,7 +38,7 @@ std::optional<Figure> OmegaSensitivityFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "sensitivity_omega";
-  figure.seed = "13";
+  figure.paper_figure = "13";
   figure.title = "How ω moves the oscillators, " + reference->name;
   figure.caption =
       "s G(s), the oscillators with both time derivatives, for the fitted ω and 7.5 % to either "

@@ -1,4 +1,4 @@
-// Figure 14 of the seed: the delay's phase for three values of tau, about the fitted one. It
+// Figure 14 of the paper: the delay's phase for three values of tau, about the fitted one. It
 // decides where the loop closes a second time.
 #include <cmath>
 
@@ -12,7 +12,7 @@
 namespace howl {
 namespace {
 
-constexpr double kStep = 0.03;  // the seed's 3.37, 3.47 and 3.57 ms
+constexpr double kStep = 0.03;  // the paper's 3.37, 3.47 and 3.57 ms
 
 // The crossing above the fundamental with the largest gain.
 std::optional<PhaseCrossing> SecondCrossing(const LoopModel& model, double slope, double f) {
@@ -44,7 +44,7 @@ std::optional<Figure> DelaySensitivityFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "sensitivity_tau";
-  figure.seed = "14";
+  figure.paper_figure = "14";
   figure.title = "How τ moves the delay's phase, " + reference->name;
   figure.caption = "Phase of e^(−sτ) for the fitted τ and 3 % to either side.";
   const auto crossing = SecondCrossing(base, DrawnSlope(*reference, base), f);

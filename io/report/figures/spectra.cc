@@ -1,4 +1,4 @@
-// Figure 2 of the seed: power spectra of p and q, with every line named.
+// Figure 2 of the paper: power spectra of p and q, with every line named.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -103,7 +103,7 @@ std::optional<Figure> SpectraFigure(const ReportInput& input) {
 
   Figure figure;
   figure.name = "spectra";
-  figure.seed = "2";
+  figure.paper_figure = "2";
   figure.title = (shown->simulated ? "Power spectra of the simulated record of "
                                    : "Power spectra of p and q, ") +
                  shown->record->name;

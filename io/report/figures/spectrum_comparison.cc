@@ -1,5 +1,5 @@
-// Figure 11 of the seed: measured and simulated power spectra of p. Where there is no measured
-// record, the simulated one stands beside the measured frequencies.
+// Figure 11 of the paper: measured and simulated power spectra of p. Where there is no measured
+// record, the simulated one is drawn with the measured frequencies.
 #include <cmath>
 
 #include "estimation/analysis/spectrum.h"
@@ -51,7 +51,7 @@ std::optional<Figure> SpectrumComparisonFigure(const ReportInput& input) {
   }
   Figure figure;
   figure.name = "spectrum_comparison";
-  figure.seed = "11";
+  figure.paper_figure = "11";
   figure.title = "Simulated power spectrum of p, " + reference->name;
   figure.caption = measured != nullptr
                        ? "Measured record and what the loop gives when simulated with noise."

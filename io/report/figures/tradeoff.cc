@@ -1,4 +1,4 @@
-// The two qualitative conditions of the seed's section 3.3 against each other: omega nearly
+// The two qualitative conditions of the paper's section 3.3 against each other: omega nearly
 // constant over the operating points, and damping small. One member can have less of one only for
 // more of the other.
 #include <algorithm>

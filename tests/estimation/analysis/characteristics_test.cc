@@ -78,11 +78,11 @@ TEST(EstimateCharacteristics, DriftIsFoundAndMeasured) {
   EXPECT_FALSE(c.stationary);
 }
 
-TEST(EstimateCharacteristics, SeedMethodIsThePapers) {
+TEST(EstimateCharacteristics, PapersMethodAsPublished) {
   testing::SyntheticOptions options;
   options.noise = 0.02;
   const testing::SyntheticRecord truth = testing::Synthesise(options, 5);
-  const Characteristics c = Analysed(truth.record, {.method = CharacteristicsMethod::kSeed});
+  const Characteristics c = Analysed(truth.record, {.method = CharacteristicsMethod::kPaper});
   EXPECT_NEAR(c.frequency_hz.value, 210.0, 5000.0 / 16000.0);  // on a bin
   EXPECT_NEAR(std::remainder(c.frequency_hz.value, 5000.0 / 16000.0), 0.0, 1e-9);
   EXPECT_NEAR(c.phase_deg.value, -10.0, 0.5);
@@ -92,14 +92,14 @@ TEST(EstimateCharacteristics, SeedMethodIsThePapers) {
 
 // Coverage over kinds of records; bench/coverage_study prints the table for many more of them. With
 // 10 rows of 24 the share of a true 95 % has a standard error of 1.4 %.
-TEST(Coverage, IntervalsHoldTheTruthAndTheSeedsMethodIsWorse) {
+TEST(Coverage, IntervalsHoldTheTruthAndThePapersMethodIsWorse) {
   std::array<testing::Tally, testing::kQuantities> all;
   std::uint64_t seed = 77;
   for (const testing::CoverageRow& row : testing::CoverageRows()) {
     const testing::RowResult result = testing::RunCoverageRow(row, 24, seed += 1000);
     EXPECT_EQ(result.cycles_missed, 0) << row.name;
     EXPECT_EQ(result.lines_missed, 0) << row.name;
-    EXPECT_LT(result.tally[testing::kPhase].Rms(), result.seed_phase_rms_deg) << row.name;
+    EXPECT_LT(result.tally[testing::kPhase].Rms(), result.paper_phase_rms_deg) << row.name;
     for (std::size_t k = 0; k < testing::kQuantities; ++k) {
       all[k].count += result.tally[k].count;
       all[k].covered += result.tally[k].covered;

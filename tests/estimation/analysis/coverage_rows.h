@@ -58,13 +58,13 @@ struct Tally {
 
 struct RowResult {
   std::array<Tally, kQuantities> tally;
-  double seed_phase_rms_deg = 0.0;
+  double paper_phase_rms_deg = 0.0;
   int lines_missed = 0, cycles_missed = 0;
 };
 
 inline RowResult RunCoverageRow(const CoverageRow& row, int records, std::uint64_t seed) {
   RowResult result;
-  double seed_squares = 0.0;
+  double paper_squares = 0.0;
   for (int i = 0; i < records; ++i) {
     std::mt19937_64 random(seed + static_cast<std::uint64_t>(i));
     const auto uniform = [&](double low, double high) {
@@ -105,12 +105,12 @@ inline RowResult RunCoverageRow(const CoverageRow& row, int records, std::uint64
         result.tally[kLine].Add(found->frequency_hz, truth.line_hz);
       }
     }
-    const Characteristics by_seed =
-        SeedCharacteristics(RemoveMean(truth.record.pressure),
-                            RemoveMean(truth.record.heat_release), o.sampling_hz, 20.0, 2000.0);
-    seed_squares += std::pow(WrapDeg(by_seed.phase_deg.value - o.phase_deg), 2);
+    const Characteristics by_paper =
+        PaperCharacteristics(RemoveMean(truth.record.pressure),
+                             RemoveMean(truth.record.heat_release), o.sampling_hz, 20.0, 2000.0);
+    paper_squares += std::pow(WrapDeg(by_paper.phase_deg.value - o.phase_deg), 2);
   }
-  result.seed_phase_rms_deg = std::sqrt(seed_squares / records);
+  result.paper_phase_rms_deg = std::sqrt(paper_squares / records);
   return result;
 }
 

@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// The seed's table 2, and the delays that its equation (3) gives, in milliseconds.
+// The paper's table 2, and the delays that its equation (3) gives, in milliseconds.
 const std::vector<DelayInput> kTable2 = {
     {{219.9, kUnknown}, {-5.74, kUnknown}},  {{209.1, kUnknown}, {-9.44, kUnknown}},
     {{205.7, kUnknown}, {-14.35, kUnknown}}, {{202.7, kUnknown}, {-19.18, kUnknown}},
     {{198.4, kUnknown}, {-22.92, kUnknown}}, {{179.8, kUnknown}, {-42.72, kUnknown}}};
 const std::vector<double> kTauMs = {3.338, 3.461, 3.452, 3.437, 3.459, 3.511};
 
-TEST(EstimateDelays, PublishedTableGivesTheSeedsBranchAndDelays) {
+TEST(EstimateDelays, PublishedTableGivesThePapersBranchAndDelays) {
   const DelayChoice choice = EstimateDelays(kTable2);
   EXPECT_TRUE(choice.by_consistency);
   EXPECT_EQ(choice.branch, 0);
@@ -46,7 +46,7 @@ TEST(EstimateDelays, FindsALongDelaysBranch) {
   EXPECT_EQ(EstimateDelays(inputs, 1).branch, 1);
 }
 
-TEST(EstimateDelays, KeepsTheSeedsBranchWhereNoneIsConsistent) {
+TEST(EstimateDelays, KeepsThePapersBranchWhereNoneIsConsistent) {
   std::vector<DelayInput> inputs;
   const std::vector<double> phases = {50.0, 52.0, 48.0, 24.0, 5.0};
   for (std::size_t i = 0; i < phases.size(); ++i) {

@@ -86,7 +86,7 @@ TEST(LoopGain, BelowOneHasAReason) {
   curve.mean_cycle[2] = std::polar(0.06, 1.3);
   EXPECT_EQ(ExplainLowLoopGain(cycle, curve, low)->reason, LoopGainReason::kMemory);
   curve.mean_cycle[2] = 0.0;
-  EXPECT_EQ(ExplainLowLoopGain(cycle, curve, low)->reason, LoopGainReason::kNotSeen);
+  EXPECT_EQ(ExplainLowLoopGain(cycle, curve, low)->reason, LoopGainReason::kNotExplained);
   curve.regressor_noise = 0.1;
   EXPECT_EQ(ExplainLowLoopGain(cycle, curve, low)->reason, LoopGainReason::kNoise);
 

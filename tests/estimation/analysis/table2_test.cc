@@ -1,4 +1,4 @@
-// Records made with the frequencies, phases and gains of the seed's table 2, and flames with the
+// Records made with the frequencies, phases and gains of the paper's table 2, and flames with the
 // slopes of its table 3, give both tables back.
 #include <gtest/gtest.h>
 

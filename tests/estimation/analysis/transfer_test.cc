@@ -14,7 +14,7 @@
 namespace howl {
 namespace {
 
-const Acoustics<double> kRig{204.0, 0.15, 5500.0, 2000.0, kSeedHarmonicRatio};
+const Acoustics<double> kRig{204.0, 0.15, 5500.0, 2000.0, kPaperHarmonicRatio};
 
 TransferPoint PointOf(const Acoustics<double>& acoustics, double frequency_hz,
                       double relative_std) {
@@ -72,7 +72,7 @@ TEST(FitTransfer, IntervalsCover) {
 
 // One mode in a config means one mode in the fit: a rig with one is found, and its M is not.
 TEST(FitTransfer, HasTheModelsModesAndNoOthers) {
-  const Acoustics<double> rig{204.0, 0.15, 5500.0, 0.0, kSeedHarmonicRatio};
+  const Acoustics<double> rig{204.0, 0.15, 5500.0, 0.0, kPaperHarmonicRatio};
   Transfer transfer;
   for (double f = 60.0; f < 1000.0; f += 10.0) transfer.points.push_back(PointOf(rig, f, 0.01));
   const TransferFit fit = FitTransfer(transfer, DefaultModelSpec());
@@ -108,7 +108,7 @@ TEST(FitTransfer, DoubtOfTheNoiseFloorDoesNotAverageOut) {
 // A second mode that is not there has no logarithm: the transfer says nothing of it, and must not
 // be taken to know it.
 TEST(FitTransfer, SecondModeOfVanishingSizeIsNotDetermined) {
-  const Acoustics<double> rig{204.0, 0.15, 5500.0, 0.0, kSeedHarmonicRatio};
+  const Acoustics<double> rig{204.0, 0.15, 5500.0, 0.0, kPaperHarmonicRatio};
   Transfer transfer;
   for (double f = 60.0; f < 1000.0; f += 10.0) transfer.points.push_back(PointOf(rig, f, 0.1));
   const TransferFit fit = FitTransfer(transfer, TwoModes(), TransferBandOf(TwoModes(), 210.0),
@@ -124,7 +124,7 @@ TEST(FitTransfer, SecondModeOfVanishingSizeIsNotDetermined) {
 // A third mode that the model lacks: the fit has to say that it falls short, and where.
 TEST(FitTransfer, ModelErrorIsReportedPointByPoint) {
   Transfer transfer;
-  const Acoustics<double> extra{430.0, 0.02, 600.0, 0.0, kSeedHarmonicRatio};
+  const Acoustics<double> extra{430.0, 0.02, 600.0, 0.0, kPaperHarmonicRatio};
   for (double f = 60.0; f < 1000.0; f += 10.0) {
     TransferPoint point = PointOf(kRig, f, 0.02);
     const Complex<double> g = AcousticResponse(extra, f);

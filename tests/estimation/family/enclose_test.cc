@@ -61,7 +61,7 @@ void ExpectWithinOuter(const Enclosure& enclosure, const std::vector<Experiment>
   }
 }
 
-// Brute force, from the seed's equations alone: xi (or xi and omega) at random, the rest such that
+// Brute force, from the paper's equations alone: xi (or xi and omega) at random, the rest such that
 // the errors are drawn from somewhat more than the tolerances, so that many pass and many fail.
 class BruteForce {
  public:

@@ -12,8 +12,8 @@
 namespace howl {
 namespace {
 
-// The seed's nominal model: omega = 2 pi 215, xi = 0.2, tau = 3.46 ms, N = 6609, M / N = 0.415 puts
-// the second crossing near 750 Hz with a gain of 0.87 (reading notes, item 9).
+// The paper's nominal model: omega = 2 pi 215, xi = 0.2, tau = 3.46 ms, N = 6609, M / N = 0.415
+// puts the second crossing near 750 Hz with a gain of 0.87 (reading notes, item 9).
 TEST(PredictTest, SecondCrossingOfTheNominalModel) {
   const LoopModel model{215.0, 0.2, 6609.0, 0.415 * 6609.0, 3.46e-3, 3.0};
   const std::optional<double> line = CrossingNear(model, {600.0, 900.0});

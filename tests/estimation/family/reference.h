@@ -1,4 +1,4 @@
-// The falsification test written a second time, from the seed's equations alone: std::complex and
+// The falsification test written a second time, from the paper's equations alone: std::complex and
 // long double, no code shared with model/ or estimation/family/. Truth for the tests beside it.
 #ifndef HOWL_TESTS_ESTIMATION_FAMILY_REFERENCE_H_
 #define HOWL_TESTS_ESTIMATION_FAMILY_REFERENCE_H_

@@ -1,6 +1,6 @@
 // A rig with two operating points and nothing drawn, for the tests of howl_rig's parts.
-#ifndef HOWL_TESTS_RIG_RIG_SETTING_H_
-#define HOWL_TESTS_RIG_RIG_SETTING_H_
+#ifndef HOWL_TESTS_RIG_TWO_POINT_RIG_H_
+#define HOWL_TESTS_RIG_TWO_POINT_RIG_H_
 
 #include <cmath>
 #include <string>
@@ -38,4 +38,4 @@ inline Spec With(const std::string& effect, Parameters parameters) {
 
 }  // namespace rig
 
-#endif  // HOWL_TESTS_RIG_RIG_SETTING_H_
+#endif  // HOWL_TESTS_RIG_TWO_POINT_RIG_H_

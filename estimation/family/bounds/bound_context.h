@@ -1,8 +1,8 @@
 // What all searches for the bounds of one family have in common: the problem, the root cell that
-// holds every member, what narrows cells, what finds members, and members to start from. Not
-// changed by a search: one setting serves all threads.
-#ifndef HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_SETTING_H_
-#define HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_SETTING_H_
+// holds every member, the contractor that narrows cells, the searches that find members, and
+// members to start from. A search does not change it, so that one context serves all threads.
+#ifndef HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_CONTEXT_H_
+#define HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_CONTEXT_H_
 
 #include <cstdint>
 #include <memory>
@@ -18,8 +18,8 @@
 
 namespace howl {
 
-struct BoundSetting {
-  BoundSetting(const FamilyProblem& family, std::uint64_t seed_of_draws);
+struct BoundContext {
+  BoundContext(const FamilyProblem& family, std::uint64_t seed_of_draws);
 
   double Value(const BoundQuantity& quantity, std::span<const LoopModel> models) const {
     return ValueOf(quantity, problem, models);
@@ -40,4 +40,4 @@ struct BoundSetting {
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_SETTING_H_
+#endif  // HOWL_ESTIMATION_FAMILY_BOUNDS_BOUND_CONTEXT_H_

@@ -1,4 +1,4 @@
-#include "estimation/family/bounds/bound_setting.h"
+#include "estimation/family/bounds/bound_context.h"
 
 #include <utility>
 
@@ -14,7 +14,7 @@ constexpr std::size_t kBaseMembers = 1000;
 
 }  // namespace
 
-BoundSetting::BoundSetting(const FamilyProblem& family, std::uint64_t seed_of_draws)
+BoundContext::BoundContext(const FamilyProblem& family, std::uint64_t seed_of_draws)
     : problem(family),
       seed(seed_of_draws),
       contractor(family),
@@ -25,7 +25,7 @@ BoundSetting::BoundSetting(const FamilyProblem& family, std::uint64_t seed_of_dr
   base = (drawer ? EnumerateMembers(problem, *drawer, kBaseMembers, seed)
                  : EnumerateMembers(problem, kBaseMembers, seed))
              .members;
-  // A family too thin for draws at random to meet.
+  // The family may be too thin for draws at random to meet.
   if (base.empty() && !root_empty) {
     if (std::optional<Member> member = FindMemberLocally(problem)) base.push_back(*member);
   }

@@ -1,4 +1,4 @@
-#include "diagnosis/no_meaning.h"
+#include "diagnosis/placebo.h"
 
 #include <glog/logging.h>
 
@@ -16,11 +16,11 @@ namespace {
 
 constexpr double kMost = 0.5;
 constexpr double kStart = 0.02;
-// Of the phase's waves over frequency: no base parameter bends a response like that.
+// Periods of the phase over frequency: no base parameter changes a response in such a way.
 constexpr double kShortestPeriod_hz = 150.0;
 constexpr double kLongestPeriod_hz = 700.0;
 
-// Over the whole range of operating points: no experiment tells of the next.
+// Turns of the phase over the whole range of operating points: no experiment tells of the next.
 constexpr double kFewestTurns = 3.0;
 constexpr double kMostTurns = 12.0;
 
@@ -65,7 +65,7 @@ std::vector<EffectParameter> Parameters(std::size_t count) {
 class Ripples final : public NamedEffect {
  public:
   Ripples(std::size_t parameters, bool acoustic_cut, bool flame_cut, std::uint64_t seed)
-      : NamedEffect("no_meaning", LoopBlock::kAcoustics, Parameters(parameters)),
+      : NamedEffect("placebo", LoopBlock::kAcoustics, Parameters(parameters)),
         acoustic_cut_(acoustic_cut),
         flame_cut_(flame_cut) {
     RandomStream random(seed);
@@ -99,8 +99,8 @@ class Ripples final : public NamedEffect {
 
 }  // namespace
 
-EffectPointer NoMeaning(std::size_t parameters, bool acoustic_cut, bool flame_cut,
-                        std::uint64_t seed) {
+EffectPointer PlaceboEffect(std::size_t parameters, bool acoustic_cut, bool flame_cut,
+                            std::uint64_t seed) {
   CHECK_GT(parameters, 0u);
   CHECK(acoustic_cut || flame_cut);
   return std::make_shared<Ripples>(parameters, acoustic_cut, flame_cut, seed);

@@ -1,4 +1,4 @@
-#include "diagnosis/declip/beside_plateaus.h"
+#include "diagnosis/declip/unclipped_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ constexpr double kMostDamping = 1e6;
 constexpr double kDifferenceStep = 1e-5;
 constexpr Eigen::Index kLocals = 4;
 
-// Each experiment counts by its own error.
-double Cost(const std::vector<BesidePlateaus>& experiments, const std::vector<double>& squares) {
+// Each experiment is weighted by its own error.
+double Cost(const std::vector<UnclippedSamples>& experiments, const std::vector<double>& squares) {
   double cost = 0.0;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     cost += 0.5 * experiments[e].weight().sum() *
@@ -38,7 +38,7 @@ struct Normal {
 };
 
 // Columns: the experiment's locals, then the effect's parameters in the search's coordinates.
-Normal Linearise(const BesidePlateaus& at, const CutRecord& filled, const Effect& effect,
+Normal Linearise(const UnclippedSamples& at, const CutRecord& filled, const Effect& effect,
                  const std::vector<double>& values, const AcousticLocals& locals,
                  const Eigen::ArrayXd& error) {
   const Eigen::ArrayXd root = at.weight().sqrt();
@@ -87,7 +87,7 @@ PlateauFit Stepped(const PlateauFit& at, const Effect& effect, const Eigen::Vect
 
 }  // namespace
 
-BesidePlateaus::BesidePlateaus(const CutRecord& recorded)
+UnclippedSamples::UnclippedSamples(const CutRecord& recorded)
     : recorded_(recorded), plateaus_(FindPlateaus(recorded.pressure)) {
   const auto n = static_cast<double>(recorded.samples);
   weight_ = (Eigen::ArrayXd::LinSpaced(recorded.samples, 0.5, n - 0.5) * (std::numbers::pi / n))
@@ -96,8 +96,8 @@ BesidePlateaus::BesidePlateaus(const CutRecord& recorded)
             (1.0 - plateaus_.upper - plateaus_.lower);
 }
 
-Eigen::ArrayXd BesidePlateaus::Error(const CutRecord& filled, const Effect& effect, EffectValues x,
-                                     const AcousticLocals& locals) const {
+Eigen::ArrayXd UnclippedSamples::Error(const CutRecord& filled, const Effect& effect,
+                                       EffectValues x, const AcousticLocals& locals) const {
   Eigen::VectorXcd p =
       RecordedTransfer(filled, effect, x, locals).cwiseProduct(filled.driving_heat_release);
   const Eigen::VectorXcd moved = PressureOfMovement(filled, effect, x, locals);
@@ -112,7 +112,7 @@ Eigen::ArrayXd BesidePlateaus::Error(const CutRecord& filled, const Effect& effe
   return error;
 }
 
-Eigen::VectorXd BesidePlateaus::Fill(const Eigen::ArrayXd& error) const {
+Eigen::VectorXd UnclippedSamples::Fill(const Eigen::ArrayXd& error) const {
   const Eigen::ArrayXd recorded = recorded_.pressure.array();
   const Eigen::ArrayXd model = recorded - error;
   const Eigen::ArrayXd filled =
@@ -122,9 +122,9 @@ Eigen::VectorXd BesidePlateaus::Fill(const Eigen::ArrayXd& error) const {
   return filled - filled.mean();
 }
 
-PlateauFit FitBesidePlateaus(const std::vector<BesidePlateaus>& experiments,
-                             const std::vector<CutRecord>& filled, const Effect& effect,
-                             PlateauFit start, int threads) {
+PlateauFit FitUnclippedSamples(const std::vector<UnclippedSamples>& experiments,
+                               const std::vector<CutRecord>& filled, const Effect& effect,
+                               PlateauFit start, int threads) {
   const auto d = static_cast<Eigen::Index>(start.values.size());
   const auto shared = kLocals * static_cast<Eigen::Index>(experiments.size());
   std::vector<Eigen::ArrayXd> errors(experiments.size());
