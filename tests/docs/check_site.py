@@ -4,8 +4,9 @@
     check_site.py PROJECT
 
 Fails where a link, an anchor or a picture leads nowhere, where a page is missing from the navigation,
-where a command has no page of its own, or where README.md links to what is not there. Exit status 77
-(skipped) where mkdocs, its theme or its extensions are not installed.
+where a command has no page of its own, where README.md links to what is not there, or where a page names a
+source file that is not there (names with a placeholder in capitals, such as NAME, are passed over). Exit
+status 77 (skipped) where mkdocs, its theme or its extensions are not installed.
 """
 
 import pathlib
@@ -44,7 +45,20 @@ def broken_anchors(site):
                 yield f"{page.relative_to(site)}: {link}: no such place on that page"
 
 
+def missing_files(project):
+    """Files of the tree that a page names and that are not there: `model/acoustics.h`."""
+    folders = "app|bench|cmake|configs|diagnosis|docs|estimation|io|model|results|rig|tests|trial"
+    named = re.compile(rf"`((?:{folders})/[\w./-]+\.\w+)`")
+    pages = [project / "README.md", project / "CONTRIBUTING.md"]
+    for page in pages + sorted((project / "docs").rglob("*.md")):
+        for number, line in enumerate(page.read_text(encoding="utf-8").split("\n"), 1):
+            for path in named.findall(line):
+                if not re.search(r"NAME", path) and not (project / path).exists():
+                    yield f"{page.relative_to(project)}:{number}: {path}: no such file"
+
+
 def faults_of_the_tree(project):
+    yield from missing_files(project)
     commands = re.findall(r"(\w+)Command\(\)", (project / "app/commands.cc").read_text(encoding="utf-8"))
     if not commands:
         yield "app/commands.cc: no commands found"
