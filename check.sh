@@ -12,14 +12,10 @@ howl_install_packages "${howl_browser_packages[@]}" ||
 # The Python package is tested where these are; without them its test skips, saying so.
 howl_install_packages "${howl_python_packages[@]}" ||
   echo "the Python package is not tested" >&2
-# Measured records and practice rigs are optional: the tests that read them skip, saying so,
-# where these folders are absent.
-if [ -d "$root/../shared/realdata" ]; then
-  export HOWL_DATA=${HOWL_DATA:-$(cd "$root/../shared/realdata" && pwd)}
-fi
-if [ -d "$root/../shared/practice" ]; then
-  export HOWL_PRACTICE=${HOWL_PRACTICE:-$(cd "$root/../shared/practice" && pwd)}
-fi
+howl_install_packages "${howl_docs_packages[@]}" ||
+  echo "mkdocs could not be installed: the site made of docs/ is not tested" >&2
+# Tests of measured records and practice rigs read the folders that HOWL_DATA and
+# HOWL_PRACTICE name (docs/development.md); where one is not set, its tests skip, saying so.
 cd "$root"
 find . -path './build*' -prune -o \( -name '*.h' -o -name '*.cc' \) -print0 |
   xargs -0 clang-format --dry-run -Werror

@@ -2,6 +2,8 @@
 
 # For the test that drives a report's page in a real browser, which is skipped without them.
 howl_browser_packages=(chromium chromium-driver python3-selenium)
+# For the test that builds the site from docs/, which is skipped without them (12 MB to fetch).
+howl_docs_packages=(mkdocs mkdocs-material)
 
 # For the tests of the Python package; its figures and some formats of files need the later ones.
 howl_python_packages=(python3-pytest python3-numpy python3-pandas python3-yaml

@@ -148,7 +148,7 @@ def main():
     parser.add_argument("--without", action="append", default=[], help="commands with this word")
     options = parser.parse_args()
     failed = compared = 0
-    pages = [options.project / "README.md"] + sorted((options.project / "docs").glob("*.md"))
+    pages = [options.project / "README.md"] + sorted((options.project / "docs").rglob("*.md"))
     with tempfile.TemporaryDirectory() as folder:
         for name in ("configs", "results"):
             os.symlink(options.project.resolve() / name, pathlib.Path(folder) / name)

@@ -1,0 +1,9 @@
+# HOWL_SANITIZE=address,undefined (or thread): everything in this build is made with these sanitizers,
+# and the first finding ends the program, so that a test sees it.
+if(HOWL_SANITIZE)
+  if(HOWL_SANITIZE MATCHES "thread" AND HOWL_SANITIZE MATCHES "address")
+    message(FATAL_ERROR "HOWL_SANITIZE: ${HOWL_SANITIZE}: thread and address exclude each other")
+  endif()
+  add_compile_options(-fsanitize=${HOWL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${HOWL_SANITIZE})
+endif()
