@@ -18,7 +18,8 @@ FEWEST_BOUNDS = 20  # other stretches of the work have fewer units
 
 
 def stop(state):
-    if state.done is None or state.total >= FEWEST_BOUNDS:
+    # Before the bounds are counted nothing is saved, so that there is nothing to go on from.
+    if state.done is not None and state.total >= FEWEST_BOUNDS:
         os.kill(os.getpid(), signal.SIGINT)  # as Ctrl-C does
 
 
