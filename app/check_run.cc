@@ -14,8 +14,6 @@
 namespace howl {
 namespace {
 
-void Append(Health more, Health& health) { std::ranges::move(more, std::back_inserter(health)); }
-
 // Takes the experiments whose records cannot be read out of the config.
 std::vector<NamedRecord> TakeRecords(Config& config, CheckReport& report) {
   std::vector<NamedRecord> records;

@@ -99,18 +99,17 @@ Health CheckAll(const Config& config, const Options& options, const ProblemInput
     health =
         CheckRecords(config, input.records, *input.analysis, MakeAnalysisOptions(config, options));
   }
-  const Health of_fit = CheckFit(problem, fit);
-  health.insert(health.end(), of_fit.begin(), of_fit.end());
+  Append(CheckFit(problem, fit), health);
   std::vector<std::string> recorded;
   for (const ExperimentConfig& each : config.experiments) {
     if (each.record) recorded.push_back(each.experiment.name);
   }
-  const Health mistakes = FindMistakes(problem, config.residuals, fit,
-                                       {.recorded = recorded,
-                                        .solver = config.solver,
-                                        .seed = options.seed,
-                                        .threads = options.threads});
-  health.insert(health.end(), mistakes.begin(), mistakes.end());
+  Append(FindMistakes(problem, config.residuals, fit,
+                      {.recorded = recorded,
+                       .solver = config.solver,
+                       .seed = options.seed,
+                       .threads = options.threads}),
+         health);
   return health;
 }
 

@@ -49,9 +49,7 @@ Health CheckRecordedSamples(const ExperimentConfig& experiment, const Config& co
                             const Record& record) {
   const Record raw = AsRecorded(*experiment.record, config, experiment.record_line, record);
   Health health = CheckSamples(experiment.experiment.name, "p", raw.pressure, raw.sampling_hz);
-  const Health of_q =
-      CheckSamples(experiment.experiment.name, "q", raw.heat_release, raw.sampling_hz);
-  health.insert(health.end(), of_q.begin(), of_q.end());
+  Append(CheckSamples(experiment.experiment.name, "q", raw.heat_release, raw.sampling_hz), health);
   return health;
 }
 
@@ -62,12 +60,10 @@ Health CheckRecords(const Config& config, std::span<const NamedRecord> records,
   for (const ExperimentConfig& each : config.experiments) {
     if (!each.record) continue;
     CHECK(record != records.end() && record->name == each.experiment.name);
-    const Health of_one = CheckRecordedSamples(each, config, record->record);
-    health.insert(health.end(), of_one.begin(), of_one.end());
+    Append(CheckRecordedSamples(each, config, record->record), health);
     ++record;
   }
-  const Health of_analysis = CheckAnalysis(records, set, options, RateSources(config));
-  health.insert(health.end(), of_analysis.begin(), of_analysis.end());
+  Append(CheckAnalysis(records, set, options, RateSources(config)), health);
   return health;
 }
 

@@ -84,6 +84,9 @@ class Fitter {
 
   struct System {
     std::vector<Reduced> experiments;
+    // Their sums: the normal equations in tau and the effect's parameters.
+    Eigen::VectorXd gradient;
+    Eigen::MatrixXd curvature;
   };
 
   // With a leak, the residuals are (E_A, E_B) = M (P, Q) with |det M| = |1 - leak R| instead of
@@ -103,6 +106,8 @@ class Fitter {
   void DescendDelay(EffectFit* fit, std::size_t e);
   double DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) const;
   System Linearise(const EffectFit& fit) const;
+  // The step in tau and the effect's parameters that solves the normal equations, nothing clamped.
+  Eigen::VectorXd SharedStep(const System& system, double damping) const;
   // What a full step would take off the cost, were it a square: g' H^-1 g.
   double Decrement(const System& system) const;
   void Step(const System& system, double damping, EffectFit* fit) const;

@@ -70,6 +70,8 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
     steps[j] = DifferenceStep(p, x);
   }
   System system;
+  system.gradient = Eigen::VectorXd::Zero(1 + d);
+  system.curvature = Eigen::MatrixXd::Zero(1 + d, 1 + d);
   for (std::size_t e = 0; e < records_.size(); ++e) {
     const ExperimentFit& at = fit.experiments[e];
     Reduced out;
@@ -115,6 +117,8 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
       out.reduced_curvature += curvature;
       out.reduced_gradient += gradient;
     }
+    system.gradient += out.reduced_gradient;
+    system.curvature += out.reduced_curvature;
     system.experiments.push_back(std::move(out));
   }
   return system;
@@ -139,40 +143,36 @@ Fitter::Score Fitter::ScoreOf(EffectFit* fit, std::size_t parameter) {
   return {-g.dot(move), fit->values[parameter] + move[0]};
 }
 
-double Fitter::Decrement(const System& system) const {
-  const auto taken_off = [](const Eigen::MatrixXd& h, const Eigen::VectorXd& g) {
-    return g.dot(SolveScaled(h, g, kLeastDamping).col(0));
-  };
-  const Eigen::Index d = system.experiments[0].reduced_gradient.size();
-  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(d, d);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(d);
-  double sum = 0.0;
-  for (const Reduced& part : system.experiments) {
-    h += part.reduced_curvature;
-    g += part.reduced_gradient;
-    if (acoustic_) sum += taken_off(part.local_curvature, part.local_gradient);
-    if (part.delay_curvature > 0.0) {
-      sum += part.delay_gradient * part.delay_gradient / part.delay_curvature;
-    }
-  }
-  if (flame_) return sum + taken_off(h, g);
-  return d > 1 ? sum + taken_off(h.bottomRightCorner(d - 1, d - 1), g.tail(d - 1)) : sum;
-}
-
-void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
-  const auto d = static_cast<Eigen::Index>(fit->values.size());
-  Eigen::MatrixXd h = Eigen::MatrixXd::Zero(1 + d, 1 + d);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(1 + d);
-  for (const Reduced& part : system.experiments) {
-    h += part.reduced_curvature;
-    g += part.reduced_gradient;
-  }
+Eigen::VectorXd Fitter::SharedStep(const System& system, double damping) const {
+  const Eigen::MatrixXd& h = system.curvature;
+  const Eigen::VectorXd& g = system.gradient;
+  const Eigen::Index d = g.size() - 1;
   Eigen::VectorXd step = Eigen::VectorXd::Zero(1 + d);
   if (flame_) {
     step = -SolveScaled(h, g, damping);
   } else if (d > 0) {
     step.tail(d) = -SolveScaled(h.bottomRightCorner(d, d), g.tail(d), damping);
   }
+  return step;
+}
+
+double Fitter::Decrement(const System& system) const {
+  double sum = -system.gradient.dot(SharedStep(system, kLeastDamping));
+  for (const Reduced& part : system.experiments) {
+    if (acoustic_) {
+      sum += part.local_gradient.dot(
+          SolveScaled(part.local_curvature, part.local_gradient, kLeastDamping).col(0));
+    }
+    if (part.delay_curvature > 0.0) {
+      sum += part.delay_gradient * part.delay_gradient / part.delay_curvature;
+    }
+  }
+  return sum;
+}
+
+void Fitter::Step(const System& system, double damping, EffectFit* fit) const {
+  const auto d = static_cast<Eigen::Index>(fit->values.size());
+  Eigen::VectorXd step = SharedStep(system, damping);
   const double largest_tau = 0.05 / records_[0].at.cycle_frequency_hz;
   step[0] = std::clamp(step[0], -largest_tau, largest_tau);
   Eigen::VectorXd taken(d);

@@ -3,9 +3,11 @@
 #ifndef HOWL_ESTIMATION_HEALTH_FINDING_H_
 #define HOWL_ESTIMATION_HEALTH_FINDING_H_
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -47,6 +49,10 @@ struct Finding {
 };
 
 using Health = std::vector<Finding>;
+
+inline void Append(Health more, Health& health) {
+  std::ranges::move(more, std::back_inserter(health));
+}
 
 }  // namespace howl
 

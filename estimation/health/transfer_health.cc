@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "estimation/analysis/transfer_search.h"
 #include "estimation/health/analysis_health.h"
@@ -110,7 +111,7 @@ void AddMistakes(const AnalysisSet& set, std::span<const Costs> costs, Health& h
       if (mistaken) single.push_back(Accusation(set.analyses[i].name, undone, costs[i]));
     }
     if (every && !single.empty()) single = {Accusation({}, undone, all)};
-    health.insert(health.end(), single.begin(), single.end());
+    Append(std::move(single), health);
   }
 }
 
@@ -152,10 +153,9 @@ Health CheckAnalysis(std::span<const NamedRecord> records, const AnalysisSet& se
   RunUnits(records.size(), options.threads, [&](std::size_t i) {
     const RateSource source = sources.empty() ? RateSource::kNumber : sources[i];
     each[i] = CheckSampling(records[i], set.analyses[i], options, source);
-    const Health state = CheckState(set.analyses[i], options.characteristics);
-    each[i].insert(each[i].end(), state.begin(), state.end());
+    Append(CheckState(set.analyses[i], options.characteristics), each[i]);
   });
-  for (const Health& one : each) health.insert(health.end(), one.begin(), one.end());
+  for (Health& one : each) Append(std::move(one), health);
   return health;
 }
 
