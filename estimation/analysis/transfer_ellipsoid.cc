@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "estimation/analysis/joint_deviation.h"
 #include "estimation/analysis/transfer.h"
 
 namespace howl {
@@ -37,7 +38,7 @@ std::optional<TransferEllipsoid> TransferEllipsoid::Make(
   for (int k = 0; k < kNumTransferParameters; ++k) {
     if (determined[static_cast<std::size_t>(k)]) used.push_back(k);
   }
-  if (used.empty() || !centre.allFinite()) return std::nullopt;
+  if (used.empty() || !centre.allFinite() || !(centre.minCoeff() > 0.0)) return std::nullopt;
   const std::optional<TransferMatrix> two = FactorOf(covariance, used);
   if (!two) return std::nullopt;
   ellipsoid.two_ = *two;
@@ -55,8 +56,7 @@ std::optional<TransferEllipsoid> MakeTransferEllipsoid(const TransferFit& fit,
   if (!fit.available) return std::nullopt;
   const Acoustics<double>& g = fit.acoustics;
   // With one mode nothing is known of M, which its variance of zero marks below.
-  const TransferVector centre(std::log(g.omega_hz), std::log(g.xi), std::log(g.N),
-                              g.M > 0.0 ? std::log(g.M) : 0.0);
+  const TransferVector centre(g.omega_hz, g.xi, g.N, g.M > 0.0 ? g.M : 1.0);
   std::array<bool, kNumTransferParameters> determined{};
   for (int k = 0; k < kNumTransferParameters; ++k) {
     const double variance = fit.log_covariance(k, k);
@@ -66,11 +66,25 @@ std::optional<TransferEllipsoid> MakeTransferEllipsoid(const TransferFit& fit,
   return TransferEllipsoid::Make(centre, fit.log_covariance, determined);
 }
 
-double TransferDistance(const TransferEllipsoid& ellipsoid, const LoopModel& model) {
+int TransferEllipsoid::Count(bool second_mode) const {
+  const int rest = kNumTransferParameters - 1;
+  int count = second_mode && IsDetermined(rest) ? 1 : 0;
+  for (int k = 0; k < rest; ++k) count += IsDetermined(k) ? 1 : 0;
+  return count;
+}
+
+double MahalanobisDistance(const TransferEllipsoid& ellipsoid, const LoopModel& model) {
   const bool second_mode = model.M > 0.0;
-  const TransferVector v(std::log(model.omega_hz), std::log(model.xi), std::log(model.N),
-                         second_mode ? std::log(model.M) : ellipsoid.Centre()(3));
-  return (ellipsoid.Factor(second_mode) * (v - ellipsoid.Centre())).norm();
+  const TransferVector& centre = ellipsoid.Centre();
+  const TransferVector offset(std::log(model.omega_hz / centre(0)), std::log(model.xi / centre(1)),
+                              model.N / centre(2) - 1.0,
+                              second_mode ? model.M / centre(3) - 1.0 : 0.0);
+  return (ellipsoid.Factor(second_mode) * offset).norm();
+}
+
+double TransferDistance(const TransferEllipsoid& ellipsoid, const LoopModel& model) {
+  const int count = ellipsoid.Count(model.M > 0.0);
+  return count > 0 ? DeviationOfDistance(MahalanobisDistance(ellipsoid, model), count) : 0.0;
 }
 
 }  // namespace howl

@@ -204,12 +204,12 @@ inline FitStudy StudyFits(const StudiedRig& rig, int draws, std::uint64_t seed, 
       if (rig.modes == 2) add("M", fit.M, rig.loops[i].M);
       study.chi_square_per_dof += fit.chi_square_per_dof;
       if (const auto& ellipsoid = experiments.back().transfer_ellipsoid) {
-        const double d = TransferDistance(*ellipsoid, rig.loops[i]);
-        int dof = 0;
-        for (int k = 0; k < kNumTransferParameters; ++k) dof += ellipsoid->IsDetermined(k) ? 1 : 0;
-        study.square_distance += d * d / dof;
+        const double d = MahalanobisDistance(*ellipsoid, rig.loops[i]);
+        study.square_distance += d * d / ellipsoid->Count(rig.modes == 2);
         ++study.ellipsoids;
-        study.beyond_default += d > MembershipTest{}.transfer_distance_max ? 1 : 0;
+        study.beyond_default +=
+            TransferDistance(*ellipsoid, rig.loops[i]) > MembershipTest{}.transfer_distance_max ? 1
+                                                                                                : 0;
       }
     }
     if (experiments.size() < records.size()) continue;

@@ -11,22 +11,28 @@
 
 namespace howl {
 
-// An experiment's transfer ellipsoid, in the logarithms of omega, xi, N and M.
+// An experiment's transfer ellipsoid, in the offsets of
+// estimation/analysis/transfer_ellipsoid.h.
 struct TransferBound {
   bool used = false;
   double distance = 0.0;  // widened by more than the rounding of the test
-  TransferVector centre = TransferVector::Zero();
+  TransferVector centre = TransferVector::Ones();
   TransferVector reach = TransferVector::Zero();  // half sides of the box around it
   // Of `factor`, where it counts all of the model's parameters: `whole` of them, else 0.
   TransferMatrix inverse = TransferMatrix::Zero();
   int whole = 0;
-  double reach_relative = kUnbounded;                // the same of ln M - ln N
+  Interval relative{0.0, kUnbounded};                // M / N over the ellipsoid
   TransferMatrix factor = TransferMatrix::Zero();    // upper triangular
   TransferMatrix backward = TransferMatrix::Zero();  // lower triangular, of the same form
 };
 
+// deviation_max: transfer_distance_max of the test.
 TransferBound MakeTransferBound(const TransferEllipsoid& ellipsoid, bool second_mode,
-                                double distance);
+                                double deviation_max);
+
+// The k-th offset of a value, and the value of an offset.
+Interval OffsetOf(const TransferBound& bound, int k, const Interval& value);
+Interval ValueOf(const TransferBound& bound, int k, const Interval& offset);
 
 // The constants of one experiment, as intervals that hold the exact values.
 struct ContractTarget {

@@ -4,7 +4,8 @@
 //
 // the ellipsoid being |F v| <= D. The multipliers come from a few sweeps of coordinate descent in
 // doubles; whatever they are, the bound holds. The slabs are the cell's own intervals, M / N, and
-// phase and gain of the response in the mean value form, with their derivatives over the cell.
+// phase and gain of the response in the mean value form, with their derivatives over the cell. v
+// holds the transfer's offsets.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -38,16 +39,6 @@ struct Slabs {
                                                 inverse.transpose() * normal};
   }
 };
-
-Interval Logarithm(const Interval& x) {
-  return Interval(x.lower() > 0.0 ? Below(std::log(x.lower())) : -Unbounded(),
-                  std::isfinite(x.upper()) ? Above(std::log(x.upper())) : Unbounded());
-}
-
-Interval Exponential(const Interval& x) {
-  return Interval(std::isfinite(x.lower()) ? Below(std::exp(x.lower())) : 0.0,
-                  std::isfinite(x.upper()) ? Above(std::exp(x.upper())) : Unbounded());
-}
 
 // The best multiplier of one slab, the others being held: r is what they leave of F^-T c.
 double BestMultiplier(const TransferVector& r, const Slab& slab, double distance) {
@@ -155,11 +146,12 @@ double Largest(const TransferVector& c, const Slabs& slabs, const TransferMatrix
 // ln z of z = N U_1 + M U_r at a point of the cell, its derivatives over the cell.
 struct Response {
   Interval phase, ln_gain;                  // at the point
-  std::array<Interval, 4> d_phase, d_gain;  // by ln omega, ln xi, ln N, ln M
+  std::array<Interval, 4> d_phase, d_gain;  // by the offsets of omega, xi, N and M
 };
 
 bool Linearise(const ContractTarget& target, const ExperimentBox& box,
                const std::array<double, 4>& at, bool second_mode, Response& response) {
+  const TransferVector& centre = target.transfer.centre;
   const Interval rate = target.w_rad_s / target.frequency_hz;
   const Interval& w = target.w_rad_s;
   const auto mode = [&](const Interval& omega_hz, const Interval& xi, Complex<Interval>* by_omega,
@@ -191,12 +183,12 @@ bool Linearise(const ContractTarget& target, const ExperimentBox& box,
   const Complex<Interval> first = mode(box[kCellOmega], box[kCellXi], &w_1, &x_1);
   Complex<Interval> direction = first;
   Complex<Interval> by_omega = w_1, by_xi = x_1;
-  Complex<Interval> other{Interval(0.0), Interval(0.0)};
+  Complex<Interval> second{Interval(0.0), Interval(0.0)};
   if (second_mode) {
     const Interval& m = box[kCellRelative];
     if (!std::isfinite(m.upper())) return false;
-    other = m * mode(ratio * box[kCellOmega], box[kCellXi], &w_r, &x_r);
-    direction = direction + other;
+    second = mode(ratio * box[kCellOmega], box[kCellXi], &w_r, &x_r);
+    direction = direction + m * second;
     by_omega = by_omega + m * w_r;
     by_xi = by_xi + m * x_r;
   }
@@ -206,9 +198,14 @@ bool Linearise(const ContractTarget& target, const ExperimentBox& box,
     return Complex<Interval>{(n.re * direction.re + n.im * direction.im) / size,
                              (n.im * direction.re - n.re * direction.im) / size};
   };
-  const Complex<Interval> a = over(by_omega), b = over(by_xi), share = over(other);
-  response.d_gain = {a.re, b.re, 1.0 - share.re, share.re};
-  response.d_phase = {a.im, b.im, -share.im, share.im};
+  const Complex<Interval> a = over(by_omega), b = over(by_xi);
+  // d ln z / d (N / N_0) = N_0 U_1 / z and d ln z / d (M / M_0) = M_0 U_r / z, with z = N
+  // direction.
+  const Interval inverse_N = 1.0 / box[kCellN];
+  const Complex<Interval> by_N = (Interval(centre(2)) * inverse_N) * over(first);
+  const Complex<Interval> by_M = (Interval(centre(3)) * inverse_N) * over(second);
+  response.d_gain = {a.re, b.re, by_N.re, by_M.re};
+  response.d_phase = {a.im, b.im, by_N.im, by_M.im};
   return true;
 }
 
@@ -220,21 +217,29 @@ bool ContractSlabs(const ContractTarget& target, ExperimentBox& box) {
   const bool second_mode = bound.whole == 4;
   constexpr std::array<CellVariable, 4> kVariables = {kCellOmega, kCellXi, kCellN, kCellM};
   const auto n = static_cast<std::size_t>(bound.whole);
-  std::array<Interval, 4> v;  // less the centre
+  std::array<Interval, 4> v;
   std::array<double, 4> at{};
   Slabs slabs;
   for (std::size_t k = 0; k < n; ++k) {
     const Interval& x = box[kVariables[k]];
     if (!(x.lower() > 0.0) || !std::isfinite(x.upper())) return true;
     const auto ik = static_cast<Eigen::Index>(k);
-    v[k] = Logarithm(x) - Interval(bound.centre(ik));
+    v[k] = OffsetOf(bound, static_cast<int>(k), x);
     at[k] = 0.5 * (x.lower() + x.upper());
     slabs.Add(TransferVector::Unit(ik), v[k], bound.inverse);
   }
-  const TransferVector relative = TransferVector::Unit(3) - TransferVector::Unit(2);
-  const Interval relative_centre = Interval(bound.centre(3)) - Interval(bound.centre(2));
+  // M / N = rho M_0 / N_0 with 1 + m = rho (1 + n), so that m - rho_0 n = rho - 1 + (rho - rho_0)
+  // n.
+  TransferVector relative = TransferVector::Zero();
+  const Interval relative_scale = Interval(bound.centre(3)) / Interval(bound.centre(2));
+  Interval relative_middle(0.0);
   if (second_mode) {
-    slabs.Add(relative, Logarithm(box[kCellRelative]) - relative_centre, bound.inverse);
+    const Interval share = box[kCellRelative] / relative_scale;
+    if (!std::isfinite(share.upper())) return true;
+    relative_middle = Interval(0.5 * (share.lower() + share.upper()));
+    relative(2) = -relative_middle.lower();
+    relative(3) = 1.0;
+    slabs.Add(relative, share - 1.0 + (share - relative_middle) * v[2], bound.inverse);
   }
   Response response;
   if (Linearise(target, box, at, second_mode, response)) {
@@ -245,7 +250,7 @@ bool ContractSlabs(const ContractTarget& target, ExperimentBox& box) {
       for (std::size_t k = 0; k < n; ++k) {
         const auto ik = static_cast<Eigen::Index>(k);
         const double middle = 0.5 * (slope[k].lower() + slope[k].upper());
-        const Interval point = Logarithm(Interval(at[k])) - Interval(bound.centre(ik));
+        const Interval point = OffsetOf(bound, static_cast<int>(k), Interval(at[k]));
         normal(ik) = middle;
         range += Interval(middle) * point - (slope[k] - Interval(middle)) * (v[k] - point);
       }
@@ -254,18 +259,26 @@ bool ContractSlabs(const ContractTarget& target, ExperimentBox& box) {
     add(response.d_phase, response.phase, -Arctangent(box[kCellTangent]));
     add(response.d_gain, response.ln_gain, Logarithm(box[kCellGain]));
   }
-  const auto narrow = [&](const TransferVector& c, const Interval& centre, Interval& x) {
+  const auto range = [&](const TransferVector& c, Interval& offset) {
     const double hi = Largest(c, slabs, bound.inverse, bound.distance);
     const double lo = -Largest(-c, slabs, bound.inverse, bound.distance);
-    return lo <= hi && Narrow(x, Exponential(centre + Interval(lo, hi)));
+    if (!(lo <= hi)) return false;
+    offset = Interval(lo, hi);
+    return true;
   };
   for (std::size_t k = 0; k < n; ++k) {
-    const auto ik = static_cast<Eigen::Index>(k);
-    if (!narrow(TransferVector::Unit(ik), Interval(bound.centre(ik)), box[kVariables[k]])) {
-      return false;
-    }
+    Interval offset;
+    if (!range(TransferVector::Unit(static_cast<Eigen::Index>(k)), offset)) return false;
+    if (!Narrow(box[kVariables[k]], ValueOf(bound, static_cast<int>(k), offset))) return false;
   }
-  return !second_mode || narrow(relative, relative_centre, box[kCellRelative]);
+  if (!second_mode) return true;
+  // rho = rho_0 + (1 + (m - rho_0 n) - rho_0) / (1 + n)
+  Interval difference;
+  if (!range(relative, difference)) return false;
+  const Interval N_share = box[kCellN] / Interval(bound.centre(2));
+  return Narrow(
+      box[kCellRelative],
+      (relative_middle + (1.0 + difference - relative_middle) / N_share) * relative_scale);
 }
 
 }  // namespace howl

@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "estimation/analysis/joint_deviation.h"
 #include "estimation/family/bounds/contract.h"
 
 namespace howl {
@@ -10,16 +11,6 @@ namespace {
 
 // The test evaluates the quadratic form in doubles.
 constexpr double kSlack = 1e-9;
-
-Interval Logarithm(const Interval& x) {
-  return Interval(x.lower() > 0.0 ? Below(std::log(x.lower())) : -Unbounded(),
-                  std::isfinite(x.upper()) ? Above(std::log(x.upper())) : Unbounded());
-}
-
-Interval Exponential(const Interval& x) {
-  return Interval(std::isfinite(x.lower()) ? Below(std::exp(x.lower())) : 0.0,
-                  std::isfinite(x.upper()) ? Above(std::exp(x.upper())) : Unbounded());
-}
 
 // |F v|^2 <= D^2, row by row.
 bool ContractForm(const TransferMatrix& factor, double distance, std::array<Interval, 4>& v) {
@@ -55,10 +46,41 @@ bool ContractForm(const TransferMatrix& factor, double distance, std::array<Inte
   return true;
 }
 
+// The range of (1 + m) / (1 + n) over the ellipse |(n, m)| <= distance of this covariance. A ratio
+// r is reached where the line m + 1 = r (n + 1) meets the ellipse,
+//
+//   (1 - r)^2 <= distance^2 (C_mm - 2 r C_nm + r^2 C_nn),
+//
+// a quadratic in r (E. C. Fieller, Suppl. J. R. Stat. Soc. 7 (1940) 1), which bounds it above where
+// n + 1 stays positive.
+Interval RatioRange(double c_nn, double c_mm, double c_nm, double distance) {
+  constexpr double kNearlyUnbounded = 1e-6;  // below, rounding would count
+  const double square = distance * distance;
+  const double a = 1.0 - square * c_nn;
+  if (!(a > kNearlyUnbounded)) return Interval(0.0, kUnbounded);
+  const double b = 1.0 - square * c_nm;
+  const double c = 1.0 - square * c_mm;
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  return Interval(std::max(0.0, (b - root) / a * (1.0 - kSlack) - kSlack),
+                  (b + root) / a * (1.0 + kSlack) + kSlack);
+}
+
 }  // namespace
 
+Interval OffsetOf(const TransferBound& bound, int k, const Interval& value) {
+  const Interval share = value / Interval(bound.centre(k));
+  return IsLogOffset(k) ? Logarithm(share) : share - Interval(1.0);
+}
+
+Interval ValueOf(const TransferBound& bound, int k, const Interval& offset) {
+  const Interval share = IsLogOffset(k) ? Exponential(offset) : offset + Interval(1.0);
+  return share * Interval(bound.centre(k));
+}
+
 TransferBound MakeTransferBound(const TransferEllipsoid& ellipsoid, bool second_mode,
-                                double distance) {
+                                double deviation_max) {
+  const double distance =
+      DistanceOfDeviation(deviation_max, std::max(1, ellipsoid.Count(second_mode)));
   TransferBound bound;
   bound.used = true;
   bound.distance = distance * (1.0 + kSlack) + kSlack;
@@ -90,10 +112,11 @@ TransferBound MakeTransferBound(const TransferEllipsoid& ellipsoid, bool second_
     bound.reach(kept[k]) = bound.distance * std::sqrt(covariance(at, at)) * (1.0 + kSlack);
   }
   if (kept.size() >= 2 && kept[kept.size() - 2] == 2 && kept.back() == 3) {
-    const auto last = static_cast<Eigen::Index>(kept.size()) - 1;
-    const double variance =
-        covariance(last, last) + covariance(last - 1, last - 1) - 2.0 * covariance(last, last - 1);
-    bound.reach_relative = bound.distance * std::sqrt(variance) * (1.0 + kSlack);
+    const auto m = static_cast<Eigen::Index>(kept.size()) - 1;
+    const Eigen::Index n = m - 1;
+    bound.relative = RatioRange(covariance(n, n), covariance(m, m), covariance(n, m),
+                                bound.distance * (1.0 + kSlack)) *
+                     (Interval(bound.centre(3)) / Interval(bound.centre(2)));
   }
   return bound;
 }
@@ -106,20 +129,16 @@ bool ContractTransfer(const ContractTarget& target, ExperimentBox& box) {
   for (int k = 0; k < 4; ++k) {
     const auto i = static_cast<std::size_t>(k);
     if (bound.factor(k, k) == 0.0) continue;
-    v[i] = Logarithm(box[kVariables[i]]) - Interval(bound.centre(k));
+    v[i] = OffsetOf(bound, k, box[kVariables[i]]);
     if (!Narrow(v[i], Interval(-bound.reach(k), bound.reach(k)))) return false;
   }
-  if (std::isfinite(bound.reach_relative)) {
-    const Interval reach(-bound.reach_relative, bound.reach_relative);
-    const Interval centre = Interval(bound.centre(3)) - Interval(bound.centre(2));
-    if (!Narrow(box[kCellRelative], Exponential(centre + reach))) return false;
-  }
+  if (!Narrow(box[kCellRelative], bound.relative)) return false;
   if (!ContractForm(bound.factor, bound.distance, v)) return false;
   if (!ContractForm(bound.backward, bound.distance, v)) return false;
   for (int k = 0; k < 4; ++k) {
     const auto i = static_cast<std::size_t>(k);
     if (bound.factor(k, k) == 0.0) continue;
-    if (!Narrow(box[kVariables[i]], Exponential(v[i] + Interval(bound.centre(k))))) return false;
+    if (!Narrow(box[kVariables[i]], ValueOf(bound, k, v[i]))) return false;
   }
   return true;
 }
@@ -130,8 +149,7 @@ bool TransferMayHold(const TransferBound& bound, const std::array<Interval, 4>& 
     Interval row(0.0);
     for (int c = 0; c < 4; ++c) {
       if (bound.factor(r, c) == 0.0) continue;
-      row += Interval(bound.factor(r, c)) *
-             (Logarithm(box[static_cast<std::size_t>(c)]) - Interval(bound.centre(c)));
+      row += Interval(bound.factor(r, c)) * OffsetOf(bound, c, box[static_cast<std::size_t>(c)]);
     }
     sum += square(row);
   }

@@ -12,8 +12,8 @@ namespace {
 
 double Sine(double x) { return std::sin(x); }
 double Cosine(double x) { return std::cos(x); }
-double Exponential(double x) { return std::exp(x); }
-double Logarithm(double x) { return std::log(x); }
+double ExponentialOf(double x) { return std::exp(x); }
+double LogarithmOf(double x) { return std::log(x); }
 double Root(double x) { return std::sqrt(x); }
 double Absolute(double x) { return std::abs(x); }
 double Divide(double a, double b) { return a / b; }
@@ -34,14 +34,8 @@ Interval Wave(double (*f)(double), const Interval& x) {
 
 Interval Sine(const Interval& x) { return Wave(std::sin, x); }
 Interval Cosine(const Interval& x) { return Wave(std::cos, x); }
-Interval Exponential(const Interval& x) {
-  return {std::max(0.0, Below(std::exp(x.lower()))), Above(std::exp(x.upper()))};
-}
-// The part of the argument outside the domain has no value: the enclosure is of the rest.
-Interval Logarithm(const Interval& x) {
-  if (!(x.upper() > 0.0)) return kWholeLine;
-  return {x.lower() > 0.0 ? Below(std::log(x.lower())) : -Unbounded(), Above(std::log(x.upper()))};
-}
+Interval ExponentialOf(const Interval& x) { return Exponential(x); }
+Interval LogarithmOf(const Interval& x) { return Logarithm(x); }
 Interval Root(const Interval& x) {
   if (!(x.upper() >= 0.0)) return kWholeLine;
   return sqrt(Interval(std::max(0.0, x.lower()), x.upper()));
@@ -77,11 +71,11 @@ struct Arithmetic {
   }
   template <typename T>
   static T Exponential(const T& a) {
-    return howl::Exponential(a);
+    return ExponentialOf(a);
   }
   template <typename T>
   static T Logarithm(const T& a) {
-    return howl::Logarithm(a);
+    return LogarithmOf(a);
   }
   template <typename T>
   static T Sine(const T& a) {

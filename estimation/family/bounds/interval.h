@@ -66,6 +66,16 @@ inline double Above(double value) {
   return value + (std::abs(value) * 9e-16 + std::numeric_limits<double>::min());
 }
 
+// The part of x outside the domain has no value: the enclosure is of the rest.
+inline Interval Logarithm(const Interval& x) {
+  if (!(x.upper() > 0.0)) return Interval(-Unbounded(), Unbounded());
+  return Interval(x.lower() > 0.0 ? Below(std::log(x.lower())) : -Unbounded(),
+                  std::isfinite(x.upper()) ? Above(std::log(x.upper())) : Unbounded());
+}
+inline Interval Exponential(const Interval& x) {
+  return Interval(std::isfinite(x.lower()) ? Below(std::exp(x.lower())) : 0.0,
+                  std::isfinite(x.upper()) ? Above(std::exp(x.upper())) : Unbounded());
+}
 inline Interval Arctangent(const Interval& x) {
   return {Below(std::atan(x.lower())), Above(std::atan(x.upper()))};
 }

@@ -11,6 +11,14 @@ namespace howl {
 
 namespace {
 
+// The offset N / N_0 - 1, from ln N / N_0. Below what the ellipsoid holds it goes on as a straight
+// line in ln N: as N vanishes the offset itself hardly changes, and a search would not come back.
+LocalJet ShareOffset(const LocalJet& ln_share, double reach) {
+  const double edge = std::max(1.0 - reach, 0.05);
+  if (ln_share.a >= std::log(edge)) return exp(ln_share) - 1.0;
+  return edge * (ln_share - std::log(edge)) + (edge - 1.0);
+}
+
 class RowMaker {
  public:
   RowMaker(const LocalCoordinates& c, const LocalState& state,
@@ -67,13 +75,19 @@ class RowMaker {
   }
 
   void AddTransfer(std::size_t i) {
+    const double limit = c_.scales[i].transfer_limit;
+    if (!std::isfinite(limit)) return;
     const auto& ellipsoid = c_.problem.experiments[i].transfer_ellipsoid;
-    if (!ellipsoid || !std::isfinite(c_.problem.test.transfer_distance_max)) return;
     const LocalPoint<LocalJet>& p = points_[i];
     const TransferMatrix& factor = ellipsoid->Factor(c_.two_modes);
-    const LocalJet v[kNumTransferParameters] = {
-        p.ln_omega - ellipsoid->Centre()(0), p.ln_xi - ellipsoid->Centre()(1),
-        p.ln_N - ellipsoid->Centre()(2), p.ln_M - ellipsoid->Centre()(3)};
+    const TransferVector ln_centre = ellipsoid->Centre().array().log();
+    LocalJet v[kNumTransferParameters] = {p.ln_omega - ln_centre(0), p.ln_xi - ln_centre(1),
+                                          p.ln_N - ln_centre(2), p.ln_M - ln_centre(3)};
+    for (int k = 0; k < kNumTransferParameters; ++k) {
+      if (!IsLogOffset(k)) {
+        v[k] = ShareOffset(v[k], limit * std::sqrt(ellipsoid->Covariance()(k, k)));
+      }
+    }
     LocalJet sum(1e-8);
     Eigen::Matrix<double, kLocals, kLocals> form;
     form.setZero();
@@ -86,7 +100,6 @@ class RowMaker {
       form += part.v * part.v.transpose();
     }
     const LocalJet distance = sqrt(sum);
-    const double limit = c_.problem.test.transfer_distance_max * (1 - kLocalMargin);
     Add(distance / limit, i, IsSoft(Condition::kTransfer));
     rows_->back().owner = static_cast<int>(i);
     rows_->back().curvature = (form - distance.v * distance.v.transpose()) / (distance.a * limit);

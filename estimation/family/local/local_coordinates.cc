@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "estimation/family/problem/transfer_limit.h"
 #include "model/units.h"
 
 namespace howl {
@@ -59,6 +60,7 @@ LocalScale MakeScale(const LocalCoordinates& c, std::size_t i, const Range& seco
   scale.has_loop_phase = test.loop_phase_tolerance_deg < 180.0;
   scale.loop_phase =
       scale.has_loop_phase ? test.loop_phase_tolerance_deg * kRadPerDeg * (1 - kLocalMargin) : 1.0;
+  scale.transfer_limit = TransferLimit(e, test, c.two_modes) * (1 - kLocalMargin);
   constexpr double kQuarter = std::numbers::pi / 2 * (1 - 1e-9);
   scale.box[kLocalXi] = {std::log(std::max(xi.lo, kLocalLeastXi)),
                          std::log(std::min(xi.hi, kLocalLargestXi))};

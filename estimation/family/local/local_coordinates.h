@@ -41,6 +41,7 @@ struct LocalScale {
   double phase_0, phase, gain_0, gain, loop_phase;
   std::array<Range, kLocals> box;
   bool has_phase, has_gain, has_loop_phase;
+  double transfer_limit;  // infinite: none
 };
 
 struct LocalCoordinates {

@@ -9,6 +9,7 @@
 #include "estimation/family/local/local_conditions.h"
 #include "estimation/family/local/local_coordinates.h"
 #include "estimation/family/local/local_state.h"
+#include "estimation/family/local/transfer_centre.h"
 #include "model/units.h"
 
 namespace howl {
@@ -45,8 +46,6 @@ std::optional<Member> FromCentres(const LocalCoordinates& c, const std::vector<C
   }
   return member;
 }
-
-constexpr double kUnknownMOverN = 0.1;  // a start: a second mode that is minor by (5b)
 
 }  // namespace
 
@@ -151,24 +150,18 @@ std::optional<Member> LocalSearch::FromTransfer() const {
   const LocalCoordinates& c = impl_->coordinates;
   const FamilyProblem& problem = c.problem;
   if (!c.supported) return std::nullopt;
-  double ln_second = 0.0;
-  std::vector<Centre> centres;
   const Range xi = problem.RangeOf(ParameterKind::kXi);
-  for (const Experiment& experiment : problem.experiments) {
-    if (!experiment.transfer_ellipsoid) return std::nullopt;
-    const TransferVector& centre = experiment.transfer_ellipsoid->Centre();
-    // Where a transfer does not determine the second mode, its fit may end anywhere, even at the
-    // smallest size, from which no search comes back.
-    const double ln_M = experiment.transfer_ellipsoid->IsDetermined(3)
-                            ? centre(3)
-                            : centre(2) + std::log(kUnknownMOverN);
-    ln_second +=
-        (c.relative ? ln_M - centre(2) : ln_M) / static_cast<double>(problem.experiments.size());
-    centres.push_back({std::exp(centre(0)),
-                       std::clamp(std::exp(centre(1)), std::max(xi.lo, kLocalLeastXi) * (1 + 1e-6),
-                                  std::min(xi.hi, kLocalLargestXi) * (1 - 1e-6))});
+  std::vector<Centre> centres;
+  double second = 0.0;
+  for (const TransferCentre& centre :
+       TransferCentres(problem.experiments, c.shared_second, c.relative)) {
+    centres.push_back(
+        {centre.omega_hz, std::clamp(centre.xi, std::max(xi.lo, kLocalLeastXi) * (1 + 1e-6),
+                                     std::min(xi.hi, kLocalLargestXi) * (1 - 1e-6))});
+    second = centre.second;
   }
-  return FromCentres(c, centres, ln_second);
+  if (centres.empty()) return std::nullopt;
+  return FromCentres(c, centres, std::log(second));
 }
 
 }  // namespace howl

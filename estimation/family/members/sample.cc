@@ -9,6 +9,7 @@
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/transfer_starts.h"
 #include "estimation/family/problem/targets.h"
+#include "estimation/family/problem/transfer_limit.h"
 #include "estimation/fit/two_mode_solve.h"
 #include "estimation/parallel.h"
 
@@ -62,6 +63,11 @@ class Chart {
     has_lines_ = two_modes_ && problem.test.second_crossing_tolerance_deg < 180.0 &&
                  std::any_of(problem.experiments.begin(), problem.experiments.end(),
                              [](const Experiment& e) { return !e.lines.empty(); });
+    for (const Experiment& experiment : problem.experiments) {
+      // Members keep the limit on the deviation as it is stated, whatever rounds on the way.
+      transfer_limits_.push_back((1.0 - 1e-12) *
+                                 TransferLimit(experiment, problem.test, two_modes_));
+    }
     ratio_ = problem.model.harmonic_ratio;
     xi_ = problem.RangeOf(ParameterKind::kXi);
     xi_.lo = std::max(xi_.lo, kTinyXi);
@@ -363,10 +369,9 @@ class Chart {
       return false;
     }
     const Experiment& experiment = problem_.experiments[i];
-    if (experiment.transfer_ellipsoid && std::isfinite(problem_.test.transfer_distance_max)) {
+    if (std::isfinite(transfer_limits_[i])) {
       const LoopModel model{place.omega_hz, place.xi, place.N, place.M, 0.0, ratio_};
-      if (!(TransferDistance(*experiment.transfer_ellipsoid, model) <=
-            problem_.test.transfer_distance_max)) {
+      if (!(MahalanobisDistance(*experiment.transfer_ellipsoid, model) <= transfer_limits_[i])) {
         return false;
       }
     }
@@ -475,6 +480,7 @@ class Chart {
   const FamilyProblem& problem_;
   std::vector<std::array<Range, kNumParameterKinds>> ranges_;  // of each experiment
   std::vector<ExperimentTarget> targets_;
+  std::vector<double> transfer_limits_;
   XiChain chain_;
   ParameterKind second_kind_;
   bool two_modes_, relative_, shared_omega_, shared_xi_, shared_N_, shared_tau_, shared_second_;

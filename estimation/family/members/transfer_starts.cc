@@ -21,7 +21,7 @@ constexpr double kWellInside = 0.9;  // of every tolerance, as chains like to be
 // where the last one ended, for as long as that reduces the violation.
 std::optional<Member> FindMemberInSteps(const FamilyProblem& problem, const LocalSearch& search,
                                         const Member& start) {
-  constexpr int kMostSearches = 10;
+  constexpr int kMostSearches = 40;
   constexpr double kNearer = 0.99;
   Member from = start;
   double violation = std::numeric_limits<double>::infinity();

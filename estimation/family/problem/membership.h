@@ -17,8 +17,9 @@
 //   second_crossing_gain_min   |L Phi'(0)| at every observed line >= minimum   (1b) at the second
 //                              crossing (two modes, reliable experiments with a flame slope)
 //   transfer_distance_max      distance of (omega, xi, N, M) from the broadband q-to-p transfer, in
-//                              standard deviations (estimation/analysis/transfer_ellipsoid.h):
-//                              experiments whose record has one
+//                              standard deviations of one number
+//                              (estimation/analysis/transfer_ellipsoid.h): experiments whose record
+//                              has one
 //
 // An infinite tolerance or maximum, or a minimum of zero, switches its condition off.
 #ifndef HOWL_ESTIMATION_FAMILY_PROBLEM_MEMBERSHIP_H_

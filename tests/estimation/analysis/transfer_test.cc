@@ -192,12 +192,12 @@ TEST(PracticeRigs, TrueModelsLieWithinTheTransfersEllipsoids) {
       const auto truth = [&](const char* key) {
         return testing::PracticeTruth(*folder, rig, e, key);
       };
-      const double distance = TransferDistance(
-          *ellipsoid,
-          {.omega_hz = truth("omega_hz"), .xi = truth("xi"), .N = truth("N"), .M = truth("M")});
+      const LoopModel loop{
+          .omega_hz = truth("omega_hz"), .xi = truth("xi"), .N = truth("N"), .M = truth("M")};
+      const double distance = MahalanobisDistance(*ellipsoid, loop);
       mean += distance * distance;
       within += distance * distance <= 9.488;
-      beyond_default += distance > MembershipTest{}.transfer_distance_max;
+      beyond_default += TransferDistance(*ellipsoid, loop) > MembershipTest{}.transfer_distance_max;
       ++count;
     }
   }

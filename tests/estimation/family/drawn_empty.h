@@ -58,10 +58,10 @@ inline FamilyProblem DrawnProblem(const DrawnKind& kind, unsigned seed) {
     e.reliable = uniform(0.0, 1.0) < 0.8;
     if (kind.transfers) {
       const TransferVector std = TransferVector(0.01, 0.1, 0.1, 0.3);
-      TransferVector centre(std::log(static_cast<double>(m.omega_hz)) + 0.01 * uniform(-1, 1),
-                            std::log(static_cast<double>(m.xi)) + 0.1 * uniform(-1, 1),
-                            std::log(static_cast<double>(m.N)) + 0.1 * uniform(-1, 1),
-                            std::log(std::max(M, 0.1 * size)));
+      const TransferVector centre(static_cast<double>(m.omega_hz) * std::exp(0.01 * uniform(-1, 1)),
+                                  static_cast<double>(m.xi) * std::exp(0.1 * uniform(-1, 1)),
+                                  static_cast<double>(m.N) * std::exp(0.1 * uniform(-1, 1)),
+                                  std::max(M, 0.1 * size));
       e.transfer_ellipsoid = TransferEllipsoid::Make(
           centre, std.cwiseAbs2().asDiagonal().toDenseMatrix(), {true, true, true, true});
     }

@@ -118,7 +118,8 @@ TEST_P(RecordsFamilyTest, TheRigIsAMemberWhateverTheSeedAndTheSensorsNoise) {
       }
       EXPECT_TRUE(FindMember(problem).has_value()) << seed;
       for (std::size_t i = 0; i < rig.size(); ++i) {
-        const double distance = ComputeErrors(problem.experiments[i], rig[i]).transfer_distance;
+        const double distance =
+            MahalanobisDistance(*problem.experiments[i].transfer_ellipsoid, rig[i]);
         mean_square += distance * distance;
         ++count;
       }

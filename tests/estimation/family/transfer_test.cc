@@ -6,10 +6,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "estimation/analysis/joint_deviation.h"
 #include "estimation/family/answers/conflict.h"
 #include "estimation/family/answers/tradeoff.h"
 #include "estimation/family/bounds/enclose.h"
@@ -38,13 +40,15 @@ TransferMatrix Covariance(double scale) {
 
 // Squared distance over the parameters `used`, by the inverse of their covariance.
 double SquaredDistance(const Experiment& e, const LoopModel& m, const std::vector<int>& used) {
-  const double v[4] = {std::log(m.omega_hz), std::log(m.xi), std::log(m.N),
-                       m.M > 0.0 ? std::log(m.M) : 0.0};
+  const TransferVector& centre = e.transfer_ellipsoid->Centre();
+  const double v[4] = {std::log(m.omega_hz) - std::log(centre(0)),
+                       std::log(m.xi) - std::log(centre(1)), (m.N - centre(2)) / centre(2),
+                       (m.M - centre(3)) / centre(3)};
   Eigen::VectorXd off(used.size());
   Eigen::MatrixXd covariance(used.size(), used.size());
   for (std::size_t a = 0; a < used.size(); ++a) {
     const auto ia = static_cast<Eigen::Index>(a);
-    off(ia) = v[used[a]] - e.transfer_ellipsoid->Centre()(used[a]);
+    off(ia) = v[used[a]];
     for (std::size_t b = 0; b < used.size(); ++b) {
       covariance(ia, static_cast<Eigen::Index>(b)) =
           e.transfer_ellipsoid->Covariance()(used[a], used[b]);
@@ -59,10 +63,12 @@ bool Passes(const FamilyProblem& problem, const Member& member) {
     if (!problem.experiments[i].transfer_ellipsoid) continue;
     const std::vector<int> used =
         member[i].M > 0.0 ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2};
-    if (!(std::sqrt(SquaredDistance(problem.experiments[i], member[i], used)) <=
-          problem.test.transfer_distance_max)) {
-      return false;
-    }
+    // As improbable as that many standard deviations of one number.
+    const double square = SquaredDistance(problem.experiments[i], member[i], used);
+    const double z = problem.test.transfer_distance_max;
+    if (std::isinf(z)) continue;
+    const boost::math::chi_squared one(1.0), all(static_cast<double>(used.size()));
+    if (!(cdf(complement(all, square)) >= cdf(complement(one, z * z)))) return false;
   }
   return true;
 }
@@ -113,8 +119,7 @@ FamilyProblem Problem(std::size_t experiments, int modes, double scale = 1.0) {
   const Member rig = Rig(problem.experiments, modes);
   for (std::size_t i = 0; i < experiments; ++i) {
     const LoopModel& m = rig[i];
-    const TransferVector centre(std::log(m.omega_hz), std::log(m.xi), std::log(m.N),
-                                std::log(modes == 2 ? m.M : 0.2 * m.N));
+    const TransferVector centre(m.omega_hz, m.xi, m.N, modes == 2 ? m.M : 0.2 * m.N);
     problem.experiments[i].transfer_ellipsoid =
         TransferEllipsoid::Make(centre, Covariance(scale), {true, true, true, true});
   }
@@ -132,13 +137,14 @@ TEST(TransferEllipsoidTest, DistanceIsThatOfTheCovariance) {
     m.N *= std::exp(0.2 * normal(random));
     m.M *= std::exp(0.2 * normal(random));
     const Experiment& e = problem.experiments[1];
-    EXPECT_NEAR(TransferDistance(*e.transfer_ellipsoid, m),
-                std::sqrt(SquaredDistance(e, m, {0, 1, 2, 3})), 1e-9);
-    const double two = ComputeErrors(e, m).transfer_distance;
+    const double two = MahalanobisDistance(*e.transfer_ellipsoid, m);
+    EXPECT_NEAR(two, std::sqrt(SquaredDistance(e, m, {0, 1, 2, 3})), 1e-9);
+    EXPECT_EQ(ComputeErrors(e, m).transfer_distance, DeviationOfDistance(two, 4));
     m.M = 0.0;  // the marginal of what one mode has
-    EXPECT_NEAR(TransferDistance(*e.transfer_ellipsoid, m),
-                std::sqrt(SquaredDistance(e, m, {0, 1, 2})), 1e-9);
-    EXPECT_LE(TransferDistance(*e.transfer_ellipsoid, m), two + 1e-9);
+    const double one = MahalanobisDistance(*e.transfer_ellipsoid, m);
+    EXPECT_NEAR(one, std::sqrt(SquaredDistance(e, m, {0, 1, 2})), 1e-9);
+    EXPECT_LE(one, two + 1e-9);
+    EXPECT_EQ(ComputeErrors(e, m).transfer_distance, DeviationOfDistance(one, 3));
   }
 }
 
@@ -155,11 +161,12 @@ TEST(TransferEllipsoidTest, WhatIsNotDeterminedDoesNotCount) {
   LoopModel m{.omega_hz = 200.0, .xi = 0.1, .N = 3000.0, .M = 6e5};
   EXPECT_NEAR(TransferDistance(*ellipsoid, m), 0.0, 1e-9);
   m.xi *= std::exp(0.1);
-  EXPECT_GT(TransferDistance(*ellipsoid, m), 1.0);
+  EXPECT_GT(MahalanobisDistance(*ellipsoid, m), 1.0);
+  EXPECT_EQ(ellipsoid->Count(true), 3);
   fit.available = false;
   EXPECT_FALSE(MakeTransferEllipsoid(fit).has_value());
   EXPECT_FALSE(
-      TransferEllipsoid::Make(TransferVector::Zero(), -Covariance(1.0), {true, true, true, true})
+      TransferEllipsoid::Make(TransferVector::Ones(), -Covariance(1.0), {true, true, true, true})
           .has_value());
 }
 
@@ -352,8 +359,8 @@ TEST(TransferVolumeTest, RatioIsTheShareOfUniformDraws) {
 TEST(TransferVolumeTest, ContradictionIsMeasured) {
   FamilyProblem problem = Problem(2, 1, 0.05);
   // A transfer whose omega contradicts the cycle's phase by far.
-  const TransferVector moved =
-      problem.experiments[0].transfer_ellipsoid->Centre() + TransferVector(0.02, 0, 0, 0);
+  TransferVector moved = problem.experiments[0].transfer_ellipsoid->Centre();
+  moved(0) *= 1.02;
   problem.experiments[0].transfer_ellipsoid =
       TransferEllipsoid::Make(moved, Covariance(0.05), {true, true, true, true});
   const TransferVolume volume = MeasureTransferVolume(problem);
