@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "estimation/family/local/local_point.h"
 #include "model/units.h"
@@ -83,6 +84,7 @@ class RowMaker {
     const TransferVector ln_centre = ellipsoid->Centre().array().log();
     LocalJet v[kNumTransferParameters] = {p.ln_omega - ln_centre(0), p.ln_xi - ln_centre(1),
                                           p.ln_N - ln_centre(2), p.ln_M - ln_centre(3)};
+    const LocalJet ln_N = v[2], ln_M = v[3];
     for (int k = 0; k < kNumTransferParameters; ++k) {
       if (!IsLogOffset(k)) {
         v[k] = ShareOffset(v[k], limit * std::sqrt(ellipsoid->Covariance()(k, k)));
@@ -91,6 +93,7 @@ class RowMaker {
     LocalJet sum(1e-8);
     Eigen::Matrix<double, kLocals, kLocals> form;
     form.setZero();
+    TransferVector pull = TransferVector::Zero();  // of half the form by the offsets
     for (int r = 0; r < kNumTransferParameters; ++r) {
       LocalJet part(0.0);
       for (int k = r; k < kNumTransferParameters; ++k) {
@@ -98,6 +101,15 @@ class RowMaker {
       }
       sum += part * part;
       form += part.v * part.v.transpose();
+      pull += part.a * factor.row(r).transpose();
+    }
+    // An offset bends with its logarithm: d^2 (N / N_0) = (N / N_0) (d ln N)^2. Where that would
+    // make the form indefinite it is cut off: without a k-th part of 1 / C_kk it stays definite.
+    for (const auto& [k, ln] : {std::pair{2, &ln_N}, {3, &ln_M}}) {
+      if (factor(k, k) == 0.0) continue;
+      const double share = v[k].a + 1.0;
+      const double least = -0.45 * share * share / ellipsoid->Covariance()(k, k);
+      form += std::max(pull(k) * share, least) * ln->v * ln->v.transpose();
     }
     const LocalJet distance = sqrt(sum);
     Add(distance / limit, i, IsSoft(Condition::kTransfer));
