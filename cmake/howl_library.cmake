@@ -18,6 +18,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   target_compile_options(howl_warnings INTERFACE -Wno-restrict)
 endif()
 
+# Complex products without a second look for infinities; clang, and so clang-tidy, does not know the
+# option.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_CLANG_TIDY)
+  set(howl_finite_complex -fcx-limited-range)
+endif()
+
 # The headers that most files of a target include, parsed once for the target; every file still names
 # what it uses. Saves a quarter of the compiling. Not for tools that read the compile commands, such as
 # clang-tidy, nor where a file's options differ from its target's (SKIP_PRECOMPILE_HEADERS).
