@@ -159,8 +159,7 @@ class Analysis {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       direction.coeffRef(columns[k]) = local(static_cast<Eigen::Index>(k));
     }
-    result_.undetermined.push_back(
-        {std::move(direction), log_std, Describe(local, columns, names_, log_std)});
+    result_.undetermined.push_back({direction, log_std, Describe(local, columns, names_, log_std)});
   }
 
   // rows: a basis of the directions along which no residual changes.
