@@ -1,10 +1,22 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test; ends with the test runner's summary.
-#   ./check.sh           what must pass before a change goes in
-#   ./check.sh --tidy    the same, with clang-tidy over every source file (slow)
+#   ./check.sh                  what must pass before a change goes in
+#   ./check.sh --tidy-changed   the same, with clang-tidy over the sources that a change touches
+#   ./check.sh --tidy           the same, with clang-tidy over every source file (an hour)
+#   ./check.sh --sanitize       the same, then the quick tests under the address and undefined
+#                               behaviour sanitizers (an hour)
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+also=${1:-}
+case $also in
+  '' | --tidy | --tidy-changed | --sanitize) ;;
+  *)
+    echo "check.sh: $also: expected --tidy, --tidy-changed, --sanitize or nothing" >&2
+    exit 2
+    ;;
+esac
 source "$root/cmake/build.sh"
+source "$root/cmake/tidy.sh"
 howl_install_packages
 # A browser tests the report's page; without one that test skips, saying so.
 howl_install_packages "${howl_browser_packages[@]}" ||
@@ -20,9 +32,18 @@ cd "$root"
 find . -path './build*' -prune -o \( -name '*.h' -o -name '*.cc' \) -print0 |
   xargs -0 clang-format --dry-run -Werror
 howl_build "$root" all
-if [ "${1:-}" = --tidy ]; then
-  find . \( -path './build*' -o -path ./tests -o -path ./bench \) -prune -o -name '*.cc' -print0 |
-    xargs -0 -n 4 -P "$(nproc)" clang-tidy -p build --quiet
+case $also in
+  --tidy)
+    mapfile -d '' -t sources < <(find "${howl_tidy_folders[@]}" -name '*.cc' -print0)
+    howl_tidy "${sources[@]}"
+    ;;
+  --tidy-changed) howl_tidy_changed ;;
+esac
+if [ "$also" = --sanitize ]; then
+  (cd build && ctest --output-on-failure --timeout 300 -j "$(nproc)" -LE long)
+  cmake --preset sanitize >/dev/null
+  cmake --build --preset sanitize
+  exec ctest --preset sanitize -j "$(nproc)"
 fi
 cd "$root/build"
 exec ctest --output-on-failure --timeout 300 -j "$(nproc)" -LE long

@@ -1,5 +1,7 @@
-# One library a folder. howl_library(NAME DEPENDS ...) takes every source in the current folder and
-# below it, so that a new effect, residual or reader is one new file and no build change.
+# One library a folder. howl_library(NAME ...) takes every source in the current folder and below it,
+# so that a new effect, residual or reader is one new file and no build change. INSTALL: a part of the
+# installed library too, with those headers of cmake/installed_headers.cmake that are its own.
+include(${CMAKE_CURRENT_LIST_DIR}/installed_headers.cmake)
 
 # In instrumented code GCC sees uninitialised values and overruns where there are none: what counts
 # are the warnings of the plain build.
@@ -14,6 +16,12 @@ target_compile_options(howl_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
 # GCC 12 sees overlapping copies in std::string's operator+ where there are none (bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(howl_warnings INTERFACE -Wno-restrict)
+endif()
+
+# Complex products without a second look for infinities; clang, and so clang-tidy, does not know the
+# option.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_CLANG_TIDY)
+  set(howl_finite_complex -fcx-limited-range)
 endif()
 
 # The headers that most files of a target include, parsed once for the target; every file still names
@@ -33,7 +41,7 @@ function(howl_precompile target)
 endfunction()
 
 function(howl_library name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "INSTALL" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   add_library(howl_${name} STATIC ${sources} ${headers})
@@ -46,9 +54,16 @@ function(howl_library name)
   target_link_libraries(howl_${name} PUBLIC ${ARG_PUBLIC}
                         PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:howl_warnings>)
   howl_precompile(howl_${name} ${ARG_PRECOMPILE})
+  if(NOT ARG_INSTALL)
+    return()
+  endif()
   install(TARGETS howl_${name} EXPORT howl_targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/howl
-          FILES_MATCHING PATTERN "*.h")
+  foreach(header IN LISTS howl_front_headers howl_included_headers)
+    cmake_path(GET header PARENT_PATH folder)
+    if(folder MATCHES "^${name}(/|$)")
+      install(FILES ${PROJECT_SOURCE_DIR}/${header}
+              DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/howl/${folder})
+    endif()
+  endforeach()
 endfunction()

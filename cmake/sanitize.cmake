@@ -5,5 +5,10 @@ if(HOWL_SANITIZE)
     message(FATAL_ERROR "HOWL_SANITIZE: ${HOWL_SANITIZE}: thread and address exclude each other")
   endif()
   add_compile_options(-fsanitize=${HOWL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # These three would be looked for at every access, and take a third of the compiling. The address
+  # sanitizer finds a null pointer and a wrong type's overrun too.
+  if(HOWL_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize=null,alignment,vptr)
+  endif()
   add_link_options(-fsanitize=${HOWL_SANITIZE})
 endif()

@@ -1,31 +1,35 @@
 #include "diagnosis/real_fft.h"
 
-#include <complex>
-#include <unsupported/Eigen/FFT>
-#include <vector>
+#include <cstddef>
+#include <span>
+
+#include "model/fft.h"
 
 namespace howl {
 namespace {
 
-// The transform keeps its twiddle factors. Each thread has one of its own, because it is not safe
-// to share.
-Eigen::FFT<double>& ThreadFft() {
-  thread_local Eigen::FFT<double> fft(Eigen::FFT<double>::impl_type(),
-                                      Eigen::FFT<double>::HalfSpectrum);
+// The transform keeps its factors. Each thread has one of its own, because it is not safe to share.
+Fft& ThreadFft() {
+  thread_local Fft fft;
   return fft;
+}
+
+template <typename Vector>
+auto Values(Vector& vector) {
+  return std::span(vector.data(), static_cast<std::size_t>(vector.size()));
 }
 
 }  // namespace
 
 Eigen::VectorXcd ForwardFft(const Eigen::VectorXd& signal) {
   Eigen::VectorXcd spectrum(signal.size() / 2 + 1);
-  ThreadFft().fwd(spectrum.data(), signal.data(), signal.size());
+  ThreadFft().Forward(Values(signal), Values(spectrum));
   return spectrum;
 }
 
 Eigen::VectorXd InverseFft(const Eigen::VectorXcd& half_spectrum, Eigen::Index size) {
   Eigen::VectorXd signal(size);
-  ThreadFft().inv(signal.data(), half_spectrum.data(), size);
+  ThreadFft().Inverse(Values(half_spectrum), Values(signal));
   return signal;
 }
 

@@ -3,12 +3,12 @@
 #include <glog/logging.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "model/balance_equations.h"
 #include "model/crossings.h"
+#include "model/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -69,7 +69,7 @@ class Follower {
     bordered << jacobian, along.transpose();
     Eigen::VectorXd right = Eigen::VectorXd::Zero(n + 1);
     right(n) = 1.0;
-    return bordered.partialPivLu().solve(right).normalized();
+    return SolveByLu(bordered, right).normalized();
   }
 
   // The point at arc length ds from `from`; nothing if Newton fails. *iterations tells the effort.
@@ -83,7 +83,7 @@ class Follower {
       right.head(n) = Linearise(z, &jacobian);
       right(n) = from.tangent.dot(z - from.z) - ds;
       bordered << jacobian, from.tangent.transpose();
-      const Eigen::VectorXd step = bordered.partialPivLu().solve(right);
+      const Eigen::VectorXd step = SolveByLu(bordered, right);
       if (!step.allFinite() || step.norm() > 1.0) return std::nullopt;
       z -= step;
       if (step.cwiseAbs().maxCoeff() < 1e-11) {

@@ -3,13 +3,13 @@
 #include <glog/logging.h>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "model/dense_algebra.h"
 #include "model/loop_phase.h"
 
 namespace howl {
@@ -138,7 +138,7 @@ std::vector<GainCrossing> GainCrossings(const LoopParameters<double>& loop, doub
   }
   std::vector<GainCrossing> crossings;
   if (degree == 0) return crossings;
-  const Eigen::VectorXcd roots = companion.eigenvalues();
+  const Eigen::VectorXcd roots = Eigenvalues(companion);
   for (const std::complex<double>& root : roots) {
     if (root.real() <= 0.0 || std::abs(root.imag()) > 1e-9 * std::abs(root)) continue;
     double x = root.real();

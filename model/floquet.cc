@@ -3,12 +3,12 @@
 #include <glog/logging.h>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "model/dense_algebra.h"
 #include "model/mode_step.h"
 
 namespace howl {
@@ -114,7 +114,7 @@ FloquetMultipliers CycleStability(const ClosedLoop& model, const LimitCycle& cyc
   FloquetMultipliers result;
   for (;;) {
     const Monodromy monodromy(model, cycle, steps);
-    const Eigen::VectorXcd eigenvalues = monodromy.Build().eigenvalues();
+    const Eigen::VectorXcd eigenvalues = Eigenvalues(monodromy.Build());
     result.multipliers.assign(eigenvalues.begin(), eigenvalues.end());
     result.steps = steps;
     const auto trivial = std::min_element(

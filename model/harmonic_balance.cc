@@ -3,12 +3,12 @@
 #include <glog/logging.h>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "model/balance_equations.h"
 #include "model/crossings.h"
+#include "model/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -21,7 +21,7 @@ bool Newton(const ClosedLoop& model, const HarmonicBalanceOptions& options, Bala
   Eigen::MatrixXd jacobian;
   for (int i = 0; i < options.max_iterations; ++i) {
     const Eigen::VectorXd r = internal::BalanceResiduals(model, *state, &jacobian);
-    Eigen::VectorXd step = jacobian.partialPivLu().solve(r);
+    Eigen::VectorXd step = SolveByLu(jacobian, r);
     if (!step.allFinite()) return false;
     // Far from the solution: neither leave the neighbourhood of the frequency nor jump past rest.
     const double limit = std::max(std::abs(step(1)) / 0.05, std::abs(step(0)) / (0.5 * u(0)));

@@ -3,7 +3,6 @@
 #include <glog/logging.h>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +10,7 @@
 #include <optional>
 
 #include "model/chebyshev.h"
+#include "model/dense_algebra.h"
 #include "model/laplace.h"
 
 namespace howl {
@@ -250,7 +250,7 @@ PoleSet ClosedLoopPoles(const LoopParameters<double>& loop_in_s, double slope_in
   // A polynomial resolves e^(j w theta) over tau once it has pi points a wave or so.
   int n = 24 + static_cast<int>(w_max * loop.tau_s);
   for (int attempt = 0; attempt < 3 && !set.complete; ++attempt, n += n / 2) {
-    const Eigen::VectorXcd eigenvalues = Generator(loop, flame_slope, n).eigenvalues();
+    const Eigen::VectorXcd eigenvalues = Eigenvalues(Generator(loop, flame_slope, n));
     found.clear();
     for (const Complex64& start : eigenvalues) {
       if (start.imag() < -1e-6 || start.imag() > 1.1 * w_max || start.real() < growth_min - 1.0) {

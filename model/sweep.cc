@@ -9,8 +9,8 @@
 #include <memory>
 #include <numbers>
 #include <span>
-#include <unsupported/Eigen/FFT>
 
+#include "model/fft.h"
 #include "model/ramp.h"
 
 namespace howl {
@@ -52,9 +52,8 @@ Line StrongestLine(std::span<const double> p, double sampling_hz) {
         2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
     tapered[i] = (p[i] - mean) * (1.0 - std::cos(angle));
   }
-  Eigen::FFT<double> fft;
-  std::vector<std::complex<double>> spectrum;
-  fft.fwd(spectrum, tapered);
+  std::vector<std::complex<double>> spectrum(n / 2 + 1);
+  Fft().Forward(tapered, spectrum);
   std::size_t top = 2;
   for (std::size_t k = 2; k + 2 < n / 2; ++k) {
     if (std::norm(spectrum[k]) > std::norm(spectrum[top])) top = k;

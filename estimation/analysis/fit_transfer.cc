@@ -2,7 +2,8 @@
 #include <ceres/solver.h>
 #include <glog/logging.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "estimation/analysis/transfer.h"
 #include "estimation/analysis/transfer_search.h"
 #include "estimation/residuals/transfer_point.h"
+#include "model/dense_algebra.h"
 #include "model/second_mode.h"
 
 namespace howl {
@@ -197,11 +199,10 @@ Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& information) {
   constexpr double kLeast = 1e-300;
   constexpr double kSingular = 1e-12;  // of a correlation matrix
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(kLeast).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * information *
-                                                              scale.asDiagonal());
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * solver.eigenvectors();
-  return scaled * solver.eigenvalues().cwiseMax(kSingular).cwiseInverse().asDiagonal() *
-         scaled.transpose();
+  const SymmetricEigen eigen =
+      EigenOfSymmetric(scale.asDiagonal() * information * scale.asDiagonal());
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * eigen.vectors;
+  return scaled * eigen.values.cwiseMax(kSingular).cwiseInverse().asDiagonal() * scaled.transpose();
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 #include <complex>
 #include <numbers>
 #include <numeric>
-#include <unsupported/Eigen/FFT>
 #include <vector>
 
 #include "estimation/analysis/linear_prediction.h"
+#include "model/fft.h"
 
 namespace howl {
 namespace {
@@ -34,25 +34,23 @@ std::size_t TransformLength(std::size_t least) {
 
 class Transform {
  public:
-  explicit Transform(std::size_t size) : size_(size) {
-    fft_.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  }
+  explicit Transform(std::size_t size) : size_(size) {}
   std::size_t size() const { return size_; }
   std::size_t bins() const { return size_ / 2 + 1; }
   Spectrum Forward(const std::vector<double>& signal) {
     Spectrum spectrum(bins());
-    fft_.fwd(spectrum.data(), signal.data(), static_cast<Eigen::Index>(size_));
+    fft_.Forward(signal, spectrum);
     return spectrum;
   }
   std::vector<double> Inverse(const Spectrum& spectrum) {
     std::vector<double> signal(size_);
-    fft_.inv(signal.data(), spectrum.data(), static_cast<Eigen::Index>(size_));
+    fft_.Inverse(spectrum, signal);
     return signal;
   }
 
  private:
   std::size_t size_;
-  Eigen::FFT<double> fft_;
+  Fft fft_;
 };
 
 struct Division {

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <unsupported/Eigen/FFT>
+
+#include "model/fft.h"
 
 namespace howl {
 namespace {
@@ -45,11 +46,8 @@ std::vector<double> RemoveMean(std::span<const double> x) {
 }
 
 std::vector<std::complex<double>> RealFft(std::span<const double> x) {
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<double> copy(x.begin(), x.end());
-  std::vector<std::complex<double>> result;
-  fft.fwd(result, copy);
+  std::vector<std::complex<double>> result(x.size() / 2 + 1);
+  Fft().Forward(x, result);
   return result;
 }
 
@@ -110,18 +108,18 @@ CrossSpectrum WelchSpectrum(std::span<const double> p, std::span<const double> q
   const std::vector<double> window = BlackmanHarrisWindow(segment);
   double power = 0.0;
   for (double w : window) power += w * w;
-  Eigen::FFT<double> fft;
+  Fft fft;
   // Both channels in one complex transform: z = p + j q, each at an amplitude of about one, as the
   // rounding of the larger would drown the smaller. By powers of two, which keep every bit.
   const double p_unit = PowerOfTwo(p), q_unit = PowerOfTwo(q);
-  std::vector<std::complex<double>> z(static_cast<std::size_t>(segment)), transform;
+  std::vector<std::complex<double>> z(static_cast<std::size_t>(segment)), transform(z.size());
   for (int start = 0; start + segment <= n; start += Hop(segment)) {
     for (int t = 0; t < segment; ++t) {
       const auto i = static_cast<std::size_t>(start) + static_cast<std::size_t>(t);
       const double w = window[static_cast<std::size_t>(t)];
       z[static_cast<std::size_t>(t)] = {w * (p[i] / p_unit), q.empty() ? 0.0 : w * (q[i] / q_unit)};
     }
-    fft.fwd(transform, z);
+    fft.Forward(z, transform);
     for (int k = 0; k < bins; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const std::complex<double> a = transform[i];

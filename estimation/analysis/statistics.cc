@@ -2,7 +2,8 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/students_t.hpp>
@@ -12,6 +13,8 @@
 #include <mutex>
 #include <numbers>
 #include <vector>
+
+#include "model/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -75,8 +78,7 @@ std::shared_ptr<const IncrementBasis> BasisFor(int n) {
         noise_matrix(i, j) = noise[lag];
       }
     }
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(walk_matrix,
-                                                                           noise_matrix);
+    const SymmetricEigen both = GeneralizedEigen(walk_matrix, noise_matrix);
     const int count = std::max(CosineCount(n), n / 2);
     Eigen::MatrixXd cosines(n, count);
     for (int j = 0; j < count; ++j) {
@@ -85,9 +87,9 @@ std::shared_ptr<const IncrementBasis> BasisFor(int n) {
     const auto variances = [&](const Eigen::MatrixXd& covariance) -> Eigen::VectorXd {
       return (covariance * cosines).cwiseProduct(cosines).colwise().sum().transpose();
     };
-    entry = std::make_shared<IncrementBasis>(
-        IncrementBasis{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0.0), cosines,
-                       variances(noise_matrix), variances(walk_matrix)});
+    entry = std::make_shared<IncrementBasis>(IncrementBasis{both.vectors, both.values.cwiseMax(0.0),
+                                                            cosines, variances(noise_matrix),
+                                                            variances(walk_matrix)});
   }
   return entry;
 }

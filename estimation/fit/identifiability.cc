@@ -2,8 +2,7 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +11,7 @@
 
 #include "estimation/fit/connected_columns.h"
 #include "estimation/fit/substructure.h"
+#include "model/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -110,15 +110,14 @@ class Analysis {
 
   // By a singular value decomposition of the whole set.
   void Decompose(const ConnectedSet& set) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(DenseRows(jacobian_, set.rows, set.columns),
-                                                Eigen::ComputeFullV);
+    const SingularValues svd = DecomposeSingular(DenseRows(jacobian_, set.rows, set.columns));
     const auto width = static_cast<Eigen::Index>(set.columns.size());
     Eigen::VectorXd values = Eigen::VectorXd::Zero(width);
-    values.head(svd.singularValues().size()) = svd.singularValues();
+    values.head(svd.values.size()) = svd.values;
     Eigen::Index rank = 0;
     while (rank < width && values(rank) > least_) ++rank;
     result_.rank += static_cast<int>(rank);
-    const Eigen::MatrixXd determined = svd.matrixV().leftCols(rank);
+    const Eigen::MatrixXd determined = svd.v.leftCols(rank);
     const Eigen::MatrixXd scaled = determined * values.head(rank).cwiseInverse().asDiagonal();
     result_.covariance.Add({.blocks = {set.columns},
                             .diagonal = {scaled * scaled.transpose()},
@@ -127,7 +126,7 @@ class Analysis {
     for (Eigen::Index k = 0; k < rank; ++k) {
       if (values(k) < 1.0) Report(determined.col(k), set.columns, 1.0 / values(k));
     }
-    if (rank < width) Free(svd.matrixV().rightCols(width - rank).transpose(), set.columns);
+    if (rank < width) Free(svd.v.rightCols(width - rank).transpose(), set.columns);
   }
 
   // By elimination of what belongs to one experiment.
@@ -136,10 +135,10 @@ class Analysis {
     result_.rank += parts.rank;
     result_.covariance.Add(parts.covariance);
     for (const std::vector<int>& columns : parts.covariance.blocks) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(result_.covariance.Of(columns));
-      for (Eigen::Index k = eigen.eigenvalues().size(); k-- > 0;) {
-        const double variance = eigen.eigenvalues()(k);
-        if (variance > 1.0) Report(eigen.eigenvectors().col(k), columns, std::sqrt(variance));
+      const SymmetricEigen eigen = EigenOfSymmetric(result_.covariance.Of(columns));
+      for (Eigen::Index k = eigen.values.size(); k-- > 0;) {
+        const double variance = eigen.values(k);
+        if (variance > 1.0) Report(eigen.vectors.col(k), columns, std::sqrt(variance));
       }
     }
     for (FreeSpace& space : parts.free) Free(std::move(space.rows), space.columns);
@@ -160,8 +159,7 @@ class Analysis {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       direction.coeffRef(columns[k]) = local(static_cast<Eigen::Index>(k));
     }
-    result_.undetermined.push_back(
-        {std::move(direction), log_std, Describe(local, columns, names_, log_std)});
+    result_.undetermined.push_back({direction, log_std, Describe(local, columns, names_, log_std)});
   }
 
   // rows: a basis of the directions along which no residual changes.

@@ -1,29 +1,30 @@
 #include "estimation/fit/substructure.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <algorithm>
 #include <utility>
+
+#include "model/dense_algebra.h"
 
 namespace howl {
 namespace {
 
 struct Decomposition {
   explicit Decomposition(const Eigen::MatrixXd& matrix, double least)
-      : svd(matrix, Eigen::ComputeThinU | Eigen::ComputeFullV) {
-    while (rank < svd.singularValues().size() && svd.singularValues()(rank) > least) ++rank;
+      : svd(DecomposeSingular(matrix)) {
+    while (rank < svd.values.size() && svd.values(rank) > least) ++rank;
   }
-  auto U() const { return svd.matrixU().leftCols(rank); }
-  auto V() const { return svd.matrixV().leftCols(rank); }
-  Eigen::MatrixXd Free() const { return svd.matrixV().rightCols(svd.matrixV().cols() - rank); }
-  Eigen::VectorXd Inverse() const { return svd.singularValues().head(rank).cwiseInverse(); }
+  auto U() const { return svd.u.leftCols(rank); }
+  auto V() const { return svd.v.leftCols(rank); }
+  Eigen::MatrixXd Free() const { return svd.v.rightCols(svd.v.cols() - rank); }
+  Eigen::VectorXd Inverse() const { return svd.values.head(rank).cwiseInverse(); }
   // V S^-2 V^T
   Eigen::MatrixXd Covariance() const {
     const Eigen::MatrixXd scaled = V() * Inverse().asDiagonal();
     return scaled * scaled.transpose();
   }
 
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd;
+  SingularValues svd;
   Eigen::Index rank = 0;
 };
 
@@ -110,8 +111,7 @@ Substructure AnalyseSubstructure(const std::vector<JacobianBlock>& jacobian,
   covariance.diagonal.push_back(Eigen::MatrixXd::Zero(b, b));
   if (between.rank == b) return result;
   const Eigen::MatrixXd free = covariance.factor * between.Free();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(free);
-  const Eigen::MatrixXd N = qr.householderQ() * Eigen::MatrixXd::Identity(free.rows(), free.cols());
+  const Eigen::MatrixXd N = OrthonormalColumns(free);
   Project(N, covariance);
   FreeSpace all;
   for (const std::vector<int>& columns : covariance.blocks) {

@@ -162,7 +162,7 @@ TEST(Diagnose, AStateOfAnotherBuildOrWithAKeyTwiceIsNotBelieved) {
 }
 
 // records.yaml as it is, and with its model or its delays changed.
-TEST(Diagnose, TheBaseIsTheConfigsModel) {
+TEST(LongDiagnose, TheBaseIsTheConfigsModel) {
   const TemporaryFolder folder;
   const std::string rig = SimulatedRig(folder, "rig", "1");
   std::string whole = ReadFile(rig);
@@ -208,7 +208,7 @@ TEST(Diagnose, TheBaseIsTheConfigsModel) {
 }
 
 // What a user tries first, with a few of the candidates.
-TEST(Diagnose, TheShippedConfigIsNotAccusedAndAnEffectAddedToItIsNamed) {
+TEST(LongDiagnose, TheShippedConfigIsNotAccusedAndAnEffectAddedToItIsNamed) {
   const TemporaryFolder folder;
   const auto verdict = [&](const std::string& name, const std::string& added) {
     const std::string config =

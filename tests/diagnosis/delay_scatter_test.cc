@@ -150,7 +150,7 @@ TEST(DelayScatter, DelaysThatFollowPhiAreAccusedByTheirLaw) {
   EXPECT_LT(law.delay_scatter, 2e-3);
 }
 
-TEST(DelayScatter, AnEffectGivenScatteringDelaysIsNamed) {
+TEST(LongDelayScatter, AnEffectGivenScatteringDelaysIsNamed) {
   const EffectPointer effect = QSensorLowPass()[0];
   const std::vector<double> cutoff_hz = {245.0};
   std::size_t next = 0;

@@ -40,7 +40,7 @@ TEST(Localise, NothingWrongGainsLittleAnywhere) {
   }
 }
 
-TEST(Localise, FilterOnRecordedHeatRelease) {
+TEST(LongLocalise, FilterOnRecordedHeatRelease) {
   const BlockSlack best = Best(LocaliseRig(
       SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 400.0)})));
   EXPECT_EQ(best.block, LoopBlock::kHeatReleaseInstrument) << best.form;

@@ -10,7 +10,7 @@ namespace {
 
 // Twenty draws of the noise for each rig. With the level of q's noise a doubt of every point by
 // itself, half of these intervals held: N and xi came out 2 to 3 standard deviations too large.
-TEST(FitIntervals, HoldTheTruthOfSimulatedRigs) {
+TEST(LongFitIntervals, HoldTheTruthOfSimulatedRigs) {
   constexpr int kDraws = 20;
   int count = 0, covered = 0;
   for (const testing::StudiedRig& rig : testing::StudiedRigs()) {

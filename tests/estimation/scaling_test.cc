@@ -195,7 +195,7 @@ void ExpectSameMembers(const std::vector<Experiment>& experiments, const ModelSp
 }
 
 TEST(Scaling, MembersAndTradeoffOfOneMode) { ExpectSameMembers(R228(), DefaultModelSpec()); }
-TEST(Scaling, MembersAndTradeoffOfTwoModes) { ExpectSameMembers(WithLines(), TwoModes()); }
+TEST(LongScaling, MembersAndTradeoffOfTwoModes) { ExpectSameMembers(WithLines(), TwoModes()); }
 
 // Of a record with a line, diffusion and noise, everything that analysis says, digit for digit.
 void ExpectSame(const Estimate& got, const Estimate& expected, double unit, const char* what,

@@ -92,7 +92,7 @@ TEST(EstimateCharacteristics, PapersMethodAsPublished) {
 
 // Coverage over kinds of records; bench/coverage_study prints the table for many more of them. With
 // 10 rows of 24 the share of a true 95 % has a standard error of 1.4 %.
-TEST(Coverage, IntervalsHoldTheTruthAndThePapersMethodIsWorse) {
+TEST(LongCoverage, IntervalsHoldTheTruthAndThePapersMethodIsWorse) {
   std::array<testing::Tally, testing::kQuantities> all;
   std::uint64_t seed = 77;
   for (const testing::CoverageRow& row : testing::CoverageRows()) {

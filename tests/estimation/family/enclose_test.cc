@@ -6,6 +6,7 @@
 #include <atomic>
 #include <random>
 #include <sstream>
+#include <string>
 
 #include "estimation/family/bounds/bound_text.h"
 #include "estimation/family/bounds/inside.h"
@@ -196,17 +197,19 @@ TEST_P(BruteForceTest, EveryModelThatPassesLiesWithinOuterAndNoneThatFailsInAnIn
   RecordProperty("passed", static_cast<int>(passed));
 }
 
+std::string NameOfCase(const testing::TestParamInfo<Case>& one) {
+  return std::to_string(one.param.experiments) + "_experiments_" + std::to_string(one.param.modes) +
+         "_modes" + (one.param.minor ? "_second_minor" : "");
+}
+
 INSTANTIATE_TEST_SUITE_P(All, BruteForceTest,
                          testing::Values(Case{1, 1, 200000, 50000}, Case{4, 1, 200000, 10000},
                                          Case{6, 1, 200000, 1000}, Case{1, 2, 200000, 50000},
-                                         Case{4, 2, 100000, 200}, Case{6, 2, 100000, 50},
-                                         Case{1, 2, 100000, 5000, true},
+                                         Case{4, 2, 100000, 200}, Case{1, 2, 100000, 5000, true},
                                          Case{3, 2, 100000, 50, true}),
-                         [](const auto& one) {
-                           return std::to_string(one.param.experiments) + "_experiments_" +
-                                  std::to_string(one.param.modes) + "_modes" +
-                                  (one.param.minor ? "_second_minor" : "");
-                         });
+                         NameOfCase);
+INSTANTIATE_TEST_SUITE_P(LongAll, BruteForceTest, testing::Values(Case{6, 2, 100000, 50}),
+                         NameOfCase);
 
 // Shared M: the members come from the enumeration, and are confirmed by the independent test.
 TEST(EncloseTest, SharedSecondModeKeepsMembersWithinOuter) {

@@ -278,7 +278,7 @@ struct RoughRig : Rig {
 };
 
 // The rule's own assumption: 95 %, within what 200 draws tell (the binomial's 99.9 %: 88 .. 99 %).
-TEST(PredictPointsTest, CoverageOnRoughRigs) {
+TEST(LongPredictPointsTest, CoverageOnRoughRigs) {
   std::mt19937 random(7);
   Coverage between, beyond;
   for (int k = 0; k < 100; ++k) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "estimation/analysis/analyse.h"
 #include "estimation/analysis/closed_form.h"
@@ -155,8 +156,12 @@ TEST_P(RecordsFamilyTest, BoundsHoldTheRig) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, RecordsFamilyTest, testing::Values(1, 2),
-                         [](const auto& one) { return std::to_string(one.param); });
+std::string NumberOfModes(const testing::TestParamInfo<int>& one) {
+  return std::to_string(one.param);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, RecordsFamilyTest, testing::Values(1), NumberOfModes);
+INSTANTIATE_TEST_SUITE_P(LongModes, RecordsFamilyTest, testing::Values(2), NumberOfModes);
 
 }  // namespace
 }  // namespace howl

@@ -1,0 +1,54 @@
+# The library that `cmake --install` installs: howl::model and howl::estimation. A user includes the
+# front headers; the others are what those include. tests/structure/check_installed_headers.py holds
+# the two lists together. All else is a part of the program, free to change.
+set(howl_front_headers
+    model/continuation.h
+    model/crossings.h
+    model/floquet.h
+    model/harmonic_balance.h
+    model/poles.h
+    model/simulate.h
+    estimation/analysis/analyse.h
+    estimation/family/bounds/enclose.h
+    estimation/family/members/sample.h
+    estimation/fit/joint_fit.h)
+set(howl_included_headers
+    model/acoustics.h
+    model/complex.h
+    model/delay.h
+    model/flame.h
+    model/formula.h
+    model/instrument.h
+    model/laplace.h
+    model/loop.h
+    model/loop_effect.h
+    model/noise.h
+    model/random_stream.h
+    model/units.h
+    estimation/analysis/characteristics.h
+    estimation/analysis/delay.h
+    estimation/analysis/experiment.h
+    estimation/analysis/flame_curve.h
+    estimation/analysis/growth.h
+    estimation/analysis/lines.h
+    estimation/analysis/loop_gain_reason.h
+    estimation/analysis/record.h
+    estimation/analysis/spectrum.h
+    estimation/analysis/statistics.h
+    estimation/analysis/transfer.h
+    estimation/analysis/transfer_ellipsoid.h
+    estimation/analysis/vanishing_phi.h
+    estimation/family/bounds/cell.h
+    estimation/family/bounds/expression.h
+    estimation/family/bounds/interval.h
+    estimation/family/problem/family_parameter.h
+    estimation/family/problem/membership.h
+    estimation/family/problem/problem.h
+    estimation/fit/identifiability.h
+    estimation/fit/jacobian_block.h
+    estimation/fit/joint_problem.h
+    estimation/fit/log_covariance.h
+    estimation/fit/solver_spec.h
+    estimation/parameters.h
+    estimation/residual_spec.h
+    estimation/transfer_point.h)
