@@ -9,6 +9,8 @@
 namespace howl {
 namespace {
 
+constexpr double kWorthSaying = 0.5;  // nats: odds of 1.4 on a plan's temperature
+
 std::string Listed(const std::vector<std::string>& names, const char* between) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : between) + name;
@@ -61,7 +63,8 @@ std::string PairText(const PlannedPair& pair) {
   const PlannedTrial& best = pair.trials.front();
   const std::string between = pair.effect + " or " + pair.other + ": " + Fixed(pair.nats, 1) +
                               " nats between them, " + Fixed(pair.nats_needed, 1) + " needed; ";
-  if (!(best.nats > pair.nats)) return Wrapped(between + "no measurement tried separates them", 2);
+  if (!(best.nats > std::max(pair.nats, kWorthSaying)))
+    return Wrapped(between + "no measurement tried separates them", 2);
   return Wrapped(between + best.what +
                      (best.nats > best.nats_needed ? " tells them apart ("
                                                    : " comes nearest to telling them apart (") +

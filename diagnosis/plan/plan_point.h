@@ -4,8 +4,9 @@
 //   change = W^(1/2) (E(effect) - E(base)) - what omega, xi, N, M and the flame's coefficients undo
 //
 // |change|^2 is then the log-likelihood (nats) that the effect gains over the base in a record that
-// has it, to first order in the effect; the delay, which experiments share, is left to the sum
-// over experiments (plan_gains.h).
+// has it. The base's parameters are refitted, because an effect that is almost one of them (a lag
+// is almost a delay) leaves no more than second orders; only what the delay moves by enters to
+// first order, for the experiments share it (plan_gains.h).
 #ifndef HOWL_DIAGNOSIS_PLAN_PLAN_POINT_H_
 #define HOWL_DIAGNOSIS_PLAN_PLAN_POINT_H_
 
@@ -26,6 +27,8 @@ class PlanPoint {
   const Eigen::VectorXd& delay() const { return delay_; }
 
  private:
+  Eigen::VectorXcd AcousticChange(const Effect& effect, EffectValues x) const;
+  Eigen::VectorXd FlameChange(const Effect& effect, EffectValues x) const;
   Eigen::VectorXd Whitened(const Eigen::VectorXcd& acoustic, const Eigen::VectorXcd& flame) const;
   void ProjectOut(Eigen::VectorXd* change) const;
 

@@ -21,10 +21,10 @@ namespace howl {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kHalvings = 7;             // of a factor of four: to 1 %
-constexpr double kFactor = 4.0;          // between trial sizes
+constexpr int kHalvings = 7;     // of a factor of four: to 1 %
+constexpr double kFactor = 4.0;  // between trial sizes
 constexpr double kClippingFactor = 1.1;
-constexpr double kFarthest = 1e3;  // from the first trial size, to either side
+constexpr double kFarthest = 1e3;        // from the first trial size, to either side
 constexpr int kMultiples[] = {1, 3, 5};  // as model/effects/mains_hum.cc simulates it
 constexpr double kFullScale = 1.2;       // as model/effects/quantisation.cc has it
 // A tone of the plan's own lies between the cycle and its harmonic.

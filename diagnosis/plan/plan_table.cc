@@ -14,14 +14,17 @@ namespace howl {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kStepOfGain = 4.0;  // from rung to rung
+// The size from rung to rung: the reference, twice the smallest size, is one rung up or two.
+constexpr double kWideStep = 2.0;
+constexpr double kNarrowStep = 1.4142135623730951;
+constexpr double kSteep = 3.0;  // a power of the size, of the gain
 constexpr int kRungsBelow = 1;
-constexpr int kRungsAbove = 8;
+constexpr int kRungsAbove = 7;
 constexpr double kLeastPower = 1.5;  // of the gain in the size: two where the effect is linear
 constexpr double kMostPower = 8.0;
 constexpr double kReference = 1.9;   // twice, less what interpolation may be off
-constexpr int kRounds = 5;           // of the search for the size that is seen
-constexpr double kNearEnough = 4.0;  // of the gain that is needed
+constexpr int kRounds = 8;           // of the search for the size that is seen
+constexpr double kNearEnough = 1.3;  // of the gain that is needed
 
 // Where the gain of a line is followed to the one that is needed, as a power of the size.
 struct Approach {
@@ -125,7 +128,7 @@ PlanTable MakePlanTable(std::vector<EffectLine> lines, const std::vector<Weighed
     Ladder& ladder = table.ladders[l];
     const double largest = table.lines[l].largest;
     const double anchor = approaches[l].Next(needed(l), largest);
-    ladder.step = std::pow(kStepOfGain, 1.0 / approaches[l].power);
+    ladder.step = approaches[l].power > kSteep ? kNarrowStep : kWideStep;
     for (int k = -kRungsBelow; k <= kRungsAbove; ++k) {
       const double size = anchor * std::pow(ladder.step, k);
       if (size > largest * (1.0 + 1e-9)) break;
