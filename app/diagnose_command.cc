@@ -10,10 +10,12 @@
 
 #include "app/command.h"
 #include "app/diagnose_input.h"
+#include "app/diagnose_plan.h"
 #include "app/diagnose_state.h"
 #include "app/diagnose_table.h"
 #include "app/diagnose_text.h"
 #include "app/interruption.h"
+#include "app/planned_records.h"
 #include "app/progress_line.h"
 #include "diagnosis/diagnosis.h"
 #include "io/config/nearest_key.h"
@@ -53,10 +55,8 @@ std::size_t Replicates(const Options& options) {
 
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
-  if (std::ranges::none_of(config.experiments,
-                           [](const auto& e) { return e.record.has_value(); })) {
-    return RunTable(config, options);
-  }
+  if (options.Has("--plan")) return RunPlan(config, options, Withheld(options));
+  if (!HasRecords(config)) return RunTable(config, options);
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
   DiagnosisOptions how;
   how.model = BaseOf(config);
@@ -124,13 +124,16 @@ Command DiagnoseCommand() {
       "with non-harmonic lines bounds the lag of the q sensor alone.\n"
       "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
       "cannot tell from it, the place, the gap before and after, and every candidate. Effects of\n"
-      "your own stand in the config under `effects`.",
+      "your own stand in the config under `effects`. With --plan it writes plan.json instead.",
       {{"--reference", "SIM.yaml",
         "records of another simulator, or of the rig at another time, in the model's place: which "
         "effect turns them into the config's?"},
        {"--bootstrap", "N",
         "simulate N rigs from the refitted base and search each: what noise alone gains, for "
         "p-values and the verdict none (19 or more)"},
+       {"--plan", "",
+        "diagnose nothing: which effects these records (or records simulated from a table's fit) "
+        "can tell apart, from which size on, and which measurement separates the rest"},
        {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"}},
       Run,
       true};

@@ -17,7 +17,6 @@
 namespace howl {
 namespace {
 
-constexpr double kClassProbability = 0.02;
 // Where a second transfer function brings as much as it must, the fit of the first alone leaves at
 // least this share of that as slack (results/trial). With less slack the search does not pay.
 constexpr double kSlackOfASecond = 0.3;

@@ -39,6 +39,9 @@ double Unexplained(const Evidence& evidence);
 // distances count by their share of the largest gain too.
 double Temperature(double largest_gain);
 
+// An effect that has at least this share of the best one's probability is not told from it.
+inline constexpr double kClassProbability = 0.02;
+
 // True where placebo effects (placebo.h) with as many parameters as the best candidate shrink the
 // gap as much as it does: its gain then comes from its freedom, not from a cause. placebo_shrinkage
 // is NaN where there is nothing to compare.

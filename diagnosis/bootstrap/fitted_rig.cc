@@ -128,6 +128,10 @@ class FittedFlame final : public LoopEffect {
 
 }  // namespace
 
+double HeatReleaseSensorPower(const CutRecord& record, const ExperimentFit& fit) {
+  return SensorsOf(record, fit).heat_release * kWindowSquare * static_cast<double>(record.samples);
+}
+
 SimulationOptions FittedRigOptions(const CutRecord& record) {
   SimulationOptions options;
   options.sampling_hz = record.sampling_hz;

@@ -22,6 +22,9 @@ namespace howl {
 // The simulation's options: as long as the record, at its sampling rate.
 SimulationOptions FittedRigOptions(const CutRecord& record);
 
+// The power c N sigma_q^2 that the sensor of q adds to a bin of cut B.
+double HeatReleaseSensorPower(const CutRecord& record, const ExperimentFit& fit);
+
 // Records of all operating points, with the experiments' names and phi.
 std::vector<DiagnosisExperiment> Replicate(const std::vector<CutRecord>& records,
                                            const EffectFit& base,

@@ -27,6 +27,46 @@ constexpr Foreign kForeign[] = {{"PK\x03\x04", "a zip archive or a spreadsheet"}
                                 {"\xfd\x37zXZ", "an xz file"},
                                 {"BZh", "a bzip2 file"},
                                 {"\x28\xb5\x2f\xfd", "a zstd file"}};
+// Files of samples that the Python package reads.
+constexpr Foreign kConvertible[] = {
+    {"TDSm", "an NI TDMS file"}, {"PAR1", "a Parquet file"}, {"\x93NUMPY", "a NumPy .npy file"}};
+constexpr std::size_t kZipName = 30;  // where a zip archive has the name of its first file
+constexpr std::size_t kZipNameLength = 26;
+
+// The name of the first file of a zip archive.
+std::string_view FirstInZip(std::string_view start) {
+  if (start.size() < kZipName) return {};
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(start[i]));
+  };
+  return start.substr(kZipName, byte(kZipNameLength) + 256 * byte(kZipNameLength + 1));
+}
+
+// A universal file: a line with -1 alone, then one with the number of the data set.
+bool IsUniversal(std::string_view start) {
+  const auto line = [&] {
+    const std::size_t end = std::min(start.find('\n'), start.size());
+    std::string_view text = start.substr(0, end);
+    start.remove_prefix(std::min(end + 1, start.size()));
+    const std::size_t from = text.find_first_not_of(' ');
+    if (from == std::string_view::npos) return std::string_view();
+    return text.substr(from, text.find_first_of(" \r", from) - from);
+  };
+  if (!start.starts_with(' ') || line() != "-1") return false;
+  const std::string_view set = line();
+  return !set.empty() && set.size() <= 4 && set.find_first_not_of("0123456789b") == set.npos;
+}
+
+// What files of samples this is that the Python package reads and the program does not; empty if it
+// is none.
+std::string Convertible(std::string_view start) {
+  for (const Foreign& each : kConvertible) {
+    if (start.starts_with(each.magic)) return each.what;
+  }
+  const bool zip = start.starts_with(kForeign[0].magic);
+  if (zip && FirstInZip(start).ends_with(".npy")) return "a NumPy .npz file";
+  return IsUniversal(start) ? "a universal file (UFF)" : "";
+}
 
 void RequireNoDialect(const std::filesystem::path& file, const TextDialect& dialect,
                       const char* format) {
@@ -70,6 +110,12 @@ std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file,
        std::string_view(start).substr(kMatlabHeaderBytes).starts_with(kHdf5Magic))) {
     RequireNoDialect(file, dialect, "an HDF5 file");
     return OpenHdf5Table(file);
+  }
+  if (const std::string what = Convertible(start); !what.empty()) {
+    const std::string name = file.filename().string();
+    throw UserError(file.string(), 0, "",
+                    what + ", expected text (plain or gzip), MATLAB .mat or HDF5: python -m howl " +
+                        "convert " + name + " " + file.stem().string() + ".csv makes text of it");
   }
   for (const Foreign& foreign : kForeign) {
     if (start.starts_with(foreign.magic)) {

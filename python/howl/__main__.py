@@ -1,9 +1,10 @@
-"""python -m howl convert IN OUT.csv turns a file of samples into CSV; every other command is the
-program's: python -m howl fit CONFIG."""
+"""python -m howl convert IN OUT.csv turns a file of samples into one that the program reads; every
+other command is the program's: python -m howl fit CONFIG."""
 
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import sys
 from typing import List
@@ -17,15 +18,18 @@ def _convert(words: List[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m howl convert",
         description="Turns a file of samples (TDMS, UFF58, Parquet, NPZ, MATLAB, HDF5, text) into "
-        "CSV that howl reads, with no bit of a number lost.")
+        "one that howl reads, with no bit of a number lost.")
     parser.add_argument("input", metavar="IN")
-    parser.add_argument("output", metavar="OUT.csv", help="or OUT.csv.gz")
+    parser.add_argument("output", metavar="OUT", help="its format goes by its ending: .csv "
+                        ".csv.gz .mat .h5, which howl reads, .npz .parquet")
+    parser.add_argument("--sampling-hz", type=float, metavar="HZ",
+                        help="samples a second, where the file does not tell")
     arguments = parser.parse_args(words)
-    if not arguments.output.endswith((".csv", ".csv.gz")):
-        parser.error(f"{arguments.output}: expected a name that ends with .csv or .csv.gz")
+    if arguments.sampling_hz is not None and not 0.0 < arguments.sampling_hz < math.inf:
+        parser.error(f"--sampling-hz: {arguments.sampling_hz}, expected a positive number")
     try:
-        table = convert(arguments.input, arguments.output)
-    except (ConfigError, ImportError, OSError) as error:
+        table = convert(arguments.input, arguments.output, sampling_hz=arguments.sampling_hz)
+    except (ConfigError, ImportError, OSError, ValueError) as error:
         print(error, file=sys.stderr)
         return 2
     rate = table.attrs.get("sampling_hz")

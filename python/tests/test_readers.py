@@ -59,6 +59,21 @@ def write_hdf5(frame, path):
             stream[name] = frame[name].to_numpy()
 
 
+def write_mat73(frame, path):
+    """HDF5 behind MATLAB's own header, each variable with its class, as version 7.3 has them."""
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(path, "w", userblock_size=512) as stream:
+        for name in frame:
+            stream[name] = frame[name].to_numpy()[np.newaxis, :]
+            kind = h5py.h5t.C_S1.copy()  # text that ends with a zero, as MATLAB writes it
+            kind.set_size(7)
+            space = h5py.h5s.create(h5py.h5s.SCALAR)
+            attribute = h5py.h5a.create(stream[name].id, b"MATLAB_class", kind, space)
+            attribute.write(np.array(b"double", dtype="S7"), mtype=kind)
+    with open(path, "r+b") as stream:
+        stream.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(116) + bytes(8) + b"\0\2IM")
+
+
 def write_parquet(frame, path):
     pyarrow = pytest.importorskip("pyarrow")
     import pyarrow.parquet as parquet
@@ -89,9 +104,11 @@ def write_uff(frame, path):
 FORMATS = [
     ("a.csv", write_csv, None), ("a.txt", write_semicolons, None), ("a.dat", write_tabs, None),
     ("a.csv.gz", write_gzip, None), ("a.npz", write_npz, 5000), ("a.npy", write_npy, None),
-    ("a.mat", write_mat, 5000), ("a.h5", write_hdf5, None), ("a.parquet", write_parquet, 5000),
-    ("a.tdms", write_tdms, 5000), ("a.uff", write_uff, 5000),
+    ("a.mat", write_mat, 5000), ("a73.mat", write_mat73, None), ("a.h5", write_hdf5, None),
+    ("a.parquet", write_parquet, 5000), ("a.tdms", write_tdms, 5000), ("a.uff", write_uff, 5000),
 ]
+# What the program reads itself; the others it reads once they are converted.
+NATIVE = {"a.csv", "a.txt", "a.dat", "a.csv.gz", "a.mat", "a73.mat", "a.h5"}
 
 
 @pytest.mark.parametrize("name, write, rate", FORMATS, ids=[name for name, _, _ in FORMATS])
@@ -104,6 +121,64 @@ def test_a_file_is_read_to_the_bit(name, write, rate, record, tmp_path):
     assert table.attrs.get("sampling_hz") == rate
     if rate:
         assert table.index.name == "t_s" and table.index[5] == 5 / rate
+
+
+@pytest.fixture(scope="module")
+def answer(first_rig):
+    return howl.analyse(first_rig["p"][0], first_rig["q"][0], sampling_hz=5000, phi=0.51,
+                        name="lean")
+
+
+@pytest.mark.parametrize("name, write, rate", FORMATS, ids=[name for name, _, _ in FORMATS])
+def test_one_record_in_twelve_formats_has_one_answer(name, write, rate, first_rig, answer,
+                                                     tmp_path):
+    file = tmp_path / name
+    write(pd.DataFrame({"p": first_rig["p"][0], "q": first_rig["q"][0]}), file)
+    if name not in NATIVE:
+        howl.readers.convert(file, tmp_path / "converted.csv")
+        file = tmp_path / "converted.csv"
+    found = howl.analyse({"experiments": [{"name": "lean", "phi": 0.51, "record": {
+        "file": file, "pressure": "p", "heat_release": "q", "sampling_hz": 5000}}]})
+    assert found.json == answer.json
+
+
+def test_there_are_twelve_formats():
+    assert len({name for name, _, _ in FORMATS}) == 12
+
+
+@pytest.mark.parametrize("name", [name for name, _, _ in FORMATS if name not in NATIVE])
+def test_the_program_says_how_to_convert_what_it_does_not_read(name, record, tmp_path):
+    write = next(write for other, write, _ in FORMATS if other == name)
+    write(record, tmp_path / name)
+    with pytest.raises(howl.ConfigError, match=f"howl convert {name} a.csv") as caught:
+        howl.analyse({"experiments": [{"name": "lean", "phi": 0.51, "record": {
+            "file": tmp_path / name, "sampling_hz": 5000}}]})
+    assert caught.value.file == str(tmp_path / name)
+
+
+@pytest.mark.parametrize("ending", [".csv", ".csv.gz", ".mat", ".h5", ".npz", ".parquet"])
+def test_what_is_converted_reads_back_to_the_bit(ending, record, tmp_path):
+    write_npz(record, tmp_path / "in.npz")
+    for needs in {".h5": ["h5py"], ".parquet": ["pyarrow"], ".mat": ["scipy"]}.get(ending, []):
+        pytest.importorskip(needs)
+    target = tmp_path / f"out{ending}"
+    howl.readers.convert(tmp_path / "in.npz", target)
+    table = howl.read(target)
+    for column in record:
+        assert table[column].to_numpy().tobytes() == record[column].to_numpy().tobytes()
+    assert table.attrs.get("sampling_hz") == (None if "csv" in ending else 5000)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["in.npz", target.name]
+
+
+def test_what_a_format_cannot_hold_is_said(record, tmp_path):
+    np.savez(tmp_path / "in.npz", **{"channel 1": record["p"].to_numpy()})
+    with pytest.raises(howl.ConfigError, match="MATLAB variable") as caught:
+        howl.readers.convert(tmp_path / "in.npz", tmp_path / "out.mat")
+    assert caught.value.key == "channel 1" and caught.value.file == str(tmp_path / "out.mat")
+    (tmp_path / "damaged.npz").write_bytes(b"PK\x03\x04 and no more")
+    with pytest.raises(howl.ConfigError, match="cannot be read as .npz"):
+        howl.readers.convert(tmp_path / "damaged.npz", tmp_path / "out.csv")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["damaged.npz", "in.npz"]
 
 
 def test_a_matrix_has_a_column_for_each_channel(record, tmp_path):

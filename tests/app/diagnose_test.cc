@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -298,6 +299,55 @@ TEST(Diagnose, WhatNeedsRecordsIsAMistakeOnATable) {
     EXPECT_THAT(result.err, testing::HasSubstr("needs records of p and q")) << option;
     EXPECT_FALSE(std::filesystem::exists(out + "/diagnosis.json"));
   }
+}
+
+// Before any measurement the records are simulated from the table's fit.
+TEST(Diagnose, APlanIsMadeForATableAndForRecords) {
+  const TemporaryFolder folder;
+  const std::string rig = SimulatedRig(folder, "rig", "1");
+  std::string without;
+  for (const EffectPointer& effect : Catalogue()) {
+    const std::string id(effect->id());
+    if (id != "channel_skew" && id != "q_clipping" && without.find(id) == std::string::npos) {
+      without += (without.empty() ? "" : ",") + id;
+    }
+  }
+  for (const std::string& config : {(folder.path() / "rig.yaml").string(), rig}) {
+    const std::string out = (folder.path() / "plan").string();
+    const ProgramResult run =
+        RunHowl("diagnose " + config + " --plan --without " + without + " --out " + out);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.out, testing::HasSubstr("plan for 2 records"));
+    EXPECT_FALSE(std::filesystem::exists(out + "/diagnosis.json"));
+    const auto plan = nlohmann::json::parse(ReadFile(out + "/plan.json"));
+    EXPECT_EQ(plan.at("records"), config == rig ? "measured" : "simulated");
+    ASSERT_EQ(plan.at("effects").size(), 2u);
+    EXPECT_GT(plan.at("effects")[0].at("smallest").get<double>(), 0.0);
+    EXPECT_LT(plan.at("effects")[1].at("smallest").get<double>(), 1.2);
+  }
+}
+
+TEST(Diagnose, MistakesOfAPlanAreOneLine) {
+  const TemporaryFolder folder;
+  const std::string config = folder.Write("rig.yaml", kRig).string();
+  for (const std::string words : {"--bootstrap 19", "--reference x.yaml", "--without flame_lag"}) {
+    const ProgramResult run = RunHowl("diagnose " + config + " --plan " + words + " --out " +
+                                      (folder.path() / "out").string());
+    EXPECT_EQ(run.status, 2) << words;
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out" / "plan.json"));
+  }
+  const std::string pressure = folder
+                                   .Write("p.yaml",
+                                          "experiments:\n  - {name: a, phi: 0.5, record: {file: "
+                                          "a.csv, pressure: p, sampling_hz: 5000}}\n")
+                                   .string();
+  std::string samples = "p\n";
+  for (int i = 0; i < 5000; ++i) samples += std::to_string(std::sin(0.27 * i)) + "\n";
+  folder.Write("a.csv", samples);
+  const ProgramResult run = RunHowl("diagnose " + pressure + " --plan");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, testing::HasSubstr("expected both signals"));
 }
 
 TEST(Diagnose, TheBootstrapsGainsAreWritten) {

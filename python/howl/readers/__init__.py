@@ -12,6 +12,7 @@ from .._errors import ConfigError
 from ._arrays import read_hdf5, read_mat, read_npy, read_npz
 from ._instruments import read_tdms, read_uff
 from ._tables import read_parquet, read_text
+from ._writers import writer_of
 
 _READERS: Dict[str, Callable[[Path], pd.DataFrame]] = {
     ".csv": read_text, ".txt": read_text, ".dat": read_text, ".asc": read_text, ".tsv": read_text,
@@ -41,7 +42,13 @@ def read(path: "Union[str, os.PathLike[str]]", *, sampling_hz: Optional[float] =
             f"has an unknown ending, expected one of {' '.join(_READERS)}", file=str(file))
     if not file.is_file():
         raise ConfigError("there is no such file", file=str(file))
-    table = reader(file)
+    try:
+        table = reader(file)
+    except (ConfigError, ImportError, OSError):
+        raise
+    except Exception as error:  # whatever a reader makes of a damaged file
+        text = " ".join(str(error).split()) or type(error).__name__
+        raise ConfigError(f"cannot be read as {endings[-1]}: {text}", file=str(file)) from error
     if table.empty:
         raise ConfigError("has no channel of numbers", file=str(file))
     rate = sampling_hz if sampling_hz is not None else table.attrs.get("sampling_hz")
@@ -54,13 +61,15 @@ def read(path: "Union[str, os.PathLike[str]]", *, sampling_hz: Optional[float] =
 
 def convert(source: "Union[str, os.PathLike[str]]", target: "Union[str, os.PathLike[str]]", *,
             sampling_hz: Optional[float] = None) -> pd.DataFrame:
-    """Reads a file and writes its channels as CSV (gzip where the name ends with .gz), each number
-    the shortest text that reads back as the same double. Returns the table."""
-    table = read(source, sampling_hz=sampling_hz)
+    """Reads a file and writes its channels in the format of the target's ending: .csv .csv.gz .mat
+    .h5, which the program reads, .npz .parquet. No bit of a number is lost; the sampling rate is
+    kept where the format has a place for it (not in CSV). Returns the table."""
     path = Path(target)
+    write = writer_of(path)
+    table = read(source, sampling_hz=sampling_hz)
     temporary = path.with_name("." + path.name)  # the file appears whole or not at all
     try:
-        table.to_csv(temporary, index=False, compression="gzip" if path.suffix == ".gz" else None)
+        write(table.reset_index(drop=True), temporary, path)
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)

@@ -1,0 +1,52 @@
+#include "app/planned_records.h"
+
+#include <algorithm>
+
+#include "app/config_fit.h"
+#include "app/diagnose_input.h"
+#include "app/measured_flame.h"
+#include "app/problem_input.h"
+#include "app/simulate_rig.h"
+#include "app/simulate_times.h"
+#include "estimation/unit_seed.h"
+#include "model/simulate.h"
+
+namespace howl {
+
+bool HasRecords(const Config& config) {
+  return std::ranges::any_of(config.experiments,
+                             [](const auto& each) { return each.record.has_value(); });
+}
+
+std::vector<DiagnosisExperiment> SimulatedExperiments(const Config& config,
+                                                      const Options& options) {
+  const ProblemInput input = LoadInput(config, options);
+  RequireExperiments(config, options, input);
+  const std::vector<Experiment>& experiments = input.experiments;
+  const SimulationTimes times = MakeSimulationTimes(config.simulation, experiments);
+  CheckSimulationTimes(config, times, experiments);
+  const JointProblem problem = MakeJointProblem(config, experiments);
+  const std::vector<LoopModel> models = SolveConfig(config, options, problem).models;
+  std::vector<SimulationCase> cases;
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    const SimulatedRig rig =
+        MakeRig(config, experiments[i], models[i], MeasuredFlame(input, experiments[i]), times);
+    CheckInternalRate(config, times, experiments[i], rig.parameters);
+    cases.push_back({rig.parameters, UnitSeed(options.seed, experiments[i].name)});
+  }
+  const std::vector<SimulatedRecord> simulated =
+      SimulateBatch(cases, {.duration_s = times.duration_s,
+                            .sampling_hz = times.sampling_hz,
+                            .settle_s = times.settle_s,
+                            .threads = options.threads});
+  std::vector<NamedRecord> records;
+  for (std::size_t i = 0; i < simulated.size(); ++i) {
+    records.push_back(
+        {.name = experiments[i].name,
+         .phi = experiments[i].phi,
+         .record = {simulated[i].sampling_hz, simulated[i].pressure, simulated[i].heat_release}});
+  }
+  return MakeDiagnosisExperiments(config, std::move(records));
+}
+
+}  // namespace howl
