@@ -14,6 +14,7 @@
 #include "estimation/analysis/second_crossing.h"
 #include "io/results/analysis_files.h"
 #include "io/results/health_json.h"
+#include "io/results/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -136,11 +137,11 @@ int Run(const Options& options) {
   const Health health = CheckRecords(config, records, set, analysis_options);
   nlohmann::ordered_json analysis = AnalysisJson(set);
   analysis["health"] = HealthJson(health);
-  WriteWholeFile(options.out / "characteristics.csv",
+  WriteWholeFile(options.out / kCharacteristicsCsv,
                  CharacteristicsCsv(set, config.operating_parameter));
-  WriteWholeFile(options.out / "lines.csv", LinesCsv(set, config.operating_parameter));
-  WriteWholeFile(options.out / "transfer.csv", TransferCsv(set, config.operating_parameter));
-  WriteWholeFile(options.out / "flame_curve.csv", FlameCurveCsv(set, config.operating_parameter));
+  WriteWholeFile(options.out / kLinesCsv, LinesCsv(set, config.operating_parameter));
+  WriteWholeFile(options.out / kTransferCsv, TransferCsv(set, config.operating_parameter));
+  WriteWholeFile(options.out / kFlameCurveCsv, FlameCurveCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / "analysis.json", analysis.dump(2) + "\n");
   if (options.quiet) return kDone;
   PrintCharacteristics(set, config.operating_parameter);

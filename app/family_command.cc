@@ -6,6 +6,7 @@
 #include "app/family_text.h"
 #include "io/results/family_csv.h"
 #include "io/results/family_json.h"
+#include "io/results/result_files.h"
 #include "io/whole_file.h"
 
 namespace howl {
@@ -14,12 +15,12 @@ namespace {
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
   const FamilyRun run = RunFamily(config, options);
-  WriteWholeFile(options.out / "family.csv",
+  WriteWholeFile(options.out / kFamilyCsv,
                  FamilyCsv(run.problem.experiments, run.members, config.operating_parameter));
-  WriteWholeFile(options.out / "tradeoff.csv", TradeoffCsv(run.tradeoff));
+  WriteWholeFile(options.out / kTradeoffCsv, TradeoffCsv(run.tradeoff));
   WriteWholeFile(options.out / "family.json", FamilyJson(ReportOf(config, run)).dump(2) + "\n");
   if (run.profile) {
-    WriteWholeFile(options.out / "profile.csv",
+    WriteWholeFile(options.out / kProfileCsv,
                    ProfileCsv(run.problem.experiments, run.profile->profile));
   }
   ForgetBounds(options);

@@ -10,6 +10,7 @@
 #include "app/text_table.h"
 #include "io/config/config.h"
 #include "io/results/family_csv.h"
+#include "io/results/result_files.h"
 
 namespace howl {
 namespace {
@@ -78,7 +79,7 @@ std::vector<std::string> ShownColumns(const FamilyTable& table, const Options& o
 
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
-  FamilyTable table = ReadFamilyCsv(options.out / "family.csv");
+  FamilyTable table = ReadFamilyCsv(options.out / kFamilyCsv);
   const std::size_t all = table.rows.size();
   if (all == 0) {
     if (!options.quiet) std::printf("the family has no members\n");

@@ -12,6 +12,7 @@
 
 #include "app/command.h"
 #include "app/command_line.h"
+#include "app/help_topics.h"
 #include "app/interruption.h"
 #include "app/negative_answer.h"
 #include "app/progress_line.h"
@@ -41,7 +42,9 @@ void PrintHelp() {
   std::printf("\nOptions of every command:\n");
   PrintOptions(CommonOptions());
   std::printf(
-      "\nhowl help COMMAND (or howl COMMAND --help) explains one command.\n"
+      "\nhowl help COMMAND (or howl COMMAND --help) explains one command, howl help residuals what "
+      "a\n"
+      "fit can ask for; howl help schema prints the config's JSON schema.\n"
       "Exit status: 0 done; 1 the answer is negative; 2 bad input.\n");
 }
 
@@ -91,6 +94,10 @@ int Run(const std::vector<std::string>& words) {
   if (!word) {
     if (line.WantsVersion()) return PrintVersion();
     PrintHelp();
+    return kDone;
+  }
+  if (const std::optional<std::string> topic = asks ? HelpTopic(*word) : std::nullopt) {
+    std::printf("%s", topic->c_str());
     return kDone;
   }
   const Command& command = FindCommand(*word);

@@ -12,6 +12,7 @@
 #include "app/predict_text.h"
 #include "app/problem_input.h"
 #include "io/results/predict_files.h"
+#include "io/results/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -105,7 +106,7 @@ int Run(const Options& options) {
     return kNegativeAnswer;
   }
   const PredictReport report = Predict(config, options, run, FlameOf(config, input), asked);
-  WriteWholeFile(options.out / "prediction.csv", PredictCsv(report));
+  WriteWholeFile(options.out / kPredictionCsv, PredictCsv(report));
   WriteWholeFile(options.out / "prediction.json", PredictJson(report).dump(2) + "\n");
   if (!options.quiet) {
     std::printf("%swritten: prediction.csv and prediction.json in %s\n",

@@ -18,6 +18,7 @@
 #include "io/records/records.h"
 #include "io/results/family_csv.h"
 #include "io/results/records_yaml.h"
+#include "io/results/result_files.h"
 #include "io/results/simulation_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
@@ -36,7 +37,7 @@ std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& opt
     const JointProblem problem = MakeJointProblem(config, experiments);
     return SolveConfig(config, options, problem).models;
   }
-  const FamilyTable table = ReadFamilyCsv(options.out / "family.csv");
+  const FamilyTable table = ReadFamilyCsv(options.out / kFamilyCsv);
   if (*number > static_cast<int>(table.rows.size())) {
     throw UsageError("--member: " + std::to_string(*number) + ", expected at most " +
                      std::to_string(table.rows.size()) + ", the members of family.csv");
@@ -128,7 +129,7 @@ int Run(const Options& options) {
       swept.push_back({experiments[i].name, cases[i], experiments[i].frequency_hz});
     }
     sweeps = RunSweeps(config, times, std::move(swept), options.threads);
-    WriteWholeFile(options.out / "sweep.csv", SweepCsv(*config.simulation.sweep, sweeps));
+    WriteWholeFile(options.out / kSweepCsv, SweepCsv(*config.simulation.sweep, sweeps));
   }
   if (!options.quiet) {
     Print(experiments, rigs);

@@ -2,6 +2,7 @@
 
 #include "app/digest.h"
 #include "app/trial_run.h"
+#include "io/results/result_files.h"
 #include "io/results/trial_json.h"
 #include "io/results/trial_sheet.h"
 #include "io/whole_file.h"
@@ -65,7 +66,7 @@ void WriteScores(const TrialFolder& folder, const ScoredTrial& trial, TrialLog& 
                       {"opened_at", log.Find("opened")->value("at", "")}};
   const std::map<std::string, std::string> files = {
       {"trial.json", TrialJson(trial.sheet, about).dump(2) + "\n"},
-      {"trial.csv", TrialCsv(trial.cases)},
+      {kTrialCsv, TrialCsv(trial.cases)},
       {"sheet.md", TrialSheet(trial.sheet, command, seal)}};
   Json hashes = Json::object();
   for (const auto& [name, text] : files) {

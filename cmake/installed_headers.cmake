@@ -51,4 +51,5 @@ set(howl_included_headers
     estimation/fit/solver_spec.h
     estimation/parameters.h
     estimation/residual_spec.h
+    estimation/residuals/problem_blocks.h
     estimation/transfer_point.h)

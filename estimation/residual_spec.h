@@ -1,5 +1,5 @@
-// Which residuals a joint fit has, the weight of each, and on which experiments it acts. The
-// equations are in estimation/residuals/, one file each.
+// Which residuals a joint fit has, the weight of each, and on which experiments it acts. Their
+// equations and defaults are in estimation/residuals/.
 #ifndef HOWL_ESTIMATION_RESIDUAL_SPEC_H_
 #define HOWL_ESTIMATION_RESIDUAL_SPEC_H_
 
@@ -10,44 +10,38 @@
 
 namespace howl {
 
-enum class ResidualKind {
-  kGainEquality,        // |G| = gain, (5a) or (5c)
-  kPhaseEquality,       // arg G = phase, (5a) or (5c)
-  kLimitCyclePhase,     // arg L = 180 degrees, (1a)
-  kLimitCycleGain,      // |L Phi'(0)| > 1, (1b), one-sided
-  kSecondCrossing,      // arg L = 180 degrees at an observed non-harmonic line
-  kTransfer,            // G = H, the measured q-to-p transfer away from the limit cycle, (5a)
-  kOmegaPrior,          // omega nearly constant over the experiments
-  kXiIncreasing,        // xi does not fall as phi grows, one-sided
-  kDampingPrior,        // xi small
-  kTauPrior,            // tau nearly constant over the experiments
-  kSecondModeMinor,     // |M U_r| / |N U_1| small at the limit cycle, (5b), one-sided
-  kSecondCrossingGain,  // |L Phi'(0)| > 1 at an observed non-harmonic line, (1b), one-sided
-};
+// The registry: one line a residual, its identifier and its name in configs. All else that there is
+// to say of a residual is the ResidualDefinition that its file in estimation/residuals/ gives
+// (residuals/registry.h). Residuals are added to a problem, and reported, in this order.
+#define HOWL_RESIDUALS(X)                     \
+  X(GainEquality, gain_equality)              \
+  X(PhaseEquality, phase_equality)            \
+  X(LimitCycleGain, limit_cycle_gain)         \
+  X(LimitCyclePhase, limit_cycle_phase)       \
+  X(SecondCrossing, second_crossing)          \
+  X(SecondModeMinor, second_mode_minor)       \
+  X(SecondCrossingGain, second_crossing_gain) \
+  X(DampingPrior, damping_prior)              \
+  X(OmegaPrior, omega_prior)                  \
+  X(TauPrior, tau_prior)                      \
+  X(XiIncreasing, xi_increasing)              \
+  X(Transfer, transfer)
 
-inline constexpr std::array kResidualKinds = {
-    ResidualKind::kGainEquality,    ResidualKind::kPhaseEquality,
-    ResidualKind::kLimitCyclePhase, ResidualKind::kLimitCycleGain,
-    ResidualKind::kSecondCrossing,  ResidualKind::kTransfer,
-    ResidualKind::kOmegaPrior,      ResidualKind::kXiIncreasing,
-    ResidualKind::kDampingPrior,    ResidualKind::kTauPrior,
-    ResidualKind::kSecondModeMinor, ResidualKind::kSecondCrossingGain};
+#define HOWL_RESIDUAL_ENUMERATOR(identifier, name) k##identifier,
+enum class ResidualKind { HOWL_RESIDUALS(HOWL_RESIDUAL_ENUMERATOR) };
+#undef HOWL_RESIDUAL_ENUMERATOR
+
+#define HOWL_RESIDUAL_KIND(identifier, name) ResidualKind::k##identifier,
+inline constexpr std::array kResidualKinds = {HOWL_RESIDUALS(HOWL_RESIDUAL_KIND)};
+#undef HOWL_RESIDUAL_KIND
 inline constexpr std::size_t kNumResidualKinds = kResidualKinds.size();
-static_assert(
-    [] {
-      for (std::size_t i = 0; i < kNumResidualKinds; ++i) {
-        if (static_cast<std::size_t>(kResidualKinds[i]) != i) return false;
-      }
-      return true;
-    }(),
-    "kResidualKinds lists the kinds in their order: names and specs are looked up by it");
 
 // The names in configs.
 constexpr std::string_view ResidualName(ResidualKind kind) {
+#define HOWL_RESIDUAL_NAME(identifier, name) #name,
   constexpr std::array<std::string_view, kNumResidualKinds> kNames = {
-      "gain_equality",   "phase_equality", "limit_cycle_phase", "limit_cycle_gain",
-      "second_crossing", "transfer",       "omega_prior",       "xi_increasing",
-      "damping_prior",   "tau_prior",      "second_mode_minor", "second_crossing_gain"};
+      HOWL_RESIDUALS(HOWL_RESIDUAL_NAME)};
+#undef HOWL_RESIDUAL_NAME
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -64,14 +58,10 @@ enum class LossKind { kNone, kHuber, kSoftL1, kCauchy, kTukey };
 
 struct ResidualSpec {
   bool enabled = true;
-  // Standard deviation of the residual's error. Relative for gain, omega, tau and the damping
-  // prior; degrees for phases; absolute for loop gains, the second mode's share and the order of
-  // xi. For the transfer: of the
-  // model itself, relative, on top of each point's own variance. Experiments that bring
-  // their own take its place.
+  // Standard deviation of the residual's error, in the unit that its key tells (std_relative,
+  // std_deg, std). Experiments that bring their own take its place.
   double std = 1.0;
-  // damping_prior: the damping ratio that counts as small; second_mode_minor: the share up to which
-  // the second mode hardly matters.
+  // The residual's second number, where its definition has one (xi_typical, share_max).
   double center = 0.0;
   double weight = 1.0;  // multiplies the squared residual
   LossKind loss = LossKind::kNone;
@@ -91,7 +81,7 @@ struct ResidualSet {
   }
 };
 
-// Documented defaults: every residual on.
+// Every residual on, with the standard deviation of its definition.
 ResidualSet DefaultResidualSet();
 
 }  // namespace howl

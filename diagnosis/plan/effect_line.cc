@@ -16,8 +16,10 @@ constexpr double kSameResponse = 1e-12;
 bool Near(Response a, Response b) { return std::abs(a - b) <= kSameResponse * std::abs(b); }
 
 // Whether the loop with these values is the loop without the effect.
-bool IsNull(const Effect& effect, const EffectContext& at, const std::vector<double>& x) {
-  const Acoustics<double> acoustics{at.cycle_frequency_hz, 0.1, 1000.0, 100.0};
+bool IsNull(const Effect& effect, const CutRecord& record, const std::vector<double>& x) {
+  const EffectContext& at = record.at;
+  const Acoustics<double> acoustics{at.cycle_frequency_hz, 0.1, 1000.0, 100.0,
+                                    record.model.harmonic_ratio};
   for (const double ratio : kLookedAt) {
     const double f = ratio * at.cycle_frequency_hz;
     const Complex<double> g = AcousticResponse(acoustics, f);
@@ -52,14 +54,14 @@ double StartOf(const EffectParameter& p) {
              : p.starts[0];
 }
 
-std::optional<std::size_t> SizeParameter(const Effect& effect, const EffectContext& at) {
+std::optional<std::size_t> SizeParameter(const Effect& effect, const CutRecord& record) {
   const std::vector<EffectParameter>& parameters = effect.parameters();
   std::vector<double> typical;
   for (const EffectParameter& p : parameters) typical.push_back(StartOf(p));
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     std::vector<double> x = typical;
     x[j] = parameters[j].null_value;
-    if (IsNull(effect, at, x) && !IsNull(effect, at, typical)) return j;
+    if (IsNull(effect, record, x) && !IsNull(effect, record, typical)) return j;
   }
   return std::nullopt;
 }
@@ -96,9 +98,9 @@ std::vector<double> EffectLine::ValuesAt(double size) const {
   return out;
 }
 
-std::vector<EffectLine> EffectLines(const EffectPointer& effect, const EffectContext& at) {
+std::vector<EffectLine> EffectLines(const EffectPointer& effect, const CutRecord& record) {
   if (effect->kind() != EffectKind::kTransfer) return {};
-  const std::optional<std::size_t> size = SizeParameter(*effect, at);
+  const std::optional<std::size_t> size = SizeParameter(*effect, record);
   if (!size) return {};
   const std::vector<EffectParameter>& parameters = effect->parameters();
   const EffectParameter& p = parameters[*size];

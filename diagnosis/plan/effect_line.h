@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "diagnosis/cut_record.h"
 #include "model/effects/catalogue.h"
 
 namespace howl {
@@ -32,10 +33,10 @@ struct EffectLine {
 };
 
 // The effect's lines, one for each combination of the other parameters' starts. Where each of them
-// has one start, it is also taken at a third and at three times of it. `at`: an experiment's
-// context, for the frequencies at which the effect is looked at. Empty for an effect that is no
+// has one start, it is also taken at a third and at three times of it. `record`: of an
+// experiment, for the frequencies at which the effect is looked at. Empty for an effect that is no
 // transfer function, or that none of its parameters turns off.
-std::vector<EffectLine> EffectLines(const EffectPointer& effect, const EffectContext& at);
+std::vector<EffectLine> EffectLines(const EffectPointer& effect, const CutRecord& record);
 
 }  // namespace howl
 

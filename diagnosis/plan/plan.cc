@@ -290,7 +290,7 @@ Plan Planner::Run() {
   plan.delay_scatter = base_.delay_scatter;
   std::vector<EffectLine> lines;
   for (const EffectPointer& effect : catalogue_) {
-    const std::vector<EffectLine> own = EffectLines(effect, records_[0].at);
+    const std::vector<EffectLine> own = EffectLines(effect, records_[0]);
     lines.insert(lines.end(), own.begin(), own.end());
     const std::string id(effect->id());
     if (!own.empty() && std::ranges::find(transfer_, id) == transfer_.end()) {

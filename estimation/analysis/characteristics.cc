@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include "estimation/analysis/line_blocks.h"
+#include "estimation/analysis/line_phase.h"
 #include "estimation/analysis/lines.h"
 #include "model/units.h"
 

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "estimation/analysis/transfer.h"
+#include "estimation/analysis/transfer_point_residual.h"
 #include "estimation/analysis/transfer_search.h"
-#include "estimation/residuals/transfer_point.h"
 #include "model/dense_algebra.h"
 #include "model/second_mode.h"
 
@@ -80,7 +80,7 @@ LogParameters GridStart(std::span<const TransferPoint> points, const ModelSpec& 
 
 struct Solution {
   LogParameters x;
-  double q_noise = 0.0;      // u (estimation/residuals/transfer_point.h)
+  double q_noise = 0.0;      // u (estimation/analysis/transfer_point_residual.h)
   Eigen::MatrixXd jacobian;  // of the points' whitened residuals over the free parameters, u last
   std::vector<double> misfits;  // the points' whitened residuals, two for each
   double cost = 0.0;            // of the points alone

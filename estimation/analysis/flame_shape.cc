@@ -3,16 +3,14 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "estimation/residuals/flame_bin_residual.h"
+#include "estimation/analysis/flame_bin_residual.h"
+#include "model/flame_shapes.h"
 
 namespace howl {
 namespace {
 
-constexpr std::array kShapes = {FlameShape::kTanh, FlameShape::kArctan, FlameShape::kCubic,
-                                FlameShape::kPiecewiseLinear, FlameShape::kAlgebraic};
 // The least number of bins: as many as the three unknowns, and as many again to test them.
 constexpr std::size_t kLeastBins = 6;
 // A guard rail, not a prior: at u = 1 the piecewise linear flame has left its slope, and no slope
@@ -62,7 +60,7 @@ Flame<double> FlameShapeFit::WithSlopeAtRest(double slope_at_rest) const {
 std::optional<FlameShapeFit> FitFlameShape(const FlameCurve& curve, double slope_at_rest) {
   if (!(slope_at_rest < 0.0)) return std::nullopt;
   std::optional<FlameShapeFit> best;
-  for (const FlameShape shape : kShapes) {
+  for (const FlameShape shape : kFlameShapes) {
     const auto fit = FitOne(shape, curve, slope_at_rest);
     if (fit && (!best || fit->chi_square < best->chi_square)) best = fit;
   }

@@ -3,7 +3,7 @@
 // mean fitted and the slope at rest held at what is given,
 //
 //   min over shape, Q, u, mean of  sum_bins ((mean + Q sigma(k v / Q - u) - q) / q_std)^2,
-//   k = Phi'(0) / sigma'(-u)                                  (residuals/flame_bin_residual.h)
+//   k = Phi'(0) / sigma'(-u)                                  (analysis/flame_bin_residual.h)
 #ifndef HOWL_ESTIMATION_ANALYSIS_FLAME_SHAPE_H_
 #define HOWL_ESTIMATION_ANALYSIS_FLAME_SHAPE_H_
 

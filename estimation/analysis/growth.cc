@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "estimation/analysis/line_blocks.h"
+#include "estimation/analysis/line_phase.h"
 #include "estimation/analysis/spectrum.h"
 
 namespace howl {

@@ -5,7 +5,7 @@
 #include <boost/math/distributions/gamma.hpp>
 #include <cmath>
 
-#include "estimation/analysis/line_blocks.h"
+#include "estimation/analysis/line_phase.h"
 #include "model/units.h"
 
 namespace howl {

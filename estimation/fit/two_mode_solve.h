@@ -43,7 +43,7 @@ inline ModeCoefficients CoefficientsFromResponse(double frequency_hz, double ome
 }
 
 // The quantity that is held while (omega, N) are solved for: M itself, or M / N.
-enum class SecondMode { kM, kMOverN };
+enum class HeldSecond { kM, kMOverN };
 
 // The equation whose roots in omega are the solutions, free of poles.
 struct TwoModeEquation {
@@ -52,14 +52,14 @@ struct TwoModeEquation {
   double harmonic_ratio;
   double tangent;  // t
   double scale;    // w |z| cos(theta)
-  SecondMode held;
+  HeldSecond held;
   double second;  // M or M / N
 
   double operator()(double omega_hz) const {
     const double y = Detuning(frequency_hz, omega_hz);
     const double y_r = Detuning(frequency_hz, harmonic_ratio * omega_hz);
     const double across = xi * tangent;
-    if (held == SecondMode::kMOverN) {
+    if (held == HeldSecond::kMOverN) {
       return harmonic_ratio * (y - across) * (xi * xi + y_r * y_r) -
              second * (across - y_r) * (xi * xi + y * y);
     }
@@ -70,7 +70,7 @@ struct TwoModeEquation {
 };
 
 inline TwoModeEquation MakeTwoModeEquation(double frequency_hz, double xi, double harmonic_ratio,
-                                           double phase_rad, double gain, SecondMode held,
+                                           double phase_rad, double gain, HeldSecond held,
                                            double second) {
   return {frequency_hz,
           xi,
@@ -124,14 +124,14 @@ int FindRoots(const Function& function, double lo, double hi, int cells,
 struct TwoModeResidual {
   Complex<double> wanted;
   double frequency_hz, xi, harmonic_ratio, second;
-  SecondMode held;
+  HeldSecond held;
 
   template <typename T>
   bool operator()(const T* const unknowns, T* residuals) const {
     using std::exp;
     const T N = exp(unknowns[1]);
     const Acoustics<T> acoustics{exp(unknowns[0]), T(xi), N,
-                                 held == SecondMode::kM ? T(second) : T(second) * N,
+                                 held == HeldSecond::kM ? T(second) : T(second) * N,
                                  T(harmonic_ratio)};
     const Complex<T> ratio =
         AcousticResponse(acoustics, T(frequency_hz)) / Complex<T>{T(wanted.re), T(wanted.im)};
@@ -144,7 +144,7 @@ struct TwoModeResidual {
 // The member on the branch next to the one-mode solution; false where the search does not converge
 // (there may be no such member). Starts from the closed form, tau from the loop phase exactly.
 inline bool SolveTwoMode(const Experiment& experiment, double xi, double harmonic_ratio,
-                         SecondMode held, double second, const FitErrors& errors,
+                         HeldSecond held, double second, const FitErrors& errors,
                          LoopModel& model) {
   model = ClosedFormMember(experiment, xi, errors);
   model.harmonic_ratio = harmonic_ratio;
@@ -164,7 +164,7 @@ inline bool SolveTwoMode(const Experiment& experiment, double xi, double harmoni
   if (!(summary.final_cost < 1e-18)) return false;
   model.omega_hz = std::exp(unknowns[0]);
   model.N = std::exp(unknowns[1]);
-  model.M = held == SecondMode::kM ? second : second * model.N;
+  model.M = held == HeldSecond::kM ? second : second * model.N;
   return true;
 }
 

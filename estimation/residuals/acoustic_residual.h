@@ -1,4 +1,4 @@
-// Shared base of the residuals that see the acoustics G alone or the loop L.
+// Shared base of the residuals that see the acoustics G alone or the loop L of one experiment.
 //
 // A derived Functor evaluates one residual from Acoustics<T> (or LoopParameters<T>); the base turns
 // it into a Ceres block, in two forms:
@@ -9,9 +9,11 @@
 
 #include <ceres/autodiff_cost_function.h>
 
+#include <string>
 #include <utility>
 
-#include "estimation/residuals/log_parameters.h"
+#include "estimation/log_parameters.h"
+#include "estimation/residuals/residual_adder.h"
 #include "model/loop.h"
 
 namespace howl {
@@ -81,6 +83,28 @@ struct LoopResidual {
   Functor functor;
   SecondMode second_mode;
 };
+
+// Adds the functor's block for experiment i: the full form with two modes, unless the config asks
+// for the reduced one.
+template <typename Functor>
+void AddAcoustic(ResidualAdder& problem, int i, Functor functor, const std::string& suffix = "") {
+  using Residual = AcousticResidual<Functor>;
+  const bool full = problem.HasTwoModes() && problem.Spec().form != EquationForm::kReduced;
+  problem.Add(i,
+              full ? Residual::CreateFull(std::move(functor), problem.SecondModeOfModel())
+                   : Residual::CreateReduced(std::move(functor)),
+              problem.AcousticBlocks(i, full), suffix);
+}
+
+template <typename Functor>
+void AddLoop(ResidualAdder& problem, int i, Functor functor, const std::string& suffix = "") {
+  using Residual = LoopResidual<Functor>;
+  problem.Add(i,
+              problem.HasTwoModes()
+                  ? Residual::CreateFull(std::move(functor), problem.SecondModeOfModel())
+                  : Residual::CreateReduced(std::move(functor)),
+              problem.LoopBlocks(i), suffix);
+}
 
 }  // namespace howl
 

@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <iterator>
 #include <map>
-#include <string_view>
 
 #include "io/config/config_sections.h"
+#include "io/results/result_files.h"
 
 namespace howl {
 namespace {
@@ -100,13 +99,6 @@ void ReadNameAlone(const ConfigCursor& cursor, Experiment& experiment) {
 }
 
 }  // namespace
-
-bool IsResultsName(std::string_view name) {
-  constexpr std::string_view kTaken[] = {"characteristics", "lines",     "transfer", "flame_curve",
-                                         "family",          "tradeoff",  "profile",  "sweep",
-                                         "trial",           "prediction"};
-  return std::ranges::find(kTaken, name) != std::end(kTaken);
-}
 
 void ReadExperiments(const ConfigCursor& root, Config& config, ExperimentMistakes* mistakes) {
   LinesOfNames lines_of_names;

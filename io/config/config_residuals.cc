@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "estimation/residuals/registry.h"
 #include "io/config/config_sections.h"
 #include "io/config/schema_words.h"
 
@@ -42,10 +43,12 @@ void ReadResidual(const ConfigCursor& cursor, ResidualKind kind,
     spec.enabled = cursor.Node().boolean;
     return;
   }
+  const ResidualDefinition& definition = DefinitionOf(kind);
   cursor.Read("enabled", spec.enabled);
-  cursor.Read(ResidualStdKey(kind), spec.std);
-  if (kind == ResidualKind::kDampingPrior) cursor.Read("xi_typical", spec.center);
-  if (kind == ResidualKind::kSecondModeMinor) cursor.Read("share_max", spec.center);
+  cursor.Read(std::string(definition.std.key), spec.std);
+  if (!definition.center.key.empty()) {
+    cursor.Read(std::string(definition.center.key), spec.center);
+  }
   cursor.Read("weight", spec.weight);
   if (const auto loss = cursor.Find("loss")) spec.loss = LossOf(loss->Node().text);
   cursor.Read("loss_scale", spec.loss_scale);
@@ -54,28 +57,6 @@ void ReadResidual(const ConfigCursor& cursor, ResidualKind kind,
 }
 
 }  // namespace
-
-const char* ResidualStdKey(ResidualKind kind) {
-  switch (kind) {
-    case ResidualKind::kGainEquality:
-    case ResidualKind::kTransfer:
-    case ResidualKind::kOmegaPrior:
-    case ResidualKind::kDampingPrior:
-    case ResidualKind::kTauPrior:
-      return "std_relative";
-    case ResidualKind::kPhaseEquality:
-    case ResidualKind::kLimitCyclePhase:
-    case ResidualKind::kSecondCrossing:
-      return "std_deg";
-    case ResidualKind::kLimitCycleGain:
-    case ResidualKind::kXiIncreasing:
-    case ResidualKind::kSecondModeMinor:
-    case ResidualKind::kSecondCrossingGain:
-      return "std";
-  }
-  LOG(FATAL) << "unknown residual";
-  return "";
-}
 
 void ReadResiduals(const ConfigCursor& root, Config& config) {
   const auto residuals = root.Find("residuals");

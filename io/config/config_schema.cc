@@ -5,11 +5,49 @@
 #include <nlohmann/json.hpp>
 
 #include "config_schema.inc"  // kConfigSchemaText
+#include "estimation/residuals/registry.h"
 
 namespace howl {
+namespace {
+
+nlohmann::json Ref(const std::string& definition) {
+  return {{"$ref", "#/definitions/" + definition}};
+}
+
+nlohmann::json NumberSchema(const ResidualNumber& number) {
+  return {{"description", number.text},
+          {"type", "number"},
+          {"exclusiveMinimum", 0},
+          {"default", number.value}};
+}
+
+nlohmann::json ResidualSchema(const ResidualDefinition& residual) {
+  nlohmann::json keys = {
+      {"enabled", Ref("enabled")},       {residual.std.key, NumberSchema(residual.std)},
+      {"weight", Ref("weight")},         {"loss", Ref("loss")},
+      {"loss_scale", Ref("loss_scale")}, {"experiments", Ref("names")}};
+  if (!residual.center.key.empty()) keys[residual.center.key] = NumberSchema(residual.center);
+  if (residual.has_form) keys["form"] = Ref("form");
+  return {{"description",
+           std::string(residual.text) + ", " + std::string(residual.equation) + "; false: off"},
+          {"type", {"object", "boolean"}},
+          {"additionalProperties", false},
+          {"properties", std::move(keys)}};
+}
+
+nlohmann::json CompleteSchema() {
+  nlohmann::json schema = nlohmann::json::parse(kConfigSchemaText);
+  nlohmann::json& residuals = schema["properties"]["residuals"]["properties"];
+  for (const ResidualKind kind : kResidualKinds) {
+    residuals[std::string(ResidualName(kind))] = ResidualSchema(DefinitionOf(kind));
+  }
+  return schema;
+}
+
+}  // namespace
 
 const nlohmann::json& ConfigSchema() {
-  static const nlohmann::json schema = nlohmann::json::parse(kConfigSchemaText);
+  static const nlohmann::json schema = CompleteSchema();
   return schema;
 }
 

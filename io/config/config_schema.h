@@ -1,4 +1,6 @@
-// The config's JSON schema (draft 7), from io/config_schema.json at build time.
+// The config's JSON schema (draft 7): config_schema.json, which is read at build time, and a block
+// for each residual of the registry (estimation/residuals/registry.h). `howl help schema` prints
+// it.
 #ifndef HOWL_IO_CONFIG_CONFIG_SCHEMA_H_
 #define HOWL_IO_CONFIG_CONFIG_SCHEMA_H_
 

@@ -35,15 +35,9 @@ void ReadEffects(const ConfigCursor& root, Config& config);
 
 RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file);
 
-// Whether simulate's NAME.csv would overwrite a file of results, as the name "family" would.
-bool IsResultsName(std::string_view name);
-
 // A path with ${NAME} replaced from the environment. Throws UserError at `file` for a name that is
 // not set.
 std::string ExpandEnvironment(const ConfigCursor& file);
-
-// The key of a residual's standard deviation, with its unit: "std_relative", "std_deg" or "std".
-const char* ResidualStdKey(ResidualKind kind);
 
 }  // namespace howl
 

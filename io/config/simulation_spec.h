@@ -13,21 +13,10 @@
 
 #include "estimation/analysis/experiment.h"
 #include "model/effects/effect.h"
-#include "model/flame.h"
+#include "model/flame_shapes.h"
 #include "model/sweep.h"
 
 namespace howl {
-
-inline constexpr std::array kFlameShapes = {FlameShape::kTanh, FlameShape::kArctan,
-                                            FlameShape::kCubic, FlameShape::kPiecewiseLinear,
-                                            FlameShape::kAlgebraic};
-
-// The name in configs.
-constexpr std::string_view FlameShapeName(FlameShape shape) {
-  constexpr std::array<std::string_view, kFlameShapes.size()> kNames = {
-      "tanh", "arctan", "cubic", "piecewise_linear", "algebraic"};
-  return kNames[static_cast<std::size_t>(shape)];
-}
 
 // An effect of the catalogue that the simulated rig has.
 struct SimulatedEffect {

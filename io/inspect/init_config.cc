@@ -14,6 +14,7 @@
 #include "io/inspect/yaml_text.h"
 #include "io/records/number_text.h"
 #include "io/records/time_unit.h"
+#include "io/results/result_files.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "estimation/analysis/statistics.h"
 #include "io/records/number_text.h"
 
 namespace howl {
@@ -14,12 +15,6 @@ struct Candidate {
   std::size_t column = 0;
   double mean_over_std = 0.0;  // the median over the files
 };
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 std::string Ratio(const Candidate& candidate) {
   return "|mean| / std is " + NumberText(candidate.mean_over_std, 2);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "estimation/analysis/statistics.h"
 #include "io/records/number_text.h"
 
 namespace howl {
@@ -37,9 +38,7 @@ bool IsSamplingGrid(std::span<const double> times, double grid_s) {
   const std::size_t stride = std::max<std::size_t>(1, times.size() / kLooked);
   for (std::size_t i = 1; i < times.size(); i += stride) some.push_back(times[i] - times[i - 1]);
   if (some.empty()) return true;
-  const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
-  std::nth_element(some.begin(), middle, some.end());
-  const double typical = std::round(*middle / grid_s);
+  const double typical = std::round(Median(some) / grid_s);
   std::size_t others = 0;
   for (std::size_t i = 1; i < times.size(); ++i) {
     others += std::abs((times[i] - times[i - 1]) / grid_s - typical) > 0.5 ? 1 : 0;
@@ -86,10 +85,9 @@ double TypicalStep(std::span<const double> time_s, double resolution_s) {
     for (std::size_t i = 0; i + lag < n; i += stride) {
       steps.push_back(time_s[i + lag] - time_s[i]);
     }
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    if (*middle >= 100.0 * resolution_s || 4 * lag >= n) {
-      return std::max(0.0, *middle / static_cast<double>(lag));
+    const double middle = Median(steps);
+    if (middle >= 100.0 * resolution_s || 4 * lag >= n) {
+      return std::max(0.0, middle / static_cast<double>(lag));
     }
   }
   return 0.0;

@@ -12,6 +12,7 @@
 #include "io/records/records.h"
 #include "io/report/fault_words.h"
 #include "io/report/read_measured.h"
+#include "io/results/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -167,7 +168,7 @@ void NoteAbsent(ReportInput& input) {
   for (const Source& source :
        {Source{"analysis.json", "analyse", "spectral lines, flame curves and transfers", true},
         Source{"solution.json", "fit", "the fitted loops", false},
-        Source{"family.csv", "family", "what the data cannot reject, and the browser", false},
+        Source{kFamilyCsv, "family", "what the data cannot reject, and the browser", false},
         Source{"diagnosis.json", "diagnose", "where and why the model falls short", true}}) {
     if (source.needs_records && !has_records) continue;
     if (!std::filesystem::exists(input.folder / source.file)) {
@@ -267,19 +268,18 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
       [&](const auto& path) { input.diagnosis = ReadJson(path, "howl.diagnosis/1"); });
   Try(input, "trial.json", "trial",
       [&](const auto& path) { input.trial = ReadJson(path, "howl.trial/1"); });
-  Try(input, "transfer.csv", "analyse",
+  Try(input, kTransferCsv, "analyse",
       [&](const auto& path) { input.transfer = ReadCsvTable(path); });
-  Try(input, "flame_curve.csv", "analyse",
+  Try(input, kFlameCurveCsv, "analyse",
       [&](const auto& path) { input.flame_curve = ReadCsvTable(path); });
   // An empty family has neither members nor a trade-off.
   if (!input.FamilyIsEmpty()) {
-    Try(input, "tradeoff.csv", "family",
+    Try(input, kTradeoffCsv, "family",
         [&](const auto& path) { input.tradeoff = ReadCsvTable(path); });
   }
-  Try(input, "trial.csv", "trial",
-      [&](const auto& path) { input.trial_table = ReadCsvTable(path); });
-  Try(input, "lines.csv", "analyse", [&](const auto& path) { ReadLines(input, path); });
-  Try(input, "family.csv", "family", [&](const auto& path) {
+  Try(input, kTrialCsv, "trial", [&](const auto& path) { input.trial_table = ReadCsvTable(path); });
+  Try(input, kLinesCsv, "analyse", [&](const auto& path) { ReadLines(input, path); });
+  Try(input, kFamilyCsv, "family", [&](const auto& path) {
     const FamilyTable table = ReadFamilyCsv(path);
     if (table.rows.empty()) return;
     input.members = MakeFamilyMembers(

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "estimation/residual_spec.h"
+#include "io/config/config_schema.h"
 #include "tests/app/program.h"
 
 namespace howl {
@@ -192,6 +195,22 @@ TEST(CommandLine, HelpByCommand) {
   EXPECT_EQ(RunHowl("help").out, RunHowl("--help").out);
   EXPECT_EQ(RunHowl("").out, RunHowl("-h").out);
   EXPECT_EQ(RunHowl("help nonsense").status, 2);
+}
+
+// The schema for editors is that by which a config is read, with all residuals.
+TEST(CommandLine, HelpOnResidualsAndOnTheSchemaIsThatOfTheRegistry) {
+  const nlohmann::json schema = nlohmann::json::parse(RunHowl("help schema").out);
+  EXPECT_EQ(schema, ConfigSchema());
+  const std::string help = RunHowl("help residuals").out;
+  for (const ResidualKind kind : kResidualKinds) {
+    const std::string name(ResidualName(kind));
+    EXPECT_TRUE(schema["properties"]["residuals"]["properties"].contains(name)) << name;
+    EXPECT_THAT(help, HasSubstr(name + ": "));
+  }
+  std::string shown;  // as an example of the page
+  for (const char c : help) shown += c == '\n' ? std::string("\n    ") : std::string(1, c);
+  EXPECT_THAT(ReadFile(std::filesystem::path(HOWL_SOURCE_DIR) / "docs/config.md"),
+              HasSubstr("help residuals\n    " + shown.substr(0, shown.size() - 5)));
 }
 
 TEST(CommandLine, Version) {

@@ -60,6 +60,21 @@ class Held final : public NamedEffect {
   std::vector<double> values_;
 };
 
+// An effect without a line would be left out of the plan in silence.
+TEST(Plan, EveryTransferFunctionOfTheCatalogueHasASize) {
+  for (const int modes : {1, 2}) {
+    const std::vector<CutRecord> records =
+        MakeCutRecords(SimulateRig(), {.modes = modes, .harmonic_ratio = 2.9});
+    int transfer_functions = 0;
+    for (const EffectPointer& effect : Catalogue(modes, 2.9)) {
+      if (effect->kind() != EffectKind::kTransfer) continue;
+      ++transfer_functions;
+      EXPECT_FALSE(EffectLines(effect, records[0]).empty()) << effect->id();
+    }
+    EXPECT_GE(transfer_functions, 12);
+  }
+}
+
 // The gain to first order is what a full fit of the base's parameters loses when the effect is
 // held in the model of records that do not have it.
 TEST(Plan, GainsAreThoseOfAFitWithTheEffectHeld) {
@@ -73,7 +88,7 @@ TEST(Plan, GainsAreThoseOfAFitWithTheEffectHeld) {
   for (const std::string id : {"flame_lowpass", "delay_dispersion", "q_sensor_lowpass",
                                "channel_skew", "slow_drift", "delay_varies_with_phi"}) {
     const EffectPointer effect = Named(id);
-    const EffectLine line = EffectLines(effect, records[0].at)[0];
+    const EffectLine line = EffectLines(effect, records[0])[0];
     // The size at which the gain is some hundreds of nats, which noise changes by a tenth.
     double size = line.typical;
     double gain = 0.0;

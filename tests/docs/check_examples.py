@@ -6,7 +6,8 @@
 An example is an indented block that begins with `$ build/howl ...`; further lines with `$` run after
 it, and what follows is what the last of them prints. A line `...` stands for any lines. Numbers may differ by two
 units of their last digit, and by two percent; all other text has to be as it is. --update writes what
-the program prints now into the pages, line for line where the shown lines are found again.
+the program prints now into the pages: all of it, or where the block has lines `...` line for line what is
+found again.
 Examples whose config is not in configs/, or whose records are not on this machine, are passed over,
 saying so. Exit status 1 where a page shows what the program does not say.
 """
@@ -100,6 +101,8 @@ def misses(shown, printed):
 
 
 def updated(shown, printed):
+    if not any(line.strip() == "..." for line in shown):
+        return printed
     result = list(shown)
     at = 0
     for first, run in segments(shown):
@@ -156,7 +159,7 @@ def main():
             if options.only and page.name != options.only:
                 continue
             lines = page.read_text(encoding="utf-8").split("\n")
-            changed = list(lines)
+            edits = []
             for start, first, end, commands in examples(lines):
                 place = f"{page.name}:{start + 1}: {'; '.join(commands)}"
                 left_out = missing_config(commands, options.project)
@@ -170,14 +173,17 @@ def main():
                 shown = [line[len(INDENT):] for line in lines[first:end]]
                 compared += 1
                 if options.update:
-                    changed[first:end] = [(INDENT + line).rstrip() for line in
-                                          updated(shown, printed)]
+                    edits.append((first, end, [(INDENT + line).rstrip() for line in
+                                               updated(shown, printed)]))
                     continue
                 missed = misses(shown, printed)
                 if missed is not None:
                     failed += 1
                     print(f"{place}\n  shows:  {missed}\n  prints: "
                           + "\n          ".join(printed[:60]))
+            changed = list(lines)
+            for first, end, new in reversed(edits):
+                changed[first:end] = new
             if changed != lines:
                 page.write_text("\n".join(changed), encoding="utf-8")
     print(f"{compared} examples compared, {failed} show what the program does not print")

@@ -13,7 +13,7 @@ import sys
 # In order: a room may use those that stand before it.
 LISTS = {
     "": ["model", "estimation", "diagnosis", "trial", "io", "app"],
-    "estimation": ["estimation/residuals", "estimation/analysis", "estimation/fit",
+    "estimation": ["estimation/analysis", "estimation/residuals", "estimation/fit",
                    "estimation/family/problem", "estimation/family/local",
                    "estimation/family/members", "estimation/family/bounds",
                    "estimation/family/answers", "estimation/health"],

@@ -199,7 +199,7 @@ std::optional<double> ChangeSearch::NearestLocally() {
   }
   std::optional<double> nearest;
   for (const Member& start : starts) {
-    const std::optional<LocalSolution> inside = search_without.FindMember(start);
+    const std::optional<LocalSolution> inside = search_without.ReduceViolation(start);
     if (!inside || !Holds(without, inside->member)) continue;
     const std::optional<LocalSolution> solution = search.Minimise(inside->member, soft);
     if (!solution || !Holds(without, solution->member)) continue;
@@ -217,7 +217,7 @@ void ChangeSearch::LeastViolated() {
   double least = kInfinity;
   const auto try_start = [&](const std::optional<Member>& start) {
     if (!start) return;
-    const std::optional<LocalSolution> solution = search.FindMember(*start);
+    const std::optional<LocalSolution> solution = search.ReduceViolation(*start);
     if (!solution || solution->violation >= least) return;
     least = solution->violation;
     member_ = solution->member;

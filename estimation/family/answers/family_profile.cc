@@ -103,7 +103,7 @@ std::optional<Profile> ProfileFamily(const FamilyProblem& problem, const MemberQ
     for (const double sign : {-1.0, 1.0}) {
       if (const auto far = search.Farthest(start, quantity, sign, scale)) widen(*far);
     }
-    const std::optional<LocalSolution> inside = search.FindMember(start);
+    const std::optional<LocalSolution> inside = search.ReduceViolation(start);
     if (!inside || !Holds(problem, inside->member)) continue;
     std::optional<LocalSolution> fit = search.Minimise(inside->member, soft);
     if (fit && (!best || fit->violation < best->violation)) best = std::move(fit);

@@ -21,7 +21,7 @@ constexpr std::size_t kFewestPaths = 400;
 
 double ArgOfG(double frequency_hz, double tau_s) {
   const double turn = 2.0 * std::numbers::pi;
-  return std::remainder(kRadPerSPerHz * frequency_hz * tau_s - 1.5 * std::numbers::pi, turn);
+  return std::remainder(kRadPerSPerHz * frequency_hz * tau_s - LoopTurns(0.0, 0), turn);
 }
 
 // ln |Phi'(0)|, drawn within its error; NaN where it is not known.
@@ -103,7 +103,7 @@ std::optional<OperatingLoop> MemberPath::LoopOf(const Coordinates& y) const {
   if (!two_modes_) {
     model = ClosedFormMember(experiment, xi);
   } else if (!SolveTwoMode(experiment, xi, harmonic_ratio_,
-                           second_is_M_ ? SecondMode::kM : SecondMode::kMOverN, second, {},
+                           second_is_M_ ? HeldSecond::kM : HeldSecond::kMOverN, second, {},
                            model)) {
     return std::nullopt;
   }

@@ -59,7 +59,7 @@ LocalLeast LeastXiLocally(FamilyProblem problem, const std::vector<Member>& star
   problem.test.xi_max = std::numeric_limits<double>::infinity();
   const LocalSearch free(problem);
   for (const Member& start : starts) {
-    const std::optional<LocalSolution> inside = free.FindMember(start);
+    const std::optional<LocalSolution> inside = free.ReduceViolation(start);
     if (!inside || !Holds(problem, inside->member)) continue;
     FamilyProblem limited = problem;
     limited.test.xi_max = 1.01 * LargestXi(inside->member);

@@ -37,7 +37,7 @@ std::optional<Member> FindMemberLocally(const FamilyProblem& problem) {
   if (!search.IsSupported()) return std::nullopt;
   const auto inside = [&](const std::optional<Member>& start) -> std::optional<Member> {
     if (!start) return std::nullopt;
-    std::optional<LocalSolution> found = search.FindMember(*start);
+    std::optional<LocalSolution> found = search.ReduceViolation(*start);
     if (!found || !Holds(problem, found->member)) return std::nullopt;
     return std::move(found->member);
   };
@@ -55,7 +55,7 @@ std::optional<Member> FindMemberLocally(const FamilyProblem& problem) {
 
 std::optional<Member> FindMemberNear(const FamilyProblem& problem, const Member& start) {
   if (Holds(problem, start)) return start;
-  std::optional<LocalSolution> found = LocalSearch(problem).FindMember(start);
+  std::optional<LocalSolution> found = LocalSearch(problem).ReduceViolation(start);
   if (!found || !Holds(problem, found->member)) return std::nullopt;
   return std::move(found->member);
 }

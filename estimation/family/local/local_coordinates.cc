@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "estimation/analysis/closed_form.h"
 #include "estimation/family/problem/transfer_limit.h"
 #include "model/units.h"
 
@@ -92,8 +93,8 @@ void ShareTheDelay(LocalCoordinates& c) {
   Range tau_s{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < c.targets.size(); ++i) {
     const double w = c.targets[i].w_rad_s;
-    const double middle =
-        (1.5 * kPi + c.scales[i].phase_0 + 2.0 * kPi * c.problem.domain.delay_periods) / w;
+    const double middle = TauFromPhase(c.targets[i].frequency_hz, c.scales[i].phase_0, 0.0,
+                                       c.problem.domain.delay_periods);
     tau_s = {std::max(tau_s.lo, middle - kPi / w), std::min(tau_s.hi, middle + kPi / w)};
     c.tau_0_s += middle / n;
     c.tau_scale_s += c.scales[i].loop_phase / w / n;

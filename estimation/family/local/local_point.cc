@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <type_traits>
 
+#include "estimation/analysis/closed_form.h"
 #include "model/loop.h"
 #include "model/second_mode.h"
 
@@ -180,8 +180,7 @@ bool BuildLocalPoint(const LocalCoordinates& c, std::size_t experiment,
   const T root = sqrt(across * across + 1.0);
   const T top = f * (root - across);
   point.ln_xi = v[kLocalXi];
-  const T turns =
-      1.5 * std::numbers::pi + theta + 2.0 * std::numbers::pi * c.problem.domain.delay_periods;
+  const T turns = LoopTurns(theta, c.problem.domain.delay_periods);
   if (c.shared_tau) {
     point.tau_s = c.tau_0_s + c.tau_scale_s * v[kLocalDelay];
     point.loop_phase_rad = turns - w * point.tau_s;

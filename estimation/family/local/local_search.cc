@@ -59,7 +59,8 @@ LocalSearch::~LocalSearch() = default;
 
 bool LocalSearch::IsSupported() const { return impl_->coordinates.supported; }
 
-std::optional<LocalSolution> LocalSearch::FindMember(const Member& start, double enough) const {
+std::optional<LocalSolution> LocalSearch::ReduceViolation(const Member& start,
+                                                          double enough) const {
   const LocalCoordinates& c = impl_->coordinates;
   LocalState state;
   if (!c.supported || !StateOf(c, start, state)) return std::nullopt;
@@ -110,7 +111,7 @@ std::optional<LocalSolution> LocalSearch::Minimise(const Member& start, const Co
 
 std::optional<Member> LocalSearch::Farthest(const Member& start, const MemberQuantity& quantity,
                                             double sign, double scale) const {
-  const std::optional<LocalSolution> inside = FindMember(start);
+  const std::optional<LocalSolution> inside = ReduceViolation(start);
   if (!inside || !(inside->violation < 1.0)) return std::nullopt;
   const LocalCoordinates& c = impl_->coordinates;
   LocalState state;

@@ -36,7 +36,7 @@ class LocalSearch {
 
   // Minimises the largest violation of all conditions until it is below `enough`. No value where
   // the start is no model of the kind (a second mode that no omega goes with).
-  std::optional<LocalSolution> FindMember(const Member& start, double enough = 0.97) const;
+  std::optional<LocalSolution> ReduceViolation(const Member& start, double enough = 0.97) const;
 
   // Minimises the largest violation of the conditions in `soft` among the models that keep the
   // others, `start` being one. With a quantity, among those where it has the value `at`.

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/analysis/closed_form.h"
 #include "estimation/family/members/chain.h"
 #include "estimation/family/members/chain_front.h"
 #include "estimation/family/members/sample.h"
 #include "estimation/family/members/transfer_starts.h"
 #include "estimation/family/members/window.h"
-#include "estimation/fit/two_mode_solve.h"
+#include "estimation/family/problem/member_chart.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -20,10 +19,6 @@ constexpr std::size_t kChunk = 256;        // members a unit of work
 constexpr std::size_t kAttemptsPer = 400;  // attempts a member before a unit gives up
 constexpr int kRootCells = 12;
 constexpr int kMaxRoots = 4;
-constexpr double kXiCap = 10.0;  // stands for "no upper limit"
-// Below it, omega is so close to f that the phase of G loses the digits that the test needs.
-constexpr double kTinyXi = 1e-5;
-constexpr double kThreeHalvesPi = 1.5 * std::numbers::pi;
 
 Range Intersection(const Range& a, const Range& b) {
   return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
@@ -40,15 +35,11 @@ double Pick(UnitRandom& random, const Range& range, double end) {
 
 }  // namespace
 
-struct MemberDrawer::Impl {
+struct MemberDrawer::Impl : MemberChart {
   FamilyProblem problem;
   WindowProblem window;
-  std::vector<ExperimentTarget> targets;
   XiChain chain;
-  bool two_modes, shared_omega, shared_xi, shared_N, shared_second, shared_tau;
-  double ratio;
-  ParameterKind second_kind;
-  Range xi, omega, N, second, tau;
+  Range omega, N, second, tau;
   std::vector<Range> own_xi;
   Range window_support, second_support, N_support;
   bool supported = false;
@@ -56,21 +47,10 @@ struct MemberDrawer::Impl {
   Range preview_support;              // windows outside have no member
 
   explicit Impl(const FamilyProblem& p)
-      : problem(p),
+      : MemberChart(p),
+        problem(p),
         window(MakeWindowProblem(p)),
-        targets(window.targets),
         chain(targets, p.test.xi_increasing) {
-    two_modes = p.model.modes == 2;
-    ratio = p.model.harmonic_ratio;
-    second_kind = p.model.second_mode_relative ? ParameterKind::kMOverN : ParameterKind::kM;
-    shared_omega = p.IsShared(ParameterKind::kOmega);
-    shared_xi = p.IsShared(ParameterKind::kXi);
-    shared_N = p.IsShared(ParameterKind::kN);
-    shared_second = two_modes && p.IsShared(second_kind);
-    shared_tau = p.IsShared(ParameterKind::kTau);
-    xi = window.xi;
-    xi.lo = std::max(xi.lo, kTinyXi);
-    xi.hi = std::min(xi.hi, std::max(kXiCap, 10.0 * xi.lo));
     omega = p.RangeOf(ParameterKind::kOmega);
     N = p.RangeOf(ParameterKind::kN);
     second = p.RangeOf(second_kind);
@@ -174,31 +154,20 @@ struct MemberDrawer::Impl {
   bool DrawTau(UnitRandom& random, const Range& within, DrawGlobals& globals,
                std::vector<Range>& phases) const {
     Range allowed = within;
-    const double turns = kThreeHalvesPi + 2.0 * std::numbers::pi * problem.domain.delay_periods;
     for (const ExperimentTarget& target : targets) {
-      allowed = Intersection(
-          allowed,
-          {(turns + target.phase_rad.lo - target.loop_phase_error_rad.hi) / target.w_rad_s,
-           (turns + target.phase_rad.hi - target.loop_phase_error_rad.lo) / target.w_rad_s});
+      allowed =
+          Intersection(allowed, {Tau(target, target.phase_rad.lo, target.loop_phase_error_rad.hi),
+                                 Tau(target, target.phase_rad.hi, target.loop_phase_error_rad.lo)});
     }
     if (IsEmpty(allowed)) return false;
     globals.tau_s = random.Uniform(allowed);
     for (std::size_t i = 0; i < targets.size(); ++i) {
-      const double centre = globals.tau_s * targets[i].w_rad_s - turns;
+      const double centre = -LoopPhaseError(targets[i], 0.0, globals.tau_s);
       phases[i] = Intersection(phases[i], {centre + targets[i].loop_phase_error_rad.lo,
                                            centre + targets[i].loop_phase_error_rad.hi});
       if (IsEmpty(phases[i])) return false;
     }
     return true;
-  }
-
-  TwoModeEquation Equation(std::size_t i, double xi_i, double phase, double gain,
-                           const DrawGlobals& globals) const {
-    const bool relative = second_kind == ParameterKind::kMOverN || shared_N;
-    const double held =
-        second_kind == ParameterKind::kM && shared_N ? globals.second / globals.N : globals.second;
-    return MakeTwoModeEquation(targets[i].frequency_hz, xi_i, ratio, phase, gain,
-                               relative ? SecondMode::kMOverN : SecondMode::kM, held);
   }
 
   // Hull of the xi for which a grid of the window has a solution: a guide for the draw alone.
@@ -211,7 +180,8 @@ struct MemberDrawer::Impl {
         const double omega_hz =
             window_hz.lo * std::pow(window_hz.hi / window_hz.lo, double(k) / kOmegaPoints);
         TwoModeEquation equation =
-            Equation(i, 0.0, theta, 0.5 * (targets[i].gain.lo + targets[i].gain.hi), globals);
+            Equation(targets[i], 0.0, theta, 0.5 * (targets[i].gain.lo + targets[i].gain.hi),
+                     globals.second, globals.N);
         const auto at = [&](double value) {
           equation.xi = value;
           return equation(omega_hz);
@@ -266,10 +236,8 @@ struct MemberDrawer::Impl {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       Range here{1e300, 0.0};
       for (const double theta : {phases[i].lo, phases[i].hi}) {
-        const double t = std::tan(-theta);
         const auto at = [&](double gain, double value) {
-          const double n = gain * 2.0 * value * kRadPerSPerHz *
-                           OmegaFromDetuning(targets[i].frequency_hz, value * t) / std::cos(theta);
+          const double n = OneModeN(TopOmega(targets[i], value, theta), value, theta, gain);
           here = {std::min(here.lo, n), std::max(here.hi, n)};
         };
         at(targets[i].gain.lo, xis[i].lo);
@@ -357,19 +325,19 @@ struct MemberDrawer::Impl {
     }
     const double theta = Pick(random, allowed, focus.phase_end);
     const double gain = Pick(random, target.gain, focus.gain_end);
-    const double omega_1 = OmegaFromDetuning(f, xi_i * std::tan(-theta));
+    const double omega_1 = TopOmega(target, xi_i, theta);
     if (!two_modes) {
       model.omega_hz = shared_omega ? window_hz.lo : omega_1;
-      model.N =
-          shared_N ? globals.N : gain * 2.0 * xi_i * kRadPerSPerHz * omega_1 / std::cos(theta);
+      model.N = shared_N ? globals.N : OneModeN(omega_1, xi_i, theta, gain);
     } else {
       const Range wedge = Intersection({omega_1 / ratio, omega_1}, window_hz);
       if (IsEmpty(wedge)) return false;
       if (shared_second) {
         std::array<double, kMaxRoots> roots{};
         const double least = LeastOmega(f, xi_i, std::tan(-theta), wedge);
-        const int count = FindRoots<kMaxRoots>(Equation(i, xi_i, theta, gain, globals), least,
-                                               wedge.hi, kRootCells, roots);
+        const int count =
+            FindRoots<kMaxRoots>(Equation(target, xi_i, theta, gain, globals.second, globals.N),
+                                 least, wedge.hi, kRootCells, roots);
         if (count == 0) return false;
         model.omega_hz = roots[random.Index(static_cast<std::size_t>(count))];
       } else {
@@ -377,8 +345,7 @@ struct MemberDrawer::Impl {
         model.omega_hz = Pick(random, {least, wedge.hi}, focus.omega_end);
       }
       if (shared_omega) model.omega_hz = window_hz.lo;
-      const ModeCoefficients coefficients =
-          CoefficientsFromResponse(f, model.omega_hz, xi_i, ratio, theta, gain);
+      const ModeCoefficients coefficients = Coefficients(target, model.omega_hz, xi_i, theta, gain);
       model.N = coefficients.N;
       model.M = coefficients.M;
       if (shared_N) {
@@ -386,7 +353,7 @@ struct MemberDrawer::Impl {
         model.M *= globals.N / coefficients.N;
       }
       if (shared_second) {
-        model.M = second_kind == ParameterKind::kM ? globals.second : globals.second * model.N;
+        model.M = MOf(globals.second, model.N);
       }
     }
     return KeepsSecond(i, model) && SetTau(random, i, theta, globals, focus, model);
@@ -425,16 +392,12 @@ struct MemberDrawer::Impl {
     }
     const ExperimentTarget& target = targets[i];
     if (!two_modes || problem.experiments[i].lines.empty()) {
-      model.tau_s = TauFromPhase(target.frequency_hz, theta,
-                                 Pick(random, target.loop_phase_error_rad, focus.loop_phase_end),
-                                 problem.domain.delay_periods);
+      model.tau_s =
+          Tau(target, theta, Pick(random, target.loop_phase_error_rad, focus.loop_phase_end));
       return true;
     }
-    const auto tau_at = [&](double error) {
-      return TauFromPhase(target.frequency_hz, theta, error, problem.domain.delay_periods);
-    };
-    std::vector<Range> allowed{
-        {tau_at(target.loop_phase_error_rad.hi), tau_at(target.loop_phase_error_rad.lo)}};
+    std::vector<Range> allowed{{Tau(target, theta, target.loop_phase_error_rad.hi),
+                                Tau(target, theta, target.loop_phase_error_rad.lo)}};
     const double tolerance = problem.test.second_crossing_tolerance_deg * kRadPerDeg * (1.0 - 1e-9);
     if (two_modes && tolerance < std::numbers::pi) {
       for (const ObservedLine& line : problem.experiments[i].lines) {
@@ -477,18 +440,10 @@ struct MemberDrawer::Impl {
     const Complex<double> first = mode(1.0);
     const Complex<double> other = mode(ratio);
     const double gain = Pick(random, target.gain, focus.gain_end);
-    if (second_kind == ParameterKind::kMOverN) {
-      model.N = shared_N ? globals.N : gain / Magnitude(first + globals.second * other);
-      model.M = globals.second * model.N;
-    } else {
-      // |N U_1 + M U_r| = gain, the larger root.
-      model.M = globals.second;
-      const double b = model.M * (first.re * other.re + first.im * other.im);
-      const double c = model.M * model.M * SquaredMagnitude(other) - gain * gain;
-      const double discriminant = b * b - SquaredMagnitude(first) * c;
-      if (!(discriminant >= 0.0)) return false;
-      model.N = shared_N ? globals.N : (std::sqrt(discriminant) - b) / SquaredMagnitude(first);
-    }
+    const std::optional<double> n = NOfGain(first, other, gain, globals.second);
+    if (!n) return false;
+    model.N = shared_N ? globals.N : *n;
+    model.M = MOf(globals.second, model.N);
     const double theta = Angle(model.N * first + model.M * other);
     return KeepsSecond(i, model) && SetTau(random, i, theta, globals, focus, model);
   }

@@ -8,9 +8,8 @@
 #include "estimation/family/members/convergence.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/transfer_starts.h"
-#include "estimation/family/problem/targets.h"
+#include "estimation/family/problem/member_chart.h"
 #include "estimation/family/problem/transfer_limit.h"
-#include "estimation/fit/two_mode_solve.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -20,9 +19,6 @@ namespace {
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr int kMaxRoots = 4;
 constexpr int kRootCells = 24;
-constexpr double kXiCap = 10.0;
-// Below it, omega is so close to f that the phase of G loses the digits that the test needs.
-constexpr double kTinyXi = 1e-5;
 
 // One experiment in the sampler's coordinates and in natural ones.
 struct Place {
@@ -49,17 +45,7 @@ struct State {
 class Chart {
  public:
   explicit Chart(const FamilyProblem& problem)
-      : problem_(problem),
-        targets_(MakeTargets(problem)),
-        chain_(targets_, problem.test.xi_increasing) {
-    two_modes_ = problem.model.modes == 2;
-    relative_ = problem.model.second_mode_relative;
-    second_kind_ = relative_ ? ParameterKind::kMOverN : ParameterKind::kM;
-    shared_omega_ = problem.IsShared(ParameterKind::kOmega);
-    shared_xi_ = problem.IsShared(ParameterKind::kXi);
-    shared_N_ = problem.IsShared(ParameterKind::kN);
-    shared_tau_ = problem.IsShared(ParameterKind::kTau);
-    shared_second_ = two_modes_ && problem.IsShared(second_kind_);
+      : problem_(problem), chart_(problem), chain_(targets_, problem.test.xi_increasing) {
     has_lines_ = two_modes_ && problem.test.second_crossing_tolerance_deg < 180.0 &&
                  std::any_of(problem.experiments.begin(), problem.experiments.end(),
                              [](const Experiment& e) { return !e.lines.empty(); });
@@ -68,10 +54,6 @@ class Chart {
       transfer_limits_.push_back((1.0 - 1e-12) *
                                  TransferLimit(experiment, problem.test, two_modes_));
     }
-    ratio_ = problem.model.harmonic_ratio;
-    xi_ = problem.RangeOf(ParameterKind::kXi);
-    xi_.lo = std::max(xi_.lo, kTinyXi);
-    xi_.hi = std::min({xi_.hi, problem.test.xi_max, std::max(kXiCap, 10.0 * xi_.lo)});
     for (std::size_t i = 0; i < problem.experiments.size(); ++i) {
       std::array<Range, kNumParameterKinds>& own = ranges_.emplace_back();
       for (const ParameterKind kind : kParameterKinds) {
@@ -135,9 +117,7 @@ class Chart {
                    place.xi,
                    place.N * gain_factor,
                    place.M,
-                   shared_tau_ ? state.tau_s
-                               : TauFromPhase(targets_[i].frequency_hz, place.phase, loop_phase,
-                                              problem_.domain.delay_periods),
+                   shared_tau_ ? state.tau_s : chart_.Tau(targets_[i], place.phase, loop_phase),
                    ratio_};
     }
   }
@@ -259,32 +239,26 @@ class Chart {
 
   Range OmegaRange(const State& state, std::size_t i) const {
     const Place& place = state.places[i];
-    const double top =
-        OmegaFromDetuning(targets_[i].frequency_hz, place.xi * std::tan(-place.phase));
+    const double top = MemberChart::TopOmega(targets_[i], place.xi, place.phase);
     return {top / ratio_, top};
   }
 
   int Roots(std::size_t i, const Place& place, const State& state,
             std::array<double, kMaxRoots>& roots) const {
-    const bool relative = relative_ || shared_N_;
-    const double held = !relative_ && shared_N_ ? state.second / state.N : state.second;
     const TwoModeEquation equation =
-        MakeTwoModeEquation(targets_[i].frequency_hz, place.xi, ratio_, place.phase, place.gain,
-                            relative ? SecondMode::kMOverN : SecondMode::kM, held);
-    const double top =
-        OmegaFromDetuning(targets_[i].frequency_hz, place.xi * std::tan(-place.phase));
+        chart_.Equation(targets_[i], place.xi, place.phase, place.gain, state.second, state.N);
+    const double top = MemberChart::TopOmega(targets_[i], place.xi, place.phase);
     return FindRoots<kMaxRoots>(equation, top / ratio_, top, kRootCells, roots);
   }
 
   // Natural parameters and density from the coordinates; false where there is no member.
   bool Build(std::size_t i, const State& state, Place& place) const {
     const ExperimentTarget& target = targets_[i];
-    const double f = target.frequency_hz;
     if (shared_xi_) place.xi = state.xi;
     if (shared_omega_) place.omega_hz = state.omega_hz;
     const double w = target.w_rad_s;
     if (!two_modes_ && !shared_omega_) {
-      place.omega_hz = OmegaFromDetuning(f, place.xi * std::tan(-place.phase));
+      place.omega_hz = MemberChart::TopOmega(target, place.xi, place.phase);
     } else if (NeedsRoot()) {
       std::array<double, kMaxRoots> roots{};
       const int count = Roots(i, place, state, roots);
@@ -295,31 +269,26 @@ class Chart {
     const Complex<double> first = UnitModeResponse(omega, place.xi, w);
     const Complex<double> other =
         two_modes_ ? UnitModeResponse(ratio_ * omega, place.xi, w) : Complex<double>{0.0, 0.0};
-    const Complex<double> direction = first + (relative_ ? state.second : 0.0) * other;
     place.M = 0.0;
+    const auto coefficients = [&] {
+      return chart_.Coefficients(target, place.omega_hz, place.xi, place.phase, place.gain);
+    };
     if (two_modes_ && !shared_second_) {
-      const ModeCoefficients c =
-          CoefficientsFromResponse(f, place.omega_hz, place.xi, ratio_, place.phase, place.gain);
+      const ModeCoefficients c = coefficients();
       if (!(c.N > 0.0) || !(c.M > 0.0)) return false;
       place.N = c.N;
       place.M = c.M;
     } else if (shared_N_) {
       place.N = state.N;
     } else if (two_modes_ && !relative_ && !shared_omega_) {
-      place.N =
-          CoefficientsFromResponse(f, place.omega_hz, place.xi, ratio_, place.phase, place.gain).N;
-    } else if (two_modes_ && !relative_) {
-      const double b = state.second * (first.re * other.re + first.im * other.im);
-      const double c =
-          state.second * state.second * SquaredMagnitude(other) - place.gain * place.gain;
-      const double discriminant = b * b - SquaredMagnitude(first) * c;
-      if (!(discriminant > 0.0)) return false;
-      place.N = (std::sqrt(discriminant) - b) / SquaredMagnitude(first);
+      place.N = coefficients().N;
     } else {
-      place.N = place.gain / Magnitude(direction);
+      const std::optional<double> n = chart_.NOfGain(first, other, place.gain, state.second);
+      if (!n) return false;
+      place.N = *n;
     }
     if (!(place.N > 0.0)) return false;
-    if (two_modes_ && shared_second_) place.M = relative_ ? state.second * place.N : state.second;
+    if (two_modes_ && shared_second_) place.M = chart_.MOf(state.second, place.N);
     const Complex<double> z = place.N * first + place.M * other;
     // What the coordinates do not fix is derived, and must lie within its tolerance.
     if (shared_omega_ && !(two_modes_ && !shared_second_)) {
@@ -331,8 +300,7 @@ class Chart {
       if (!target.gain.Contains(place.gain)) return false;
     }
     if (shared_tau_) {
-      place.loop_phase = 1.5 * std::numbers::pi + place.phase +
-                         2.0 * std::numbers::pi * problem_.domain.delay_periods - w * state.tau_s;
+      place.loop_phase = chart_.LoopPhaseError(target, place.phase, state.tau_s);
       if (!target.loop_phase_error_rad.Contains(place.loop_phase)) return false;
     }
     place.log_density = LogJacobian(place, first, other, z, omega, w);
@@ -479,17 +447,21 @@ class Chart {
 
   const FamilyProblem& problem_;
   std::vector<std::array<Range, kNumParameterKinds>> ranges_;  // of each experiment
-  std::vector<ExperimentTarget> targets_;
+  MemberChart chart_;
+  const std::vector<ExperimentTarget>& targets_ = chart_.targets;
+  const ParameterKind second_kind_ = chart_.second_kind;
+  const bool two_modes_ = chart_.two_modes, relative_ = chart_.relative,
+             shared_omega_ = chart_.shared_omega, shared_xi_ = chart_.shared_xi,
+             shared_N_ = chart_.shared_N, shared_tau_ = chart_.shared_tau,
+             shared_second_ = chart_.shared_second;
+  const double ratio_ = chart_.ratio;
+  const Range xi_ = chart_.xi;
   std::vector<double> transfer_limits_;
   XiChain chain_;
-  ParameterKind second_kind_;
-  bool two_modes_, relative_, shared_omega_, shared_xi_, shared_N_, shared_tau_, shared_second_;
   bool has_lines_;
   bool free_gain_, free_loop_phase_;
-  double ratio_;
   double factor_;
   State widths_;
-  Range xi_;
 };
 
 constexpr std::size_t kModelParameters = 5;

@@ -26,7 +26,7 @@ std::optional<Member> FindMemberInSteps(const FamilyProblem& problem, const Loca
   Member from = start;
   double violation = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMostSearches; ++k) {
-    std::optional<LocalSolution> solution = search.FindMember(from, kWellInside);
+    std::optional<LocalSolution> solution = search.ReduceViolation(from, kWellInside);
     if (!solution || !(solution->violation < kNearer * violation)) return std::nullopt;
     if (Holds(problem, solution->member)) return std::move(solution->member);
     violation = solution->violation;

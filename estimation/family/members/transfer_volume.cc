@@ -45,7 +45,7 @@ std::optional<double> LeastDistance(const FamilyProblem& without, const FamilyPr
   soft.Insert(Condition::kTransfer);
   std::optional<double> least;
   for (const Member& start : starts) {
-    const std::optional<LocalSolution> member = search.FindMember(start);
+    const std::optional<LocalSolution> member = search.ReduceViolation(start);
     if (!member || !Holds(without, member->member)) continue;
     const std::optional<LocalSolution> near = nearest.Minimise(member->member, soft);
     if (!near || !Holds(without, near->member)) continue;

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "estimation/analysis/closed_form.h"
-#include "estimation/family/problem/targets.h"
-#include "estimation/fit/two_mode_solve.h"
+#include "estimation/family/problem/member_chart.h"
 
 namespace howl {
 
@@ -42,11 +40,10 @@ double FallingRoot(const Function& function, double lo, double hi) {
 class Greedy {
  public:
   explicit Greedy(const FamilyProblem& problem)
-      : problem_(problem), targets_(MakeTargets(problem, kInside)), order_(targets_.size()) {
+      : problem_(problem), chart_(problem, kInside), order_(targets_.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::ranges::stable_sort(
         order_, [&](std::size_t a, std::size_t b) { return targets_[a].phi < targets_[b].phi; });
-    held_ = problem.IsShared(ParameterKind::kM) ? SecondMode::kM : SecondMode::kMOverN;
     xi_ = problem.RangeOf(ParameterKind::kXi);
     xi_.lo = std::max(xi_.lo, 1e-6);
     xi_.hi = std::min({xi_.hi, problem.test.xi_max, kLargestXi});
@@ -123,10 +120,9 @@ class Greedy {
   // On the branch where the first mode carries the fundamental: at or below the one-mode solution.
   double Omega(const ExperimentTarget& target, double xi, double phase, double gain,
                double second) const {
-    const double f = target.frequency_hz;
-    const double r = problem_.model.harmonic_ratio;
-    const auto equation = MakeTwoModeEquation(f, xi, r, phase, gain, held_, second);
-    const double one_mode = OmegaFromDetuning(f, xi * std::tan(-phase));
+    const double r = chart_.ratio;
+    const TwoModeEquation equation = chart_.Equation(target, xi, phase, gain, second, kNaN);
+    const double one_mode = MemberChart::TopOmega(target, xi, phase);
     double x0 = one_mode;
     double f0 = equation(x0);
     if (second == 0.0) return x0;
@@ -226,15 +222,11 @@ class Greedy {
         const double gain = share(target.gain, loud ? 2 - g : g, 2);
         const double omega = Omega(target, xi, phase, gain, second);
         if (!(omega >= window.lo && omega <= window.hi * (1.0 + 1e-11))) continue;
-        const ModeCoefficients mode = CoefficientsFromResponse(
-            target.frequency_hz, omega, xi, problem_.model.harmonic_ratio, phase, gain);
-        model = {omega,  xi,
-                 mode.N, held_ == SecondMode::kM ? second : second * mode.N,
-                 0.0,    problem_.model.harmonic_ratio};
+        const double N = chart_.Coefficients(target, omega, xi, phase, gain).N;
+        model = {omega, xi, N, chart_.MOf(second, N), 0.0, chart_.ratio};
         for (int l = 0; l <= kLoopPhases; ++l) {
-          model.tau_s = TauFromPhase(target.frequency_hz, phase,
-                                     share(target.loop_phase_error_rad, l, kLoopPhases),
-                                     problem_.domain.delay_periods);
+          model.tau_s =
+              chart_.Tau(target, phase, share(target.loop_phase_error_rad, l, kLoopPhases));
           if (IsMember(std::span(&problem_.experiments[i], 1), std::span(&model, 1),
                        problem_.test)) {
             return true;
@@ -246,9 +238,9 @@ class Greedy {
   }
 
   const FamilyProblem& problem_;
-  std::vector<ExperimentTarget> targets_;
+  MemberChart chart_;
+  const std::vector<ExperimentTarget>& targets_ = chart_.targets;
   std::vector<std::size_t> order_;  // by phi
-  SecondMode held_;
   Range xi_;
   Range omega_;
   double factor_;

@@ -7,15 +7,16 @@
 #include <cstdint>
 
 #include "estimation/family/problem/problem.h"
+#include "estimation/unit_seed.h"
 
 namespace howl {
 
 class UnitRandom {
  public:
-  UnitRandom(std::uint64_t seed, std::uint64_t key) : state_(Mix(Mix(seed) ^ (key * kStep))) {}
+  UnitRandom(std::uint64_t seed, std::uint64_t key)
+      : state_(FinaliseBits(FinaliseBits(seed) ^ (key * kSplitMixStep))) {}
 
-  // Splitmix64 (Steele, Lea, Flood 2014).
-  std::uint64_t Next() { return Mix(state_ += kStep); }
+  std::uint64_t Next() { return FinaliseBits(state_ += kSplitMixStep); }
   // In (0, 1).
   double Uniform() { return (static_cast<double>(Next() >> 11) + 0.5) * 0x1p-53; }
   double Uniform(const Range& range) { return range.lo + (range.hi - range.lo) * Uniform(); }
@@ -30,17 +31,11 @@ class UnitRandom {
     return std::sqrt(2.0 * Exponential()) * std::cos(2.0 * std::numbers::pi * Uniform());
   }
   // As if that many numbers had been drawn.
-  void Skip(std::uint64_t numbers) { state_ += numbers * kStep; }
+  void Skip(std::uint64_t numbers) { state_ += numbers * kSplitMixStep; }
   std::uint64_t State() const { return state_; }
   void SetState(std::uint64_t state) { state_ = state; }
 
  private:
-  static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;
-  static std::uint64_t Mix(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return z ^ (z >> 31);
-  }
   std::uint64_t state_;
 };
 

@@ -8,16 +8,14 @@
 #include <numbers>
 
 #include "estimation/analysis/analyse.h"
-#include "estimation/residuals/flame_bin_residual.h"
+#include "estimation/analysis/flame_bin_residual.h"
+#include "model/flame_shapes.h"
 #include "model/harmonic_balance.h"
 #include "model/simulate.h"
 #include "tests/residual_jacobian.h"
 
 namespace howl {
 namespace {
-
-constexpr std::array kShapes = {FlameShape::kTanh, FlameShape::kArctan, FlameShape::kCubic,
-                                FlameShape::kPiecewiseLinear, FlameShape::kAlgebraic};
 
 // The curve that a flame without noise would show: exact values of Phi in 40 bins.
 FlameCurve ExactCurve(const Flame<double>& flame, double v_amplitude, double mean) {
@@ -33,7 +31,7 @@ FlameCurve ExactCurve(const Flame<double>& flame, double v_amplitude, double mea
 }
 
 TEST(FlameShape, ResidualsJacobianIsCorrect) {
-  for (const FlameShape shape : kShapes) {
+  for (const FlameShape shape : kFlameShapes) {
     for (const double v : {-9000.0, -2000.0, 500.0, 7000.0}) {
       const std::unique_ptr<ceres::CostFunction> cost(
           FlameBinResidual::Create({shape, -2e-4, v, 0.3, 0.05}));
@@ -44,7 +42,7 @@ TEST(FlameShape, ResidualsJacobianIsCorrect) {
 }
 
 TEST(FlameShape, EachShapeIsFoundWithItsSaturationOffsetAndMean) {
-  for (const FlameShape shape : kShapes) {
+  for (const FlameShape shape : kFlameShapes) {
     for (const double relative_offset : {-0.3, 0.0, 0.4}) {
       FlameShapeFit truth;
       truth.shape = shape;

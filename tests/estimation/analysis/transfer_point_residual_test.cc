@@ -1,9 +1,10 @@
+#include "estimation/analysis/transfer_point_residual.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "estimation/residuals/transfer_point.h"
 #include "tests/residual_jacobian.h"
 
 namespace howl {

@@ -61,11 +61,11 @@ TEST(TwoModeSolveTest, CoefficientsReproduceTheResponse) {
 
 TEST(TwoModeSolveTest, NewtonFromOneModeFulfilsFullForm) {
   const Experiment experiment = R228()[2];
-  for (const auto held : {SecondMode::kM, SecondMode::kMOverN}) {
+  for (const auto held : {HeldSecond::kM, HeldSecond::kMOverN}) {
     LoopModel model;
-    const double second = held == SecondMode::kM ? 2500.0 : 0.4;
+    const double second = held == HeldSecond::kM ? 2500.0 : 0.4;
     ASSERT_TRUE(SolveTwoMode(experiment, 0.2, 3.0, held, second, {0.005, 0.2, -0.3}, model));
-    EXPECT_NEAR(held == SecondMode::kM ? model.M : model.M / model.N, second, 1e-9 * second);
+    EXPECT_NEAR(held == HeldSecond::kM ? model.M : model.M / model.N, second, 1e-9 * second);
     const reference::Complex z = reference::G(reference::From(model), experiment.frequency_hz);
     EXPECT_NEAR(double(std::abs(z)) / experiment.gain - 1.0, 0.005, 1e-9);
     EXPECT_NEAR(double(reference::Deg(z)) - experiment.phase_deg, 0.2, 1e-7);

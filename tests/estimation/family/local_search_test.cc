@@ -66,7 +66,7 @@ TEST(LocalSearchTest, FindsAMemberFromAModelThatFailsEverything) {
   loose.test = {0.5, 30.0, 60.0, 0.0, 90.0, 1.5, 1.0, false};
   for (const Member& start : EnumerateMembers(loose, 10, 3, 1).members) {
     ASSERT_FALSE(Falsify(problem.experiments, start, problem.test).IsEmpty());
-    const auto found = search.FindMember(start);
+    const auto found = search.ReduceViolation(start);
     ASSERT_TRUE(found.has_value());
     EXPECT_LT(found->violation, 1.0);
     EXPECT_TRUE(reference::Passes(problem.experiments, found->member, problem.test));
@@ -77,7 +77,7 @@ TEST(LocalSearchTest, EmptyFamilyLeavesAViolation) {
   FamilyProblem problem{.experiments = R228()};
   const Member start = AnyMember(problem);
   problem.test.omega_spread_max = 0.15;  // 0.18357 is the least with xi_max 0.3
-  const auto nearest = LocalSearch(problem).FindMember(start, 0.0);
+  const auto nearest = LocalSearch(problem).ReduceViolation(start, 0.0);
   ASSERT_TRUE(nearest.has_value());
   EXPECT_GT(nearest->violation, 1.0);
 }
@@ -105,7 +105,7 @@ TEST(LocalSearchTest, ASharedDelayReachesBothExperimentsExtremes) {
   FamilyProblem loose = problem;
   loose.test = {0.5, 30.0, 60.0, 0.0, 90.0, 1.5, 1.0, false};
   for (const Member& start : EnumerateMembers(loose, 5, 3, 1).members) {
-    const auto found = search.FindMember(start);
+    const auto found = search.ReduceViolation(start);
     ASSERT_TRUE(found.has_value());
     EXPECT_TRUE(reference::Passes(problem.experiments, found->member, problem.test));
     EXPECT_EQ(found->member[0].tau_s, found->member[1].tau_s);

@@ -4,8 +4,8 @@
 //
 // sigma: NormalisedFlame of the shape (model/flame.h); u = k v0 / Q, the offset relative to the
 // knee, so that Phi'(0) is the same whatever u is. Blocks: log Q, u, mean (units of q).
-#ifndef HOWL_ESTIMATION_RESIDUALS_FLAME_BIN_RESIDUAL_H_
-#define HOWL_ESTIMATION_RESIDUALS_FLAME_BIN_RESIDUAL_H_
+#ifndef HOWL_ESTIMATION_ANALYSIS_FLAME_BIN_RESIDUAL_H_
+#define HOWL_ESTIMATION_ANALYSIS_FLAME_BIN_RESIDUAL_H_
 
 #include <ceres/autodiff_cost_function.h>
 
@@ -42,4 +42,4 @@ struct FlameBinResidual {
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_RESIDUALS_FLAME_BIN_RESIDUAL_H_
+#endif  // HOWL_ESTIMATION_ANALYSIS_FLAME_BIN_RESIDUAL_H_

@@ -4,12 +4,10 @@
 //
 // Delta: measured phase from q to p, degrees; std_deg: its standard deviation. G is rotated back by
 // Delta before its angle is taken, so that the residual is wrapped.
-#ifndef HOWL_ESTIMATION_RESIDUALS_PHASE_EQUALITY_H_
-#define HOWL_ESTIMATION_RESIDUALS_PHASE_EQUALITY_H_
-
 #include "estimation/residuals/acoustic_residual.h"
 
 namespace howl {
+namespace {
 
 struct PhaseEquality {
   template <typename T>
@@ -24,8 +22,21 @@ struct PhaseEquality {
   double std_deg;
 };
 
-using PhaseEqualityResidual = AcousticResidual<PhaseEquality>;
+void AddTo(ResidualAdder& problem, int i) {
+  const Experiment& e = problem.ExperimentAt(i);
+  AddAcoustic(
+      problem, i,
+      PhaseEquality{e.frequency_hz, e.phase_deg, e.phase_std_deg.value_or(problem.Spec().std)});
+}
+
+}  // namespace
+
+ResidualDefinition PhaseEqualityDefinition() {
+  return {.text = "arg G is the measured phase",
+          .equation = "(5a), (5c)",
+          .std = {"std_deg", 0.5, "standard deviation in degrees"},
+          .has_form = true,
+          .add_to = &AddTo};
+}
 
 }  // namespace howl
-
-#endif  // HOWL_ESTIMATION_RESIDUALS_PHASE_EQUALITY_H_

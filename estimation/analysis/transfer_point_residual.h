@@ -13,8 +13,8 @@
 // and log M or log(M / N) for two. u has a prior of its own:
 //
 //   r = u
-#ifndef HOWL_ESTIMATION_RESIDUALS_TRANSFER_POINT_H_
-#define HOWL_ESTIMATION_RESIDUALS_TRANSFER_POINT_H_
+#ifndef HOWL_ESTIMATION_ANALYSIS_TRANSFER_POINT_RESIDUAL_H_
+#define HOWL_ESTIMATION_ANALYSIS_TRANSFER_POINT_RESIDUAL_H_
 
 #include <ceres/autodiff_cost_function.h>
 #include <glog/logging.h>
@@ -22,7 +22,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include "estimation/residuals/log_parameters.h"
+#include "estimation/log_parameters.h"
 #include "estimation/transfer_point.h"
 #include "model/acoustics.h"
 
@@ -101,4 +101,4 @@ struct QNoiseLevelPrior {
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_RESIDUALS_TRANSFER_POINT_H_
+#endif  // HOWL_ESTIMATION_ANALYSIS_TRANSFER_POINT_RESIDUAL_H_

@@ -4,12 +4,10 @@
 //
 // gain: measured, in units of p per unit of q. std_relative: standard deviation of the measured
 // gain over the gain. The logarithm makes the residual linear in log N.
-#ifndef HOWL_ESTIMATION_RESIDUALS_GAIN_EQUALITY_H_
-#define HOWL_ESTIMATION_RESIDUALS_GAIN_EQUALITY_H_
-
 #include "estimation/residuals/acoustic_residual.h"
 
 namespace howl {
+namespace {
 
 struct GainEquality {
   template <typename T>
@@ -24,8 +22,20 @@ struct GainEquality {
   double std_relative;
 };
 
-using GainEqualityResidual = AcousticResidual<GainEquality>;
+void AddTo(ResidualAdder& problem, int i) {
+  const Experiment& e = problem.ExperimentAt(i);
+  const double std_relative = e.gain_std ? *e.gain_std / e.gain : problem.Spec().std;
+  AddAcoustic(problem, i, GainEquality{e.frequency_hz, e.gain, std_relative});
+}
+
+}  // namespace
+
+ResidualDefinition GainEqualityDefinition() {
+  return {.text = "abs(G) is the measured gain at the limit cycle",
+          .equation = "(5a), (5c)",
+          .std = {"std_relative", 0.01, "relative standard deviation of gain"},
+          .has_form = true,
+          .add_to = &AddTo};
+}
 
 }  // namespace howl
-
-#endif  // HOWL_ESTIMATION_RESIDUALS_GAIN_EQUALITY_H_

@@ -1,6 +1,6 @@
 // Phase and frequency of one spectral line from its blocks (spectrum.h).
-#ifndef HOWL_ESTIMATION_ANALYSIS_LINE_BLOCKS_H_
-#define HOWL_ESTIMATION_ANALYSIS_LINE_BLOCKS_H_
+#ifndef HOWL_ESTIMATION_ANALYSIS_LINE_PHASE_H_
+#define HOWL_ESTIMATION_ANALYSIS_LINE_PHASE_H_
 
 #include <complex>
 #include <span>
@@ -31,4 +31,4 @@ LineFrequency EstimateLineFrequency(std::span<const std::complex<double>> blocks
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_ANALYSIS_LINE_BLOCKS_H_
+#endif  // HOWL_ESTIMATION_ANALYSIS_LINE_PHASE_H_

@@ -5,8 +5,8 @@
 //
 // in units of the data, so that a loop run slower or faster, or recorded in other units, is
 // searched alike. xi and M / N have no dimension; their bounds are the model's own.
-#ifndef HOWL_ESTIMATION_FIT_SEARCH_RANGE_H_
-#define HOWL_ESTIMATION_FIT_SEARCH_RANGE_H_
+#ifndef HOWL_ESTIMATION_RESIDUALS_SEARCH_RANGE_H_
+#define HOWL_ESTIMATION_RESIDUALS_SEARCH_RANGE_H_
 
 #include <span>
 
@@ -34,4 +34,4 @@ class SearchRails {
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_FIT_SEARCH_RANGE_H_
+#endif  // HOWL_ESTIMATION_RESIDUALS_SEARCH_RANGE_H_

@@ -4,8 +4,8 @@
 //   log omega_hz, log xi, log N, log tau_s, and log M or log(M / N) for the second mode.
 //
 // Blocks come in that order: acoustics first, the second mode after N, the delay last.
-#ifndef HOWL_ESTIMATION_RESIDUALS_LOG_PARAMETERS_H_
-#define HOWL_ESTIMATION_RESIDUALS_LOG_PARAMETERS_H_
+#ifndef HOWL_ESTIMATION_LOG_PARAMETERS_H_
+#define HOWL_ESTIMATION_LOG_PARAMETERS_H_
 
 #include <cmath>
 
@@ -35,4 +35,4 @@ Acoustics<T> TwoModesFromLogs(const SecondMode& second_mode, const T* log_omega_
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_RESIDUALS_LOG_PARAMETERS_H_
+#endif  // HOWL_ESTIMATION_LOG_PARAMETERS_H_

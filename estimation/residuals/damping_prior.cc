@@ -5,14 +5,14 @@
 // Block: log xi. xi_typical: a damping ratio that is taken as small; std_relative: how far, as a
 // share of itself, xi may be from it. A prior centred on zero damping would have no optimum: as xi
 // vanishes, N vanishes with it and nothing in the data opposes.
-#ifndef HOWL_ESTIMATION_RESIDUALS_DAMPING_PRIOR_H_
-#define HOWL_ESTIMATION_RESIDUALS_DAMPING_PRIOR_H_
-
 #include <ceres/autodiff_cost_function.h>
 
 #include <cmath>
 
+#include "estimation/residuals/residual_adder.h"
+
 namespace howl {
+namespace {
 
 struct DampingPrior {
   template <typename T>
@@ -21,15 +21,25 @@ struct DampingPrior {
     return true;
   }
 
-  static ceres::CostFunction* Create(double xi_typical, double std_relative) {
-    return new ceres::AutoDiffCostFunction<DampingPrior, 1, 1>(
-        new DampingPrior{xi_typical, std_relative});
-  }
-
   double xi_typical;
   double std_relative;
 };
 
-}  // namespace howl
+void AddTo(ResidualAdder& problem, int i) {
+  problem.Add(i,
+              new ceres::AutoDiffCostFunction<DampingPrior, 1, 1>(
+                  new DampingPrior{problem.Spec().center, problem.Spec().std}),
+              {problem.ParameterIndex(ParameterKind::kXi, i)});
+}
 
-#endif  // HOWL_ESTIMATION_RESIDUALS_DAMPING_PRIOR_H_
+}  // namespace
+
+ResidualDefinition DampingPriorDefinition() {
+  return {.text = "xi near a small value",
+          .equation = "section 3.3",
+          .std = {"std_relative", 1.0, "relative standard deviation of xi about xi_typical"},
+          .center = {"xi_typical", 0.1, "damping ratio that counts as small"},
+          .add_to = &AddTo};
+}
+
+}  // namespace howl

@@ -1,4 +1,4 @@
-#include "estimation/fit/search_range.h"
+#include "estimation/residuals/search_range.h"
 
 #include <glog/logging.h>
 

@@ -1,4 +1,4 @@
-#include "estimation/analysis/line_blocks.h"
+#include "estimation/analysis/line_phase.h"
 
 #include <algorithm>
 #include <cmath>
