@@ -171,7 +171,9 @@ TEST(ConfigResiduals, EachIsReadFromTheKeysOfItsDefinition) {
     EXPECT_EQ(set[kind].std, 0.375) << name;
     EXPECT_EQ(set[kind].weight, 2.5) << name;
     EXPECT_EQ(set[kind].loss, LossKind::kHuber) << name;
-    if (!definition.center.key.empty()) EXPECT_EQ(set[kind].center, 0.75) << name;
+    if (!definition.center.key.empty()) {
+      EXPECT_EQ(set[kind].center, 0.75) << name;
+    }
     const ConfigFile off(experiments + ("residuals: {" + name + ": off}\n"));
     EXPECT_FALSE(LoadConfig(off.Path()).residuals[kind].enabled) << name;
   }
