@@ -1,5 +1,5 @@
-// The tables that commands write into a run's folder. `howl simulate` writes each experiment's record
-// there as NAME.csv, so that no experiment may have the name of one of these.
+// The tables that commands write into a run's folder. `howl simulate` writes each experiment's
+// record there as NAME.csv, so that no experiment may have the name of one of these.
 #ifndef HOWL_IO_RESULTS_RESULT_FILES_H_
 #define HOWL_IO_RESULTS_RESULT_FILES_H_
 
@@ -22,8 +22,8 @@ inline constexpr const char* kTrialCsv = "trial.csv";
 inline constexpr const char* kPredictionCsv = "prediction.csv";
 
 inline constexpr std::array<std::string_view, 10> kResultTables = {
-    kCharacteristicsCsv, kLinesCsv,    kTransferCsv, kFlameCurveCsv, kFamilyCsv,
-    kTradeoffCsv,        kProfileCsv,  kSweepCsv,    kTrialCsv,      kPredictionCsv};
+    kCharacteristicsCsv, kLinesCsv,   kTransferCsv, kFlameCurveCsv, kFamilyCsv,
+    kTradeoffCsv,        kProfileCsv, kSweepCsv,    kTrialCsv,      kPredictionCsv};
 
 // An experiment's NAME.csv would overwrite a table of results, as the name "family" would.
 inline bool IsResultsName(std::string_view name) {
