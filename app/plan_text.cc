@@ -20,7 +20,11 @@ std::string Listed(const std::vector<std::string>& names, const char* between) {
 std::string Value(const PlannedEffect& effect, double value) {
   if (!std::isfinite(value)) return "-";
   const std::string unit = effect.unit.empty() ? "" : " " + effect.unit;
-  return Significant(value, 3) + unit;
+  // Three digits of what differs from the null: a mode's ratio of 3.0004 is not 3.00.
+  const double beside = std::abs(value - effect.null_value);
+  const double share = effect.from_infinity || !(beside > 0.0) ? 1.0 : std::abs(value) / beside;
+  const int digits = 3 + std::clamp(static_cast<int>(std::ceil(std::log10(share) - 1e-9)), 0, 9);
+  return Significant(value, digits) + unit;
 }
 
 std::string WithName(const PlannedEffect& effect, double value) {
