@@ -6,10 +6,9 @@
 #include "app/diagnose_input.h"
 #include "app/measured_flame.h"
 #include "app/problem_input.h"
+#include "app/simulate_cases.h"
 #include "app/simulate_rig.h"
 #include "app/simulate_times.h"
-#include "estimation/unit_seed.h"
-#include "model/simulate.h"
 
 namespace howl {
 
@@ -27,18 +26,13 @@ std::vector<DiagnosisExperiment> SimulatedExperiments(const Config& config,
   CheckSimulationTimes(config, times, experiments);
   const JointProblem problem = MakeJointProblem(config, experiments);
   const std::vector<LoopModel> models = SolveConfig(config, options, problem).models;
-  std::vector<SimulationCase> cases;
+  std::vector<SimulatedRig> rigs;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    const SimulatedRig rig =
-        MakeRig(config, experiments[i], models[i], MeasuredFlame(input, experiments[i]), times);
-    CheckInternalRate(config, times, experiments[i], rig.parameters);
-    cases.push_back({rig.parameters, UnitSeed(options.seed, experiments[i].name)});
+    rigs.push_back(
+        MakeRig(config, experiments[i], models[i], MeasuredFlame(input, experiments[i]), times));
   }
-  const std::vector<SimulatedRecord> simulated =
-      SimulateBatch(cases, {.duration_s = times.duration_s,
-                            .sampling_hz = times.sampling_hz,
-                            .settle_s = times.settle_s,
-                            .threads = options.threads});
+  const std::vector<SimulatedRecord> simulated = SimulateCases(
+      CasesOf(config, times, experiments, rigs, options.seed), times, options.threads);
   std::vector<NamedRecord> records;
   for (std::size_t i = 0; i < simulated.size(); ++i) {
     records.push_back(

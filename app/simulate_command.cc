@@ -8,13 +8,13 @@
 #include "app/config_fit.h"
 #include "app/measured_flame.h"
 #include "app/problem_input.h"
+#include "app/simulate_cases.h"
 #include "app/simulate_rig.h"
 #include "app/simulate_sweep.h"
 #include "app/simulate_times.h"
 #include "app/text_table.h"
 #include "estimation/family/problem/membership.h"
 #include "estimation/fit/joint_fit.h"
-#include "estimation/unit_seed.h"
 #include "io/records/records.h"
 #include "io/results/family_csv.h"
 #include "io/results/records_yaml.h"
@@ -101,21 +101,13 @@ int Run(const Options& options) {
   const std::vector<LoopModel> models = ModelsToSimulate(config, options, experiments);
   if (config.simulation.sweep) CheckSweep(config, times);
   std::vector<SimulatedRig> rigs;
-  std::vector<SimulationCase> cases;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     rigs.push_back(
         MakeRig(config, experiments[i], models[i], MeasuredFlame(input, experiments[i]), times));
   }
   AddEffects(config, experiments, times.duration_s, &rigs);
-  for (std::size_t i = 0; i < experiments.size(); ++i) {
-    CheckInternalRate(config, times, experiments[i], rigs[i].parameters);
-    cases.push_back({rigs[i].parameters, UnitSeed(options.seed, experiments[i].name)});
-  }
-  const std::vector<SimulatedRecord> records =
-      SimulateBatch(cases, {.duration_s = times.duration_s,
-                            .sampling_hz = times.sampling_hz,
-                            .settle_s = times.settle_s,
-                            .threads = options.threads});
+  const std::vector<SimulationCase> cases = CasesOf(config, times, experiments, rigs, options.seed);
+  const std::vector<SimulatedRecord> records = SimulateCases(cases, times, options.threads);
   for (std::size_t i = 0; i < records.size(); ++i) {
     WriteRecordCsv(options.out / (experiments[i].name + ".csv"),
                    {records[i].sampling_hz, records[i].pressure, records[i].heat_release});

@@ -8,8 +8,8 @@
 // With P(chi2_k > d^2) = exp(-d^2 / 2) h_k(d), the incomplete gamma function's recurrence
 // (Abramowitz and Stegun 26.4.8) gives
 //
-//   h_1(d) = erfcx(d / sqrt 2),   h_2(d) = 1,   h_{k+2}(d) = h_k(d) + (d^2/2)^{k/2} / Gamma(k/2 +
-//   1),
+//   h_1(d) = erfcx(d / sqrt 2),   h_2(d) = 1,
+//   h_{k+2}(d) = h_k(d) + (d^2/2)^{k/2} / Gamma(k/2 + 1),
 //
 // so that no probability underflows, however far the distance.
 #ifndef HOWL_ESTIMATION_ANALYSIS_JOINT_DEVIATION_H_

@@ -2,8 +2,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "estimation/analysis/joint_deviation.h"
 #include "estimation/family/bounds/contract.h"
+#include "estimation/family/problem/transfer_limit.h"
 
 namespace howl {
 
@@ -79,8 +79,7 @@ Interval ValueOf(const TransferBound& bound, int k, const Interval& offset) {
 
 TransferBound MakeTransferBound(const TransferEllipsoid& ellipsoid, bool second_mode,
                                 double deviation_max) {
-  const double distance =
-      DistanceOfDeviation(deviation_max, std::max(1, ellipsoid.Count(second_mode)));
+  const double distance = TransferLimit(ellipsoid, second_mode, deviation_max);
   TransferBound bound;
   bound.used = true;
   bound.distance = distance * (1.0 + kSlack) + kSlack;

@@ -103,8 +103,9 @@ class RowMaker {
       form += part.v * part.v.transpose();
       pull += part.a * factor.row(r).transpose();
     }
-    // An offset bends with its logarithm: d^2 (N / N_0) = (N / N_0) (d ln N)^2. Where that would
-    // make the form indefinite it is cut off: without a k-th part of 1 / C_kk it stays definite.
+    // An offset bends with its logarithm: d^2 (N / N_0) = (N / N_0) (d ln N)^2. The form stays
+    // definite as long as less than 1 / C_kk is taken from one of its offsets, or from each of two
+    // less than half of that: more than 0.45 is never taken.
     for (const auto& [k, ln] : {std::pair{2, &ln_N}, {3, &ln_M}}) {
       if (factor(k, k) == 0.0) continue;
       const double share = v[k].a + 1.0;

@@ -12,12 +12,18 @@
 
 namespace howl {
 
-// The largest MahalanobisDistance of a member; infinite where the test does not look at it.
+// The largest MahalanobisDistance of a member.
+inline double TransferLimit(const TransferEllipsoid& ellipsoid, bool second_mode,
+                            double deviation_max) {
+  return DistanceOfDeviation(deviation_max, std::max(1, ellipsoid.Count(second_mode)));
+}
+
+// The same for an experiment; infinite where the test does not look at its transfer.
 inline double TransferLimit(const Experiment& experiment, const MembershipTest& test,
                             bool second_mode) {
-  if (!experiment.transfer_ellipsoid) return std::numeric_limits<double>::infinity();
-  return DistanceOfDeviation(test.transfer_distance_max,
-                             std::max(1, experiment.transfer_ellipsoid->Count(second_mode)));
+  return experiment.transfer_ellipsoid ? TransferLimit(*experiment.transfer_ellipsoid, second_mode,
+                                                       test.transfer_distance_max)
+                                       : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace howl
