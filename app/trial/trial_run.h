@@ -1,14 +1,14 @@
 // The steps of a blind trial. Each can be killed at any point; the same command then goes on.
-#ifndef HOWL_APP_TRIAL_RUN_H_
-#define HOWL_APP_TRIAL_RUN_H_
+#ifndef HOWL_APP_TRIAL_TRIAL_RUN_H_
+#define HOWL_APP_TRIAL_TRIAL_RUN_H_
 
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "app/trial_folder.h"
-#include "app/trial_rig.h"
+#include "app/trial/trial_folder.h"
+#include "app/trial/trial_rig.h"
 #include "trial/score.h"
 
 namespace howl {
@@ -49,4 +49,4 @@ void WriteScores(const TrialFolder& folder, const ScoredTrial& trial, TrialLog& 
 
 }  // namespace howl
 
-#endif  // HOWL_APP_TRIAL_RUN_H_
+#endif  // HOWL_APP_TRIAL_TRIAL_RUN_H_

@@ -1,8 +1,8 @@
 // The trial's log: one JSON object a line, only ever appended to. Each line holds the SHA-256 of
 // the one before, so that no line can be changed, left out or put in afterwards unnoticed; what a
 // killed run left unfinished at the end is dropped.
-#ifndef HOWL_APP_TRIAL_LOG_H_
-#define HOWL_APP_TRIAL_LOG_H_
+#ifndef HOWL_APP_TRIAL_TRIAL_LOG_H_
+#define HOWL_APP_TRIAL_TRIAL_LOG_H_
 
 #include <filesystem>
 #include <mutex>
@@ -37,4 +37,4 @@ std::string TimeStamp();
 
 }  // namespace howl
 
-#endif  // HOWL_APP_TRIAL_LOG_H_
+#endif  // HOWL_APP_TRIAL_TRIAL_LOG_H_

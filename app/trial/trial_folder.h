@@ -8,15 +8,15 @@
 //   log.jsonl           sealed, each diagnosis with its SHA-256, opened, scored (trial_log.h)
 //   key/key.json        the key, once it has been opened
 //   trial.json, trial.csv, sheet.md
-#ifndef HOWL_APP_TRIAL_FOLDER_H_
-#define HOWL_APP_TRIAL_FOLDER_H_
+#ifndef HOWL_APP_TRIAL_TRIAL_FOLDER_H_
+#define HOWL_APP_TRIAL_TRIAL_FOLDER_H_
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "app/trial_log.h"
+#include "app/trial/trial_log.h"
 
 namespace howl {
 
@@ -41,4 +41,4 @@ std::vector<std::string> FindChanges(const TrialFolder& folder, const TrialLog& 
 
 }  // namespace howl
 
-#endif  // HOWL_APP_TRIAL_FOLDER_H_
+#endif  // HOWL_APP_TRIAL_TRIAL_FOLDER_H_

@@ -1,4 +1,4 @@
-#include "app/trial_run.h"
+#include "app/trial/trial_run.h"
 
 #include <sys/stat.h>
 

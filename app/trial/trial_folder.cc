@@ -1,4 +1,4 @@
-#include "app/trial_folder.h"
+#include "app/trial/trial_folder.h"
 
 #include <sys/stat.h>
 

@@ -1,4 +1,4 @@
-#include "app/trial_rig.h"
+#include "app/trial/trial_rig.h"
 
 #include <yaml-cpp/yaml.h>
 

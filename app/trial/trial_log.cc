@@ -1,4 +1,4 @@
-#include "app/trial_log.h"
+#include "app/trial/trial_log.h"
 
 #include <fcntl.h>
 #include <unistd.h>

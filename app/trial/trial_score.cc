@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "app/digest.h"
-#include "app/trial_run.h"
+#include "app/trial/trial_run.h"
 #include "io/results/result_files.h"
 #include "io/results/trial_json.h"
 #include "io/results/trial_sheet.h"

@@ -1,7 +1,7 @@
 // howl_rig as the trial uses it: a program beside this one, told what to withhold through its
 // standard input, so that nothing of it is on a disk.
-#ifndef HOWL_APP_TRIAL_RIG_H_
-#define HOWL_APP_TRIAL_RIG_H_
+#ifndef HOWL_APP_TRIAL_TRIAL_RIG_H_
+#define HOWL_APP_TRIAL_TRIAL_RIG_H_
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -41,4 +41,4 @@ nlohmann::json MakeRig(const RigTemplate& rig_template, const CasePlan& plan,
 
 }  // namespace howl
 
-#endif  // HOWL_APP_TRIAL_RIG_H_
+#endif  // HOWL_APP_TRIAL_TRIAL_RIG_H_

@@ -8,7 +8,7 @@
 #include "app/command.h"
 #include "app/digest.h"
 #include "app/interruption.h"
-#include "app/trial_run.h"
+#include "app/trial/trial_run.h"
 #include "io/results/trial_sheet.h"
 #include "io/user_error.h"
 
