@@ -3,13 +3,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <sstream>
 
+#include "app/digest.h"
 #include "app/interruption.h"
+#include "app/jobs/config_inputs.h"
 #include "estimation/family/bounds/bound_text.h"
 #include "estimation/unit_seed.h"
 #include "io/whole_file.h"
@@ -25,12 +29,13 @@ constexpr int kLeastBetweenSaves = 30;  // times what the last one took
 // About what saving takes over the square of the number of experiments (bench/scaling_study), for
 // the first one.
 constexpr double kSecondsToSaveOne = 2e-5;
+constexpr const char* kHead = "head";
 
 std::filesystem::path StatePath(const Options& options) { return options.out / "bounds.state"; }
 
 // Identifies what the state belongs to: this config, seed and program.
-std::string Key(const Config& config, const Options& options) {
-  std::ifstream file(config.source, std::ios::binary);
+std::string Key(const Options& options) {
+  std::ifstream file(options.config, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
   const std::uint64_t hash = UnitSeed(options.seed, text.str());
@@ -67,12 +72,23 @@ void ShowProgress(const Enclosure& enclosure, Clock::time_point start) {
                static_cast<long long>(seconds));
 }
 
-}  // namespace
+void StopIfInterrupted(const std::filesystem::path& state) {
+  if (!IsInterrupted()) return;
+  throw Interrupted("interrupted: nothing written; the same command goes on from " +
+                    state.string() + " where it has saved its bounds");
+}
 
-void RunBounds(const Config& config, const Options& options, Enclosure& enclosure) {
+std::string KeyOfSearch(std::size_t k) {
+  std::array<char, 32> key{};
+  std::snprintf(key.data(), key.size(), "search#%06zu", k);  // ordered as the numbers are
+  return key.data();
+}
+
+// Runs the searches that are owned to their end.
+void RunSearches(const std::filesystem::path& path, const std::string& key, const Config& config,
+                 const Options& options, Enclosure& enclosure,
+                 const std::function<bool(std::size_t)>& owned) {
   WatchForInterruption();
-  const std::filesystem::path path = StatePath(options);
-  const std::string key = Key(config, options);
   const bool shown = !options.quiet && isatty(STDERR_FILENO) != 0;
   const std::optional<std::size_t> damaged = LoadState(path, key, enclosure);
   if (damaged && !options.quiet) {
@@ -95,13 +111,14 @@ void RunBounds(const Config& config, const Options& options, Enclosure& enclosur
       std::chrono::duration<double>(kSecondsToSaveOne * experiments * experiments));
   while (true) {
     const Clock::time_point until = Clock::now() + std::max(between, kLeastBetweenSaves * saving);
-    const bool complete = enclosure.Run([&] { return IsInterrupted() || Clock::now() >= until; });
+    const bool complete =
+        enclosure.Run([&] { return IsInterrupted() || Clock::now() >= until; }, owned);
     if (complete) break;
     const Clock::time_point before = Clock::now();
     SaveState(path, key, enclosure);
     saving = Clock::now() - before;
     was_saved = true;
-    StopIfInterrupted(options);
+    StopIfInterrupted(path);
     if (shown) ShowProgress(enclosure, start);
     was_shown = shown;
   }
@@ -110,11 +127,42 @@ void RunBounds(const Config& config, const Options& options, Enclosure& enclosur
   if (was_saved) SaveState(path, key, enclosure);
 }
 
-void StopIfInterrupted(const Options& options) {
-  if (!IsInterrupted()) return;
-  throw Interrupted("interrupted: nothing written; the same command goes on from " +
-                    StatePath(options).string() + " where it has saved its bounds");
+}  // namespace
+
+void RunBounds(const Config& config, const Options& options, Enclosure& enclosure) {
+  RunSearches(StatePath(options), Key(options), config, options, enclosure, nullptr);
 }
+
+void RunBoundsShard(const Config& config, const Options& options, const Shard& shard,
+                    Enclosure& enclosure) {
+  const std::string header =
+      ShardHeader("family", options, FamilyInputsSha256(config, options), shard);
+  if (IsShardDone(options.out, "family", shard, header)) return;
+  const std::filesystem::path part = ShardPartPath(options.out, "family", shard);
+  RunSearches(part, header, config, options, enclosure,
+              [&](std::size_t k) { return shard.Owns(k); });
+  Units units;
+  units[kHead] = enclosure.SavedHead();
+  for (std::size_t k = shard.index - 1; k < enclosure.Searches(); k += shard.count) {
+    units[KeyOfSearch(k)] = enclosure.SavedSearch(k);
+  }
+  FinishShard(options, "family", shard, header, units);
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+}
+
+void AdoptBounds(const Options& options, const Units& units) {
+  std::string text = Key(options) + "\n";
+  for (const auto& [key, bytes] : units) text += bytes;  // "head" comes before "search#"
+  WriteWholeFile(StatePath(options), text);
+}
+
+std::string FamilyInputsSha256(const Config& config, const Options& options) {
+  const std::optional<std::string> other = options.Text("--falsify");
+  return Sha256(ConfigInputsSha256(config) + (other ? ConfigInputsSha256(LoadConfig(*other)) : ""));
+}
+
+void StopIfInterrupted(const Options& options) { StopIfInterrupted(StatePath(options)); }
 
 void ForgetBounds(const Options& options) {
   std::error_code ignored;

@@ -2,6 +2,8 @@
 #ifndef HOWL_APP_COMMAND_H_
 #define HOWL_APP_COMMAND_H_
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,17 @@ inline constexpr int kDone = 0;
 inline constexpr int kNegativeAnswer = 1;
 inline constexpr int kBadInput = 2;
 
+// What howl merge asks of a command that can be run in shards (app/jobs/shard.h).
+struct Sharding {
+  // SHA-256 of all that the units depend on beside the options and the program.
+  std::string (*inputs_sha256)(const Options&);
+  // Puts the units of all shards where an interrupted run of the command would have left them.
+  void (*adopt)(const Options&, const std::map<std::string, std::string>& units);
+  // The option with which the command makes results of those units that are there; empty where it
+  // needs them all.
+  std::string part_option = "";
+};
+
 struct Command {
   std::string name;
   std::string summary;  // one line
@@ -23,6 +36,7 @@ struct Command {
   bool writes_results = true;  // to the output folder, whose run.json then names the run
   // The arguments after the command. "FILE..." is one file or more, which are Options::files.
   std::string operands = "CONFIG";
+  std::optional<Sharding> sharding = std::nullopt;
 
   bool TakesSeveral() const { return operands.ends_with("..."); }
 };
@@ -36,6 +50,7 @@ Command FitCommand();
 Command FamilyCommand();
 Command InitCommand();
 Command ListCommand();
+Command MergeCommand();
 Command PredictCommand();
 Command RegressCommand();
 Command ReportCommand();

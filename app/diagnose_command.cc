@@ -14,7 +14,10 @@
 #include "app/diagnose_state.h"
 #include "app/diagnose_table.h"
 #include "app/diagnose_text.h"
+#include "app/digest.h"
 #include "app/interruption.h"
+#include "app/jobs/shard.h"
+#include "app/jobs/unit_store.h"
 #include "app/planned_records.h"
 #include "app/progress_line.h"
 #include "diagnosis/diagnosis.h"
@@ -53,7 +56,46 @@ std::size_t Replicates(const Options& options) {
   return static_cast<std::size_t>(count.value_or(0));
 }
 
+// Of --shard, which divides the replicates of the bootstrap.
+std::optional<Shard> ShardOfReplicates(const Options& options) {
+  const std::optional<Shard> shard = ShardOf(options);
+  if (shard && !options.Has("--bootstrap")) {
+    throw UsageError("--shard divides the replicates of --bootstrap N, expected that as well");
+  }
+  return shard;
+}
+
+std::filesystem::path StatePath(const Options& options) { return options.out / "diagnosis.state"; }
+
+void SayWhereItGoesOn(const UnitStore& store, const std::filesystem::path& path,
+                      const Options& options) {
+  if (options.quiet) return;
+  if (!store.found().empty()) {
+    const std::string anew = store.damaged() == 0 ? "" : ", what was damaged there is done anew";
+    std::fprintf(stderr, "going on from %s: %zu fits are done%s\n", path.c_str(),
+                 store.found().size(), anew.c_str());
+  } else if (store.refused()) {
+    std::fprintf(stderr, "%s is of another build or of other inputs: begun anew\n", path.c_str());
+  }
+}
+
+std::vector<DiagnosisExperiment> LoadReference(const Options& options) {
+  const auto path = options.Text("--reference");
+  return path ? LoadDiagnosisExperiments(LoadConfig(*path)) : std::vector<DiagnosisExperiment>();
+}
+
+std::string InputsOf(const Options& options) {
+  const Config config = LoadConfig(options.config);
+  return Sha256(InputBytes(config, Withheld(options), LoadDiagnosisExperiments(config),
+                           LoadReference(options)));
+}
+
+void Adopt(const Options& options, const Units& units) {
+  WriteWholeFile(StatePath(options), StoreText(DiagnoseStateHeader(InputsOf(options)), units));
+}
+
 int Run(const Options& options) {
+  const std::optional<Shard> shard = ShardOfReplicates(options);
   const Config config = LoadConfig(options.config);
   if (options.Has("--plan")) return RunPlan(config, options, Withheld(options));
   if (!HasRecords(config)) return RunTable(config, options);
@@ -85,26 +127,31 @@ int Run(const Options& options) {
     CheckReference(config, reference, experiments, how.reference);
   }
   WatchForInterruption();
-  const std::filesystem::path state_path = options.out / "diagnosis.state";
-  DiagnoseState state(state_path, InputBytes(config, how.withheld, experiments, how.reference));
-  if (state.recalled() > 0 && !options.quiet) {
-    const std::string anew = state.damaged() == 0 ? "" : ", what was damaged there is done anew";
-    std::fprintf(stderr, "going on from %s: %zu fits are done%s\n", state_path.c_str(),
-                 state.recalled(), anew.c_str());
-  } else if (state.refused() && !options.quiet) {
-    std::fprintf(stderr, "%s is of another build or of other inputs: begun anew\n",
-                 state_path.c_str());
-  }
+  const std::string inputs = Sha256(InputBytes(config, how.withheld, experiments, how.reference));
+  const std::string header =
+      shard ? ShardHeader("diagnose", options, inputs, *shard) : DiagnoseStateHeader(inputs);
+  if (shard && IsShardDone(options.out, "diagnose", *shard, header)) return kDone;
+  const std::filesystem::path state_path =
+      shard ? ShardPartPath(options.out, "diagnose", *shard) : StatePath(options);
+  UnitStore store(state_path, header);
+  SayWhereItGoesOn(store, state_path, options);
+  DiagnoseState state(store);
   how.memory = &state;
   how.stopped = IsInterrupted;
+  if (shard) how.owns_replicate = [&](std::size_t replicate) { return shard->Owns(replicate); };
   const Diagnosis diagnosis = Diagnose(experiments, how);
-  if (diagnosis.stopped) {
+  if (IsInterrupted() && diagnosis.stopped) {
     throw Interrupted("interrupted: nothing written; the same command goes on from " +
                       state_path.string());
   }
+  if (shard) {
+    FinishShard(options, "diagnose", *shard, header, ReadUnits(state_path).units);
+    store.Forget();
+    return kDone;
+  }
   const std::filesystem::path path = options.out / "diagnosis.json";
   WriteWholeFile(path, DiagnosisJson(diagnosis).dump(2) + "\n");
-  state.Forget();
+  store.Forget();
   if (!options.quiet) {
     PrintDiagnosis(diagnosis);
     std::printf("written: %s\n", path.c_str());
@@ -134,9 +181,12 @@ Command DiagnoseCommand() {
        {"--plan", "",
         "diagnose nothing: which effects these records (or records simulated from a table's fit) "
         "can tell apart, from which size on, and which measurement separates the rest"},
-       {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"}},
+       {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"},
+       ShardOption()},
       Run,
-      true};
+      true,
+      "CONFIG",
+      Sharding{InputsOf, Adopt}};
 }
 
 }  // namespace howl

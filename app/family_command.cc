@@ -14,6 +14,10 @@ namespace {
 
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config);
+  if (const std::optional<Shard> shard = ShardOf(options)) {
+    RunFamilyShard(config, options, *shard);
+    return kDone;
+  }
   const FamilyRun run = RunFamily(config, options);
   WriteWholeFile(options.out / kFamilyCsv,
                  FamilyCsv(run.problem.experiments, run.members, config.operating_parameter));
@@ -30,6 +34,10 @@ int Run(const Options& options) {
                 run.profile ? "profile.csv, " : "", options.out.c_str());
   }
   return run.members.empty() ? kNegativeAnswer : kDone;
+}
+
+std::string InputsOf(const Options& options) {
+  return FamilyInputsSha256(LoadConfig(options.config), options);
 }
 
 }  // namespace
@@ -49,8 +57,12 @@ Command FamilyCommand() {
        {"--advise", "", "which further measurement would remove most of the family"},
        {"--profile", "QUANTITY",
         "the best fit along exp1.tau_s, exp1.loop_gain, a prediction or any expression"},
-       {"--save-every", "SECONDS", "how often the search for bounds saves its state (default: 2)"}},
-      Run};
+       {"--save-every", "SECONDS", "how often the search for bounds saves its state (default: 2)"},
+       ShardOption()},
+      Run,
+      true,
+      "CONFIG",
+      Sharding{InputsOf, AdoptBounds}};
 }
 
 }  // namespace howl

@@ -37,11 +37,10 @@ std::vector<BoundedExpression> ParsePredictions(const Config& config,
   return bounded;
 }
 
-void TakePredictions(const Config& config, const std::vector<BoundedExpression>& bounded,
-                     FamilyRun& run) {
+void TakePredictions(const Config& config, FamilyRun& run) {
   std::size_t next = 0;
   for (const PredictionSpec& spec : config.family.predictions) {
-    const bool per_experiment = bounded[next].expression.IsPerExperiment();
+    const bool per_experiment = run.bounded[next].expression.IsPerExperiment();
     const std::size_t last = per_experiment ? run.problem.experiments.size() : 1;
     for (std::size_t i = 0; i < last; ++i, ++next) {
       Prediction prediction;
@@ -172,30 +171,37 @@ void ExplainNoMember(const Options& options, FamilyRun& run) {
 
 using BoundsRun = std::function<void(Enclosure&)>;
 
-// Computes all but the trade-off. `run_bounds` runs the search to its end.
-FamilyRun RunQuestions(const Config& config, const Options& options,
-                       std::vector<Experiment> experiments, const BoundsRun& run_bounds) {
+// The problem, and the search for its bounds, which has not begun.
+FamilyRun PrepareFamily(const Config& config, const Options& options,
+                        std::vector<Experiment> experiments) {
   FamilyRun run;
   run.problem = MakeFamilyProblem(config, std::move(experiments));
   for (const ExperimentConfig& each : config.experiments) {
     if (each.record) run.recorded.push_back(each.experiment.name);
   }
-  const std::vector<BoundedExpression> bounded = ParsePredictions(config, run.problem);
   if (const auto text = options.Text("--profile")) AskedQuantity(config, *text, run.problem);
-  // Its mistakes are reported before the search, which may take long.
-  const std::vector<Experiment> further = LoadFurther(options);
+  run.bounded = ParsePredictions(config, run.problem);
   run.enclosure =
       std::make_unique<Enclosure>(run.problem, EncloseOptions{.width = config.family.width,
                                                               .seed = options.seed,
                                                               .threads = options.threads,
-                                                              .expressions = bounded});
+                                                              .expressions = run.bounded});
+  return run;
+}
+
+// Computes all but the trade-off. `run_bounds` runs the search to its end.
+FamilyRun RunQuestions(const Config& config, const Options& options,
+                       std::vector<Experiment> experiments, const BoundsRun& run_bounds) {
+  FamilyRun run = PrepareFamily(config, options, std::move(experiments));
+  // Its mistakes are reported before the search, which may take long.
+  const std::vector<Experiment> further = LoadFurther(options);
   run_bounds(*run.enclosure);
   StopIfInterrupted(options);
   if (!run.enclosure->IsProvedEmpty()) DrawMembers(config, options, run);
   StopIfInterrupted(options);
   if (run.members.empty()) ExplainNoMember(options, run);
   if (!run.members.empty()) {
-    TakePredictions(config, bounded, run);
+    TakePredictions(config, run);
     std::ranges::copy(PredictLoops(run.problem, config.simulation,
                                    Thinned(run.sample, kPredictedMembers), options.threads),
                       std::back_inserter(run.predictions));
@@ -222,6 +228,11 @@ FamilyRun RunFamily(const Config& config, const Options& options) {
       ComputeTradeoff(run.problem, DefaultSpreads(run.problem), options.threads, options.seed);
   StopIfInterrupted(options);
   return run;
+}
+
+void RunFamilyShard(const Config& config, const Options& options, const Shard& shard) {
+  const FamilyRun run = PrepareFamily(config, options, LoadExperiments(config, options));
+  RunBoundsShard(config, options, shard, *run.enclosure);
 }
 
 FamilyRun RunFamilyAnew(const Config& config, const Options& options,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/jobs/shard.h"
 #include "app/options.h"
 #include "estimation/family/answers/conflict.h"
 #include "estimation/family/answers/predict.h"
@@ -21,6 +22,7 @@ namespace howl {
 
 struct FamilyRun {
   FamilyProblem problem;
+  std::vector<BoundedExpression> bounded;  // of the config's predictions
   std::unique_ptr<Enclosure> enclosure;
   std::vector<Member> members;  // as listed
   SampleDiagnostics diagnostics;
@@ -38,6 +40,10 @@ struct FamilyRun {
 // Bounds, members, trade-off, predictions. Throws UserError for an expression that does not parse
 // and Interrupted when the user asks for a stop.
 FamilyRun RunFamily(const Config& config, const Options& options);
+
+// The shard's share of the searches for bounds (app/bounds_run.h); what follows them is the
+// merge's.
+void RunFamilyShard(const Config& config, const Options& options, const Shard& shard);
 
 // Throws UserError for the first expression of the config that does not parse.
 void CheckPredictions(const Config& config, const FamilyProblem& problem);

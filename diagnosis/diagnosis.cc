@@ -48,7 +48,7 @@ Diagnosis Search::Run() {
     }
   }
   if (options_.bootstrap > 0 && !Stopped()) Bootstrap();
-  if (Stopped()) {
+  if (Stopped() || options_.owns_replicate) {
     Diagnosis unfinished;
     unfinished.stopped = true;
     return unfinished;

@@ -111,6 +111,9 @@ struct DiagnosisOptions {
   int threads = 0;                     // 0: as many as the machine has
   std::uint64_t seed = 1;              // of the bootstrap's replicates
   std::size_t bootstrap = 0;           // replicates (bootstrap/bootstrap.h)
+  // Where it is set, only these replicates are run, for the memory, and the diagnosis then ends as
+  // if it had been stopped: one of several processes' shares.
+  std::function<bool(std::size_t replicate)> owns_replicate;
   std::vector<std::string> withheld;   // identifiers of the catalogue that are not tried
   std::vector<EffectPointer> further;  // effects of the user's own
   // Records that take the model's place (reference.h); none: the base alone is the model.

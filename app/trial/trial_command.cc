@@ -3,12 +3,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
+#include <filesystem>
 
 #include "app/command.h"
 #include "app/digest.h"
 #include "app/interruption.h"
+#include "app/jobs/shard.h"
 #include "app/trial/trial_run.h"
+#include "app/trial/trial_shards.h"
 #include "io/results/trial_sheet.h"
 #include "io/user_error.h"
 
@@ -16,58 +18,6 @@ namespace howl {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr int kDefaultCases = 200;
-constexpr int kMostCases = 100000;
-
-std::vector<std::string> Words(const std::string& text) {
-  std::vector<std::string> words;
-  std::istringstream in(text);
-  for (std::string word; std::getline(in, word, ',');) {
-    if (!word.empty()) words.push_back(word);
-  }
-  return words;
-}
-
-double Severity(const std::string& word) {
-  for (const double severity : kSeverities) {
-    if (word == SeverityName(severity)) return severity;
-  }
-  std::istringstream in(word);
-  double value = -1.0;
-  if (!(in >> value) || !in.eof() || value < 0.0 || value > 1.0) {
-    throw UsageError("--severities: " + word +
-                     ", expected small, medium, large, or numbers from 0 to 1");
-  }
-  return value;
-}
-
-// The command line as it would be typed again, for the sheet.
-std::string CommandText(const Options& options) {
-  std::string text = "howl trial " + options.config.string();
-  for (const auto& [name, value] : options.own) text += " " + name + " " + value;
-  return text + " --seed " + std::to_string(options.seed);
-}
-
-TrialRequest MakeRequest(const Options& options) {
-  TrialRequest request;
-  request.options.cases = options.Count("--cases", 1, kMostCases).value_or(kDefaultCases);
-  request.options.effects =
-      Words(options.Text("--effects").value_or("catalogue,none,outside,pairs"));
-  for (const std::string& word : Words(options.Text("--severities").value_or("small,medium,large")))
-    request.options.severities.push_back(Severity(word));
-  request.options.seed = options.seed;
-  try {
-    PlanCases(request.options, ListRigEffects());
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--effects: ") + error.what());
-  }
-  const Config config = LoadConfig(options.config);
-  request.rig_template = MakeRigTemplate(config, options);
-  request.config_sha256 = Sha256OfFile(options.config).value_or("");
-  request.command = CommandText(options);
-  return request;
-}
 
 // One progress line that is overwritten; it gives the remaining time once that can be estimated.
 Progress ShowProgress(const Options& options, const char* what) {
@@ -102,19 +52,11 @@ int Finish(const TrialFolder& folder, const Options& options, TrialLog& log) {
   return kDone;
 }
 
-int Run(const Options& options) {
-  const TrialFolder folder{options.out};
-  TrialLog log(folder.Log());
-  const bool is_sealed = log.Find("sealed").has_value() || log.broken_line() > 0;
-  if (is_sealed && !ReportChanges(folder, log)) return kNegativeAnswer;
-  if (log.Find("opened")) {
-    if (!options.quiet) std::printf("the trial is over; nothing has changed since\n\n");
-    return Finish(folder, options, log);
-  }
-
-  WatchForInterruption();
-  const TrialRequest request = MakeRequest(options);
-  if (!is_sealed) {
+// What is left of making, sealing and diagnosing. Empty where something has changed meanwhile; else
+// the key.
+std::optional<std::string> SealAndDiagnose(const TrialFolder& folder, const TrialRequest& request,
+                                           const Options& options, TrialLog& log) {
+  if (!log.Find("sealed")) {
     MakeCases(folder, request, options.threads, ShowProgress(options, "cases made"), log);
     if (!options.quiet) {
       std::printf("sealed: %s\n", log.Find("sealed")->value("seal_sha256", "").c_str());
@@ -123,14 +65,53 @@ int Run(const Options& options) {
   }
   const std::string key = DecipherKey(folder, request);
   if (key.empty()) {
-    throw UserError(folder.root.string(), 0, "",
+    throw UserError(folder.books.string(), 0, "",
                     "has another trial, expected the command that began it, or another --out");
   }
   RunDiagnoses(folder, options.threads, ShowProgress(options, "diagnosed"), log);
   // Nothing may have moved while the diagnoses ran.
-  if (!ReportChanges(folder, log)) return kNegativeAnswer;
-  OpenKey(folder, key, log);
+  if (!ReportChanges(folder, log)) return std::nullopt;
+  return key;
+}
+
+bool IsSealed(const TrialLog& log) { return log.Find("sealed") || log.broken_line() > 0; }
+
+int RunShard(const Options& options, const Shard& shard) {
+  TrialRequest request = MakeTrialRequest(options);
+  request.shard = shard;
+  const std::string header = ShardHeader("trial", options, TrialInputsSha256(request), shard);
+  if (IsShardDone(options.out, "trial", shard, header)) return kDone;
+  const TrialFolder folder = FolderOfShard(options.out, shard);
+  std::filesystem::create_directories(folder.books);
+  TrialLog log(folder.Log());
+  if (IsSealed(log) && !ReportChanges(folder, log)) return kNegativeAnswer;
+  WatchForInterruption();
+  if (!SealAndDiagnose(folder, request, options, log)) return kNegativeAnswer;
+  FinishShard(options, "trial", shard, header, UnitsOfShard(folder, shard, log));
+  std::filesystem::remove_all(folder.books);
+  return kDone;
+}
+
+int Run(const Options& options) {
+  if (const std::optional<Shard> shard = ShardOf(options)) return RunShard(options, *shard);
+  const TrialFolder folder{options.out, options.out};
+  TrialLog log(folder.Log());
+  if (IsSealed(log) && !ReportChanges(folder, log)) return kNegativeAnswer;
+  if (log.Find("opened")) {
+    if (!options.quiet) std::printf("the trial is over; nothing has changed since\n\n");
+    return Finish(folder, options, log);
+  }
+
+  WatchForInterruption();
+  const TrialRequest request = MakeTrialRequest(options);
+  const std::optional<std::string> key = SealAndDiagnose(folder, request, options, log);
+  if (!key) return kNegativeAnswer;
+  OpenKey(folder, *key, log);
   return Finish(folder, options, log);
+}
+
+std::string InputsOf(const Options& options) {
+  return TrialInputsSha256(MakeTrialRequest(options));
 }
 
 }  // namespace
@@ -153,8 +134,12 @@ Command TrialCommand() {
        {"--sampling", "HZ", "sampling rate"},
        {"--experiments", "N", "operating points, spread over the config's (default: all)"},
        {"--combustion-noise", "R", "rms over the flame's saturation (default: drawn)"},
-       {"--sensor-noise", "R", "rms over the cycle's amplitude (default: drawn)"}},
-      Run};
+       {"--sensor-noise", "R", "rms over the cycle's amplitude (default: drawn)"},
+       ShardOption()},
+      Run,
+      true,
+      "CONFIG",
+      Sharding{InputsOf, AdoptTrialShards}};
 }
 
 }  // namespace howl

@@ -8,6 +8,9 @@
 //   log.jsonl           sealed, each diagnosis with its SHA-256, opened, scored (trial_log.h)
 //   key/key.json        the key, once it has been opened
 //   trial.json, trial.csv, sheet.md
+//
+// Several processes, each a shard of the trial (app/jobs/shard.h), work on the same cases/ and
+// diagnoses/; each has key/, seal.json and log.jsonl of its own share in a folder of its own.
 #ifndef HOWL_APP_TRIAL_TRIAL_FOLDER_H_
 #define HOWL_APP_TRIAL_TRIAL_FOLDER_H_
 
@@ -22,15 +25,16 @@ namespace howl {
 
 struct TrialFolder {
   std::filesystem::path root;
+  std::filesystem::path books;  // key, seal and log: the root, but for a shard
 
   std::filesystem::path CaseFolder(const std::string& name) const { return root / "cases" / name; }
   std::filesystem::path Diagnosis(const std::string& name) const {
     return root / "diagnoses" / name / "diagnosis.json";
   }
-  std::filesystem::path SealedKey() const { return root / "key" / "key.sealed"; }
-  std::filesystem::path OpenKey() const { return root / "key" / "key.json"; }
-  std::filesystem::path Seal() const { return root / "seal.json"; }
-  std::filesystem::path Log() const { return root / "log.jsonl"; }
+  std::filesystem::path SealedKey() const { return books / "key" / "key.sealed"; }
+  std::filesystem::path OpenKey() const { return books / "key" / "key.json"; }
+  std::filesystem::path Seal() const { return books / "seal.json"; }
+  std::filesystem::path Log() const { return books / "log.jsonl"; }
 };
 
 // A hash over the names, sizes and contents of all files of a folder.

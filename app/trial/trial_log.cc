@@ -14,14 +14,33 @@
 
 namespace howl {
 
-TrialLog::TrialLog(std::filesystem::path path) : path_(std::move(path)) {
-  last_hash_ = Sha256("");
+TrialLog::TrialLog() : last_hash_(Sha256("")) {}
+
+TrialLog::TrialLog(std::filesystem::path path) : TrialLog() {
+  path_ = std::move(path);
   const std::optional<std::string> text = ReadWholeFile(path_);
   if (!text) return;
+  const std::size_t whole = Read(*text);
+  if (whole < text->size()) std::filesystem::resize_file(path_, whole);
+}
+
+TrialLog::TrialLog(TrialLog&& other) noexcept
+    : path_(std::move(other.path_)),
+      entries_(std::move(other.entries_)),
+      last_hash_(std::move(other.last_hash_)),
+      broken_line_(other.broken_line_) {}
+
+TrialLog TrialLog::Parse(const std::string& text) {
+  TrialLog log;
+  log.Read(text);
+  return log;
+}
+
+std::size_t TrialLog::Read(const std::string& text) {
   std::size_t from = 0;
   std::size_t to = 0;
-  while ((to = text->find('\n', from)) != std::string::npos) {
-    const std::string line = text->substr(from, to - from);
+  while ((to = text.find('\n', from)) != std::string::npos) {
+    const std::string line = text.substr(from, to - from);
     from = to + 1;
     nlohmann::json entry = nlohmann::json::parse(line, nullptr, false);
     const bool holds = entry.is_object() && entry.value("previous", "") == last_hash_;
@@ -29,7 +48,7 @@ TrialLog::TrialLog(std::filesystem::path path) : path_(std::move(path)) {
     last_hash_ = Sha256(line);
     entries_.push_back(entry.is_object() ? std::move(entry) : nlohmann::json::object());
   }
-  if (from < text->size()) std::filesystem::resize_file(path_, from);
+  return from;
 }
 
 void TrialLog::Append(nlohmann::ordered_json entry) {

@@ -16,6 +16,9 @@ namespace howl {
 class TrialLog {
  public:
   explicit TrialLog(std::filesystem::path path);
+  // A log that is only read.
+  static TrialLog Parse(const std::string& text);
+  TrialLog(TrialLog&& other) noexcept;
 
   // May be called from several threads. The line is on the disk when it returns.
   void Append(nlohmann::ordered_json entry);
@@ -25,6 +28,10 @@ class TrialLog {
   std::optional<nlohmann::json> Find(const std::string& event) const;
 
  private:
+  TrialLog();
+  // Takes the whole lines; returns where the last of them ends.
+  std::size_t Read(const std::string& text);
+
   std::filesystem::path path_;
   std::vector<nlohmann::json> entries_;
   std::string last_hash_;

@@ -1,19 +1,18 @@
 #include "app/trial/trial_run.h"
 
-#include <sys/stat.h>
-
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <mutex>
 #include <set>
 #include <thread>
 
 #include "app/child_process.h"
 #include "app/digest.h"
 #include "app/interruption.h"
+#include "app/trial/trial_seal.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
-#include "model/version.h"
 
 namespace howl {
 namespace {
@@ -26,8 +25,6 @@ double UnixSeconds() {
   using std::chrono::duration;
   return duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
-
-std::string HowlProgram() { return fs::read_symlink("/proc/self/exe").string(); }
 
 // Threads take units from 0 to count; the first error is thrown when all have stopped.
 void RunUnits(std::size_t count, int threads, const Progress& progress,
@@ -65,63 +62,31 @@ void StopIfAsked(const char* what) {
 
 }  // namespace
 
-std::string TrialRequest::Passphrase() const {
-  std::string text = "howl trial " + config_sha256 + " " + std::to_string(options.seed) + " " +
-                     std::to_string(options.cases);
-  for (const std::string& effect : options.effects) text += " " + effect;
-  for (const double severity : options.severities) text += " " + std::to_string(severity);
-  return text + "\n" + RigSpecYaml(rig_template, {});
-}
-
 void MakeCases(const TrialFolder& folder, const TrialRequest& request, int threads,
                const Progress& progress, TrialLog& log) {
-  const std::vector<RigEffect> effects = ListRigEffects();
-  const std::vector<CasePlan> plans = PlanCases(request.options, effects);
+  std::vector<CasePlan> plans = PlanCases(request.options, ListRigEffects());
   // Removes what an earlier run left before it could seal anything.
-  fs::remove_all(folder.root / "cases");
-  fs::remove_all(folder.root / "key");
-  std::vector<nlohmann::json> keys(plans.size());
-  std::vector<std::string> hashes(plans.size());
+  fs::remove_all(folder.books / "key");
+  if (request.shard) {
+    std::size_t unit = 0;
+    std::erase_if(plans, [&](const CasePlan&) { return !request.shard->Owns(unit++); });
+  } else {
+    fs::remove_all(folder.root / "cases");
+  }
+  SealedCases cases;
+  std::mutex lock;
   RunUnits(plans.size(), threads, progress, [&](std::size_t i) {
-    keys[i] = MakeRig(request.rig_template, plans[i], folder.CaseFolder(plans[i].name));
-    hashes[i] = Sha256OfFolder(folder.CaseFolder(plans[i].name));
+    const fs::path one = folder.CaseFolder(plans[i].name);
+    fs::remove_all(one);
+    nlohmann::json withheld = MakeRig(request.rig_template, plans[i], one);
+    std::string sha256 = Sha256OfFolder(one);
+    const std::lock_guard<std::mutex> hold(lock);
+    cases.withheld[plans[i].name] = std::move(withheld);
+    cases.sha256[plans[i].name] = std::move(sha256);
   });
   StopIfAsked("while the cases were made");
-
-  Json rig_effects = Json::array();
-  for (const RigEffect& effect : effects) {
-    rig_effects.push_back({{"id", effect.id},
-                           {"block", effect.block},
-                           {"in_catalogue", effect.in_catalogue},
-                           {"size_name", effect.size_name},
-                           {"sizes", effect.sizes}});
-  }
-  Json cases = Json::object();
-  Json case_hashes = Json::object();
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    cases[plans[i].name] = keys[i];
-    case_hashes[plans[i].name] = hashes[i];
-  }
-  const Json key = {{"schema", "howl.trial_key/1"},
-                    {"command", request.command},
-                    {"seed", request.options.seed},
-                    {"rig_effects", rig_effects},
-                    {"cases", cases}};
-  const std::string key_text = key.dump(1) + "\n";
-  const std::string sealed = SealText(key_text, request.Passphrase());
-  WriteWholeFile(folder.SealedKey(), sealed);
-  chmod(folder.SealedKey().c_str(), S_IRUSR);
-  chmod(folder.SealedKey().parent_path().c_str(), S_IRWXU);
-  const Json seal = {{"schema", "howl.seal/1"},
-                     {"sealed_at", TimeStamp()},
-                     {"howl_version", Version()},
-                     {"howl_sha256", Sha256OfFile(HowlProgram()).value_or("")},
-                     {"key_sha256", Sha256(key_text)},
-                     {"sealed_key_sha256", Sha256(sealed)},
-                     {"cases", case_hashes}};
-  const std::string seal_text = seal.dump(1) + "\n";
-  WriteWholeFile(folder.Seal(), seal_text);
-  log.Append({{"event", "sealed"}, {"at", TimeStamp()}, {"seal_sha256", Sha256(seal_text)}});
+  const std::string seal_sha256 = WriteSeal(folder, request, cases);
+  log.Append({{"event", "sealed"}, {"at", TimeStamp()}, {"seal_sha256", seal_sha256}});
 }
 
 void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progress, TrialLog& log) {

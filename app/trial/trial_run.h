@@ -4,9 +4,12 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/jobs/shard.h"
+#include "app/options.h"
 #include "app/trial/trial_folder.h"
 #include "app/trial/trial_rig.h"
 #include "trial/score.h"
@@ -18,9 +21,11 @@ struct TrialRequest {
   RigTemplate rig_template;
   TrialOptions options;
   std::string config_sha256;
-  std::string command;  // what reproduces the trial
+  std::string command;                        // what reproduces the trial
+  std::optional<Shard> shard = std::nullopt;  // which of the cases; all without it
   std::string Passphrase() const;
 };
+TrialRequest MakeTrialRequest(const Options& options);
 
 // Makes the cases, seals key and cases. `progress` as in RunDiagnoses.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;

@@ -60,10 +60,7 @@ ScoredTrial ScoreTrial(const TrialFolder& folder, const TrialLog& log) {
 void WriteScores(const TrialFolder& folder, const ScoredTrial& trial, TrialLog& log) {
   const std::string seal = log.Find("sealed")->value("seal_sha256", "");
   const auto command = trial.key.at("command").get<std::string>();
-  const Json about = {{"command", command},
-                      {"seed", trial.key.at("seed")},
-                      {"seal_sha256", seal},
-                      {"opened_at", log.Find("opened")->value("at", "")}};
+  const Json about = {{"command", command}, {"seed", trial.key.at("seed")}, {"seal_sha256", seal}};
   const std::map<std::string, std::string> files = {
       {"trial.json", TrialJson(trial.sheet, about).dump(2) + "\n"},
       {kTrialCsv, TrialCsv(trial.cases)},

@@ -64,17 +64,22 @@ std::optional<double> GainOfReplicate(const std::vector<CutRecord>& records, con
 std::vector<double> BootstrapGains(const std::vector<CutRecord>& records, const EffectFit& base,
                                    const std::vector<DiagnosisExperiment>& experiments,
                                    const DiagnosisOptions& options) {
-  std::vector<double> gains(options.bootstrap);
+  std::vector<std::size_t> replicates;
+  for (std::size_t i = 0; i < options.bootstrap; ++i) {
+    if (!options.owns_replicate || options.owns_replicate(i)) replicates.push_back(i);
+  }
+  std::vector<double> gains(replicates.size());
   std::atomic<bool> stopped = false;
   std::atomic<std::size_t> done = 0;
   std::mutex progress_lock;
-  RunUnits(gains.size(), options.threads, [&](std::size_t i) {
+  RunUnits(gains.size(), options.threads, [&](std::size_t k) {
+    const std::size_t i = replicates[k];
     const std::optional<double> gain = GainOfReplicate(records, base, experiments, options, i);
     if (!gain) {
       stopped = true;
       return;
     }
-    gains[i] = *gain;
+    gains[k] = *gain;
     const std::size_t now = ++done;
     if (options.bootstrap_progress) {
       const std::lock_guard<std::mutex> lock(progress_lock);

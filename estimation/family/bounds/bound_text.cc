@@ -167,15 +167,16 @@ std::optional<std::string> NextSearch(std::istream& in) {
 
 }  // namespace
 
-void WriteBoundSearches(std::ostream& out, std::size_t experiments,
-                        const std::vector<BoundSearch>& searches) {
-  out << kMagic << ' ' << searches.size() << ' ' << experiments << '\n';
-  for (const BoundSearch& search : searches) {
-    std::ostringstream text;
-    Write(text, search);
-    const std::string bytes = std::move(text).str();
-    out << bytes.size() << ' ' << UnitSeed(0, bytes) << '\n' << bytes;
-  }
+std::string BoundSearchHead(std::size_t experiments, std::size_t searches) {
+  return std::string(kMagic) + " " + std::to_string(searches) + " " + std::to_string(experiments) +
+         "\n";
+}
+
+std::string BoundSearchText(const BoundSearch& search) {
+  std::ostringstream text;
+  Write(text, search);
+  const std::string bytes = std::move(text).str();
+  return std::to_string(bytes.size()) + " " + std::to_string(UnitSeed(0, bytes)) + "\n" + bytes;
 }
 
 std::optional<std::size_t> ReadBoundSearches(std::istream& in, std::size_t experiments,

@@ -1,4 +1,5 @@
-// The searches of an interrupted run as text, exact: numbers are hexadecimal floating point.
+// The searches of an interrupted run as text, exact: numbers are hexadecimal floating point. A
+// head, then each search, one after another:
 //
 //   howl.enclosure/2 <searches> <experiments>, then for each search a line of its length in bytes
 //   and their hash, a line of its state, draws, counts, ends and witness, and a line for every cell
@@ -11,14 +12,15 @@
 #include <cstddef>
 #include <iosfwd>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "estimation/family/bounds/bound_search.h"
 
 namespace howl {
 
-void WriteBoundSearches(std::ostream& out, std::size_t experiments,
-                        const std::vector<BoundSearch>& searches);
+std::string BoundSearchHead(std::size_t experiments, std::size_t searches);
+std::string BoundSearchText(const BoundSearch& search);
 
 // Into searches of the same problem and options. A search whose bytes do not have their hash is
 // left as it was, and counted: each is a unit of its own. No value where the text is not of this

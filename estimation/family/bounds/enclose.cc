@@ -90,15 +90,21 @@ Enclosure::Enclosure(const FamilyProblem& problem, const EncloseOptions& options
     : impl_(std::make_unique<Impl>(problem, options)) {}
 Enclosure::~Enclosure() = default;
 
-bool Enclosure::Run(const std::function<bool()>& interrupted) {
-  RunUnits(impl_->searches.size(), impl_->options.threads, [&](std::size_t k) {
-    BoundSearch& search = impl_->searches[k];
+bool Enclosure::Run(const std::function<bool()>& interrupted,
+                    const std::function<bool(std::size_t)>& owned) {
+  std::vector<std::size_t> units;
+  for (std::size_t k = 0; k < Searches(); ++k) {
+    if (!owned || owned(k)) units.push_back(k);
+  }
+  RunUnits(units.size(), impl_->options.threads, [&](std::size_t unit) {
+    BoundSearch& search = impl_->searches[units[unit]];
     while (!search.IsDone()) {
       if (interrupted && interrupted()) return;
       StepBound(impl_->context, impl_->limits, search);
     }
   });
-  const bool complete = IsComplete();
+  const bool complete =
+      std::ranges::all_of(units, [&](std::size_t k) { return impl_->searches[k].IsDone(); });
   if (complete) {
     const CellCounts cells = Counts();
     VLOG(1) << "bounds: " << impl_->searches.size() << " ends; of the boxes " << cells.inside
@@ -107,6 +113,8 @@ bool Enclosure::Run(const std::function<bool()>& interrupted) {
   }
   return complete;
 }
+
+std::size_t Enclosure::Searches() const { return impl_->searches.size(); }
 
 bool Enclosure::IsComplete() const {
   return std::all_of(impl_->searches.begin(), impl_->searches.end(),
@@ -160,7 +168,16 @@ std::vector<Member> Enclosure::Witnesses() const {
 }
 
 void Enclosure::Save(std::ostream& out) const {
-  WriteBoundSearches(out, impl_->context.problem.experiments.size(), impl_->searches);
+  out << SavedHead();
+  for (std::size_t k = 0; k < Searches(); ++k) out << SavedSearch(k);
+}
+
+std::string Enclosure::SavedHead() const {
+  return BoundSearchHead(impl_->context.problem.experiments.size(), Searches());
+}
+
+std::string Enclosure::SavedSearch(std::size_t k) const {
+  return BoundSearchText(impl_->searches[k]);
 }
 
 bool Enclosure::Load(std::istream& in) {

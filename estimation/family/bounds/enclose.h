@@ -15,6 +15,7 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "estimation/family/bounds/cell.h"
@@ -56,13 +57,19 @@ class Enclosure {
   Enclosure& operator=(const Enclosure&) = delete;
 
   // Until every bound is closed or out of budget, or `interrupted` (asked between cells, possibly
-  // from several threads) says true. True when complete. Call again to go on.
-  bool Run(const std::function<bool()>& interrupted = nullptr);
+  // from several threads) says true. True when complete. Call again to go on. `owned`: of the
+  // searches, 0 to Searches() - 1, those that this process runs; all without it.
+  bool Run(const std::function<bool()>& interrupted = nullptr,
+           const std::function<bool(std::size_t)>& owned = nullptr);
   bool IsComplete() const;
+  std::size_t Searches() const;
 
-  // The state of an interrupted run as text, exact. Load expects the same problem and options;
-  // false on anything else than what Save wrote. A search whose text is damaged begins anew.
+  // The state of an interrupted run as text, exact: a head, then each search. Load expects the same
+  // problem and options; false on anything else than what Save wrote. A search whose text is
+  // damaged begins anew. Searches that several processes ran are joined as one text after another.
   void Save(std::ostream& out) const;
+  std::string SavedHead() const;
+  std::string SavedSearch(std::size_t k) const;
   bool Load(std::istream& in);
 
   EnclosedBound Bound(std::size_t experiment, FamilyParameter parameter) const;
