@@ -107,8 +107,8 @@ ChildResult RunChild(const std::vector<std::string>& words, const std::string& i
   return result;
 }
 
-std::filesystem::path ProgramFolder() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
-}
+std::filesystem::path ThisProgram() { return std::filesystem::read_symlink("/proc/self/exe"); }
+
+std::filesystem::path ProgramFolder() { return ThisProgram().parent_path(); }
 
 }  // namespace howl

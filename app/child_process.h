@@ -18,6 +18,7 @@ struct ChildResult {
 // May be called from several threads. Throws UserError where the program cannot be started.
 ChildResult RunChild(const std::vector<std::string>& words, const std::string& input);
 
+std::filesystem::path ThisProgram();
 // The folder of this program: where its siblings are.
 std::filesystem::path ProgramFolder();
 

@@ -22,9 +22,9 @@ struct Sharding {
   std::string (*inputs_sha256)(const Options&);
   // Puts the units of all shards where an interrupted run of the command would have left them.
   void (*adopt)(const Options&, const std::map<std::string, std::string>& units);
-  // The option with which the command makes results of those units that are there; empty where it
-  // needs them all.
-  std::string part_option = "";
+  // The option with which the command runs nothing and makes its results of the units that are
+  // there; empty where it needs them all.
+  std::string table_option = "";
 };
 
 struct Command {
@@ -44,6 +44,7 @@ struct Command {
 const std::vector<Command>& Commands();
 
 Command AnalyseCommand();
+Command CampaignCommand();
 Command CheckCommand();
 Command DiagnoseCommand();
 Command FitCommand();

@@ -4,9 +4,9 @@ namespace howl {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {
-      InitCommand(),  CheckCommand(),   AnalyseCommand(),  FitCommand(),      FamilyCommand(),
-      ListCommand(),  PredictCommand(), SimulateCommand(), DiagnoseCommand(), TrialCommand(),
-      MergeCommand(), RegressCommand(), ReportCommand()};
+      InitCommand(),     CheckCommand(),   AnalyseCommand(),  FitCommand(),      FamilyCommand(),
+      ListCommand(),     PredictCommand(), SimulateCommand(), DiagnoseCommand(), TrialCommand(),
+      CampaignCommand(), MergeCommand(),   RegressCommand(),  ReportCommand()};
   return commands;
 }
 

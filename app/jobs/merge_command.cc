@@ -47,13 +47,15 @@ int MergeOne(ShardSet set) {
   const Command& command = ShardedCommand(set);
   const Sharding& sharding = *command.sharding;
   RequireSameInputs(set, sharding);
-  if (!set.missing.empty()) {
-    if (sharding.part_option.empty()) throw NegativeAnswer(MissingText(set));
-    set.options.own[sharding.part_option] = "";
+  if (!sharding.table_option.empty()) {
+    set.options.own[sharding.table_option] = "";
+  } else if (!set.missing.empty()) {
+    throw NegativeAnswer(MissingText(set));
   }
   sharding.adopt(set.options, set.units);
   const int status = command.run(set.options);
-  NoteRun(set.options.out, set.options.config, command.name, set.options.seed);
+  if (command.writes_results)
+    NoteRun(set.options.out, set.options.config, command.name, set.options.seed);
   if (!set.missing.empty()) throw NegativeAnswer(MissingText(set));
   return status;
 }

@@ -101,8 +101,8 @@ void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progre
   }
   if (left.empty()) return;
   // Half of the cases by one program and half by another would be no trial of either.
-  if (Sha256OfFile(HowlProgram()).value_or("") != seal.value("howl_sha256", "")) {
-    throw UserError(HowlProgram(), 0, "",
+  if (Sha256OfFile(ThisProgram()).value_or("") != seal.value("howl_sha256", "")) {
+    throw UserError(ThisProgram().string(), 0, "",
                     "has changed since the trial was sealed, expected the program that sealed it");
   }
   RunUnits(left.size(), threads, progress, [&](std::size_t i) {
@@ -110,10 +110,10 @@ void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progre
     const fs::path out = folder.Diagnosis(name).parent_path();
     fs::remove_all(out);
     const auto start = Clock::now();
-    const ChildResult result =
-        RunChild({HowlProgram(), "diagnose", (folder.CaseFolder(name) / "config.yaml").string(),
-                  "--out", out.string(), "--threads", "1", "--quiet"},
-                 "");
+    const ChildResult result = RunChild(
+        {ThisProgram().string(), "diagnose", (folder.CaseFolder(name) / "config.yaml").string(),
+         "--out", out.string(), "--threads", "1", "--quiet"},
+        "");
     // A terminal's Ctrl-C reaches the child as well, and may end it before this program notices.
     if (result.status < 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));
     if (IsInterrupted()) return;

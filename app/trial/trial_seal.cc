@@ -2,8 +2,7 @@
 
 #include <sys/stat.h>
 
-#include <filesystem>
-
+#include "app/child_process.h"
 #include "app/digest.h"
 #include "io/whole_file.h"
 #include "model/version.h"
@@ -32,8 +31,6 @@ std::string KeyText(const TrialRequest& request, const SealedCases& cases) {
 
 }  // namespace
 
-std::string HowlProgram() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
-
 std::string WriteSeal(const TrialFolder& folder, const TrialRequest& request,
                       const SealedCases& cases) {
   const std::string key = KeyText(request, cases);
@@ -43,7 +40,7 @@ std::string WriteSeal(const TrialFolder& folder, const TrialRequest& request,
   chmod(folder.SealedKey().parent_path().c_str(), S_IRWXU);
   const Json seal = {{"schema", "howl.seal/1"},
                      {"howl_version", Version()},
-                     {"howl_sha256", Sha256OfFile(HowlProgram()).value_or("")},
+                     {"howl_sha256", Sha256OfFile(ThisProgram()).value_or("")},
                      {"key_sha256", Sha256(key)},
                      {"sealed_key_sha256", Sha256(sealed)},
                      {"cases", cases.sha256}};

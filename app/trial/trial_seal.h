@@ -23,9 +23,6 @@ struct SealedCases {
 std::string WriteSeal(const TrialFolder& folder, const TrialRequest& request,
                       const SealedCases& cases);
 
-// The program that runs.
-std::string HowlProgram();
-
 }  // namespace howl
 
 #endif  // HOWL_APP_TRIAL_TRIAL_SEAL_H_

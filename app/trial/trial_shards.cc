@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/child_process.h"
 #include "app/digest.h"
 #include "app/trial/trial_seal.h"
 #include "io/user_error.h"
@@ -78,7 +79,7 @@ std::vector<Json> DiagnosedEntries(const std::vector<TrialLog>& logs) {
 }  // namespace
 
 std::string TrialInputsSha256(const TrialRequest& request) {
-  const fs::path rig = fs::path(HowlProgram()).parent_path() / "howl_rig";
+  const fs::path rig = ProgramFolder() / "howl_rig";
   return Sha256(request.Passphrase() + "\n" + Sha256OfFile(rig).value_or(""));
 }
 

@@ -1,12 +1,11 @@
-#include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 
 #include "io/config/absent_record.h"
 #include "io/config/config_sections.h"
+#include "io/config/table_name.h"
 #include "io/records/time_unit.h"
 
 namespace howl {
@@ -32,14 +31,6 @@ bool IsVariableName(const std::string& name) {
 std::string ShownPath(const ConfigCursor& file, const std::filesystem::path& path) {
   const std::string& text = file.Node().text;
   return text.find("${") == std::string::npos ? path.string() : text;
-}
-
-// A formula has no name with an owner, and so never ends like this.
-bool IsTableName(const std::string& text) {
-  constexpr std::string_view kEndings[] = {".csv", ".tsv", ".txt", ".dat",
-                                           ".gz",  ".mat", ".h5",  ".hdf5"};
-  return std::any_of(std::begin(kEndings), std::end(kEndings),
-                     [&](std::string_view ending) { return text.ends_with(ending); });
 }
 
 std::filesystem::path FilePath(const ConfigCursor& file, const std::filesystem::path& config_file,

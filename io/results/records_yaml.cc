@@ -3,6 +3,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <set>
+#include <utility>
+#include <vector>
+
+#include "io/config/yaml_text.h"
 
 namespace howl {
 namespace {
@@ -11,32 +15,14 @@ namespace {
 // copied because the records belong to the same problem.
 constexpr const char* kSections[] = {"residuals", "solver", "family", "analysis"};
 
-// Writes a section as it is in the config, except names of experiments that are not among the
-// records.
-void Emit(const LocatedNode& node, const std::set<std::string>& left_out, YAML::Emitter& out) {
-  switch (node.kind) {
-    case LocatedNode::Kind::kList:
-      out << YAML::Flow << YAML::BeginSeq;
-      for (const LocatedNode& item : node.items) {
-        if (!left_out.contains(item.text)) Emit(item, left_out, out);
-      }
-      out << YAML::EndSeq;
-      break;
-    case LocatedNode::Kind::kMapping:
-      out << YAML::Flow << YAML::BeginMap;
-      for (const LocatedMember& member : node.members) {
-        out << YAML::Key << member.key << YAML::Value;
-        Emit(member.value, left_out, out);
-      }
-      out << YAML::EndMap;
-      break;
-    case LocatedNode::Kind::kNull:
-      out << YAML::Null;
-      break;
-    default:
-      if (node.quoted) out << YAML::DoubleQuoted;
-      out << node.text;
+// A section as it is in the config, except names of experiments that are not among the records.
+LocatedNode Without(const std::set<std::string>& left_out, LocatedNode node) {
+  std::erase_if(node.items, [&](const LocatedNode& item) { return left_out.contains(item.text); });
+  for (LocatedNode& item : node.items) item = Without(left_out, std::move(item));
+  for (LocatedMember& member : node.members) {
+    member.value = Without(left_out, std::move(member.value));
   }
+  return node;
 }
 
 LocatedNode& Value(const std::string& key, LocatedNode* mapping) {
@@ -92,12 +78,12 @@ std::string RecordsYaml(const Config& config, const std::vector<Experiment>& exp
   for (const ExperimentConfig& each : config.experiments) left_out.insert(each.experiment.name);
   for (const Experiment& experiment : experiments) left_out.erase(experiment.name);
   out << YAML::Key << "parameters" << YAML::Value;
-  Emit(Parameters(config), left_out, out);
+  EmitYaml(Without(left_out, Parameters(config)), out);
   for (const char* const section : kSections) {
     const LocatedMember* const member = config.tree.Find(section);
     if (member == nullptr) continue;
     out << YAML::Key << section << YAML::Value;
-    Emit(member->value, left_out, out);
+    EmitYaml(Without(left_out, member->value), out);
   }
   out << YAML::EndMap;
   return std::string(out.c_str()) + "\n";

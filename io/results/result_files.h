@@ -21,9 +21,12 @@ inline constexpr const char* kSweepCsv = "sweep.csv";
 inline constexpr const char* kTrialCsv = "trial.csv";
 inline constexpr const char* kPredictionCsv = "prediction.csv";
 
-inline constexpr std::array<std::string_view, 10> kResultTables = {
-    kCharacteristicsCsv, kLinesCsv,   kTransferCsv, kFlameCurveCsv, kFamilyCsv,
-    kTradeoffCsv,        kProfileCsv, kSweepCsv,    kTrialCsv,      kPredictionCsv};
+inline constexpr const char* kCampaignCsv = "campaign.csv";
+inline constexpr const char* kCampaignPointsCsv = "campaign_points.csv";
+
+inline constexpr std::array<std::string_view, 12> kResultTables = {
+    kCharacteristicsCsv, kLinesCsv, kTransferCsv, kFlameCurveCsv, kFamilyCsv,   kTradeoffCsv,
+    kProfileCsv,         kSweepCsv, kTrialCsv,    kPredictionCsv, kCampaignCsv, kCampaignPointsCsv};
 
 // An experiment's NAME.csv would overwrite a table of results, as the name "family" would.
 inline bool IsResultsName(std::string_view name) {
