@@ -56,6 +56,8 @@ Command PredictCommand();
 Command RegressCommand();
 Command ReportCommand();
 Command SimulateCommand();
+Command StatusCommand();
+Command SubmitCommand();
 Command TrialCommand();
 
 }  // namespace howl

@@ -25,17 +25,19 @@ constexpr const char* kSchema = R"({
   "type": "object",
   "additionalProperties": false,
   "properties": {
-    "title": {"type": "string"},
-    "commands": {"type": "array", "minItems": 1, "items":
-      {"type": "string", "enum": ["simulate", "analyse", "fit", "family", "diagnose"]}},
-    "options": {"type": "object", "additionalProperties": false, "properties": {
-      "simulate": {"type": "string"}, "analyse": {"type": "string"}, "fit": {"type": "string"},
-      "family": {"type": "string"}, "diagnose": {"type": "string"}}},
-    "configs": {"type": "array", "minItems": 1, "items": {"type": "string"}},
-    "config": {"type": "string"},
-    "fleet": {"type": "string"},
-    "keep": {"type": "string", "enum": ["folders", "rows"]},
-    "grid": {"type": "object"}
+    "title": {"type": "string", "description": "of the tables"},
+    "commands": {"type": "array", "minItems": 1, "description": "for each rig, in this order",
+      "items": {"type": "string", "enum": ["simulate", "analyse", "fit", "family", "diagnose"]}},
+    "options": {"type": "object", "additionalProperties": false, "description": "by command",
+      "properties": {"simulate": {"type": "string"}, "analyse": {"type": "string"},
+        "fit": {"type": "string"}, "family": {"type": "string"}, "diagnose": {"type": "string"}}},
+    "configs": {"type": "array", "minItems": 1, "items": {"type": "string"},
+      "description": "files or patterns"},
+    "config": {"type": "string", "description": "the one that is changed for each rig"},
+    "fleet": {"type": "string", "description": "a table with a row for each rig"},
+    "keep": {"type": "string", "enum": ["folders", "rows"],
+      "description": "of each rig, its folder or its row alone"},
+    "grid": {"type": "object", "description": "values by key, all combinations"}
   }
 })";
 

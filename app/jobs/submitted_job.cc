@@ -1,0 +1,74 @@
+#include "app/jobs/submitted_job.h"
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "app/digest.h"
+#include "app/jobs/shard.h"
+#include "app/jobs/slurm.h"
+#include "io/user_error.h"
+#include "io/whole_file.h"
+
+namespace howl {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "howl.job/1";
+
+}  // namespace
+
+fs::path JobPath(const fs::path& out) { return ShardFolder(out) / "job.json"; }
+
+fs::path LogPath(const fs::path& out, std::size_t index) {
+  return ShardFolder(out) / "log" / ((index == 0 ? "merge" : std::to_string(index)) + ".txt");
+}
+
+std::optional<SubmittedJob> ReadJob(const fs::path& out) {
+  const std::optional<std::string> text = ReadWholeFile(JobPath(out));
+  if (!text) return std::nullopt;
+  try {
+    const Json json = Json::parse(*text);
+    if (json.at("schema") != kSchema) throw std::invalid_argument("schema");
+    SubmittedJob job{
+        json.at("folder").get<std::string>(), json.at("command").get<std::vector<std::string>>(),
+        json.at("shards").get<std::size_t>(), json.at("arrays").get<std::vector<std::string>>(),
+        json.at("merge").get<std::string>()};
+    if (job.words.empty()) throw std::invalid_argument("command");
+    return job;
+  } catch (const std::exception&) {
+    throw UserError(
+        JobPath(out).string(), 0, "",
+        std::string("is damaged, expected the schema ") + kSchema + ": remove it and submit again");
+  }
+}
+
+void WriteJob(const fs::path& out, const SubmittedJob& job) {
+  const Json json = {{"schema", kSchema},    {"command", job.words}, {"folder", job.folder},
+                     {"shards", job.shards}, {"arrays", job.arrays}, {"merge", job.merge}};
+  WriteWholeFile(JobPath(out), json.dump(2) + "\n");
+}
+
+ShardStates StatesOf(const fs::path& out, const SubmittedJob& job) {
+  // The queue is read first: a shard that ends in between is then there.
+  std::map<std::size_t, std::string> queued;
+  for (const std::string& array : job.arrays) queued.merge(QueuedTasks(array));
+  ShardStates states;
+  for (std::size_t index = 1; index <= job.shards; ++index) {
+    std::error_code ignored;
+    const auto task = queued.find(index);
+    if (fs::exists(ShardPath(out, job.CommandName(), {index, job.shards}), ignored)) {
+      states.there.push_back(index);
+    } else if (task == queued.end()) {
+      states.missing.push_back(index);
+    } else if (task->second == "PENDING" || task->second.starts_with("REQUEUE")) {
+      states.waiting.push_back(index);
+    } else {
+      states.running.push_back(index);
+    }
+  }
+  return states;
+}
+
+}  // namespace howl
