@@ -61,8 +61,9 @@ std::vector<Sketch> FleetSketches(const CampaignSpec& spec, CampaignRigs& all) {
     Sketch sketch{table.Text(row, kRigColumn), spec.configs.front(), {}};
     for (const std::string& column : table.columns) {
       if (column == kRigColumn) continue;
-      LocatedNode value = MakeScalar(table.Text(row, column), false, line);
-      if (IsPathKey(column, value.text)) {
+      const std::string cell = table.Text(row, column);
+      LocatedNode value = cell.empty() ? LocatedNode() : MakeScalar(cell, false, line);
+      if (IsPathKey(column, cell) && !cell.empty()) {
         value.text = AbsolutePath(spec.fleet->parent_path(), value.text);
       }
       sketch.settings.push_back({column, value, *spec.fleet, line});

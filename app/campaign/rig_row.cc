@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 using Row = nlohmann::ordered_json;
 
 // The value at a path of keys; null where there is none.
-Json At(const Json& json, std::initializer_list<const char*> keys) {
+Json At(const Json& json, const std::vector<const char*>& keys) {
   const Json* node = &json;
   for (const char* const key : keys) {
     if (!node->is_object() || !node->contains(key)) return nullptr;
@@ -40,7 +40,7 @@ void HarvestAnalysis(const Json& results, Row& row) {
   std::size_t cycles = 0;
   for (const Json& experiment : At(results, {"experiments"})) {
     cycles += At(experiment, {"cycle", "state"}) == "limit_cycle" ? 1 : 0;
-    const std::pair<const char*, std::initializer_list<const char*>> quantities[] = {
+    const std::pair<const char*, std::vector<const char*>> quantities[] = {
         {"frequency_hz", {"cycle", "frequency"}},
         {"phase_deg", {"cycle", "phase"}},
         {"gain", {"cycle", "gain"}},

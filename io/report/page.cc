@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "io/report/browser_data.h"
+#include "io/report/campaign_section.h"
 #include "io/report/fault_words.h"
 #include "io/report/health_section.h"
 #include "io/report/page_tables.h"
@@ -32,7 +33,8 @@ const std::vector<Section>& Sections() {
         "sensitivity_omega", "sensitivity_tau", "bifurcation"}},
       {"family", "What the data leave open", {"tradeoff", "bounds"}},
       {"diagnosis", "Where and why the model falls short", {"gap_map", "effects", "remains"}},
-      {"trial", "How far to trust the diagnosis", {"confusion", "reliability", "power"}}};
+      {"trial", "How far to trust the diagnosis", {"confusion", "reliability", "power"}},
+      {"campaign", "All rigs", {"campaign_quantities", "campaign_gaps"}}};
   return sections;
 }
 
@@ -88,6 +90,7 @@ std::string SectionText(const std::string& id, const ReportInput& input) {
   if (id == "family") return FamilySummary(input);
   if (id == "diagnosis") return DiagnosisSummary(input);
   if (id == "trial") return TrialSummary(input);
+  if (id == "campaign") return CampaignSummary(input);
   return {};
 }
 

@@ -7,6 +7,7 @@
 
 #include "estimation/analysis/half_width.h"
 #include "io/report/figures/curves.h"
+#include "io/report/html_table.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
 #include "io/report/spelled_interval.h"
@@ -16,39 +17,12 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kNumbersLength = 36;  // a column with longer cells is words, which may break
-
 std::string Text(double value, int digits = 5) { return Spelled(value, digits); }
 
 std::string Percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.0f", 100.0 * share);
   return text;
-}
-
-std::string Table(const std::string& caption, const std::vector<std::string>& head,
-                  const std::vector<std::vector<std::string>>& rows) {
-  std::vector<char> words(head.size(), 0);
-  for (const auto& row : rows) {
-    for (std::size_t k = 1; k < row.size(); ++k) {
-      if (row[k].size() > kNumbersLength) words[k] = 1;
-    }
-  }
-  const auto cell = [&](const std::string& tag, std::size_t k, const std::string& text) {
-    return "<" + tag + (words[k] ? " class=\"words\">" : ">") + EscapeHtml(text) + "</" +
-           tag.substr(0, 2) + ">";
-  };
-  std::string out = "<div class=\"scroll\"><table><caption>" + caption + "</caption><thead><tr>";
-  for (std::size_t k = 0; k < head.size(); ++k) out += cell("th scope=\"col\"", k, head[k]);
-  out += "</tr></thead><tbody>";
-  for (const auto& row : rows) {
-    out += "<tr>";
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      out += cell(k == 0 ? "th scope=\"row\"" : "td", k, row[k]);
-    }
-    out += "</tr>";
-  }
-  return out + "</tbody></table></div>\n";
 }
 
 std::string Joined(const nlohmann::json& names) {
@@ -101,7 +75,7 @@ std::string MeasuredTable(const ReportInput& input) {
                     SpelledInterval(point.gain), SpelledInterval(point.tau_s, 1e3),
                     SpelledInterval(point.flame_slope), SpelledInterval(point.loop_gain)});
   }
-  return Table(
+  return HtmlTable(
       "Characteristics of the limit cycle; ± is half of a 95 % interval where one is "
       "known; * not stationary, or no limit cycle",
       {"experiment", input.OperatingLabel(), "f (Hz)", "phase q to p (°)", "gain (p/q)", "τ (ms)",
@@ -125,10 +99,10 @@ std::string FitTable(const ReportInput& input) {
     row.push_back(Text(1e3 * fit.model.tau_s));
   }
   const bool converged = input.solution.value("converged", false);
-  return Table("Joint fit: one choice among those that the data leave" +
-                   std::string(converged ? "" : "; no start converged") + ". N" +
-                   (two_modes ? " and M" : "") + " in (units of p per unit of q) rad/s",
-               head, rows);
+  return HtmlTable("Joint fit: one choice among those that the data leave" +
+                       std::string(converged ? "" : "; no start converged") + ". N" +
+                       (two_modes ? " and M" : "") + " in (units of p per unit of q) rad/s",
+                   head, rows);
 }
 
 std::string FamilySummary(const ReportInput& input) {
@@ -194,7 +168,7 @@ std::string DiagnosisSummary(const ReportInput& input) {
                     names, Text(NumberAt(place, "share"), 2)});
   }
   if (!rows.empty()) {
-    out += Table("Where", {"block", "band (Hz)", "experiments", "share of the gap"}, rows);
+    out += HtmlTable("Where", {"block", "band (Hz)", "experiments", "share of the gap"}, rows);
   }
   rows.clear();
   for (const auto& candidate : input.diagnosis.value("candidates", nlohmann::json::array())) {
@@ -217,8 +191,8 @@ std::string DiagnosisSummary(const ReportInput& input) {
                     Text(NumberAt(candidate, "gap_after"), 3), parameters});
   }
   if (!rows.empty()) {
-    out += Table("The most probable candidates, with 95 % intervals",
-                 {"effect", "gap removed (%)", "gap left", "estimate"}, rows);
+    out += HtmlTable("The most probable candidates, with 95 % intervals",
+                     {"effect", "gap removed (%)", "gap left", "estimate"}, rows);
   }
   if (input.diagnosis.contains("advice") && input.diagnosis["advice"].is_string()) {
     out += "<p>Next: " + EscapeHtml(input.diagnosis["advice"].get<std::string>()) + ".</p>\n";
@@ -258,10 +232,10 @@ std::string TrialSummary(const ReportInput& input) {
     if (!seal.empty()) out += " SHA-256 of the sealed key: <code>" + EscapeHtml(seal) + "</code>.";
   }
   out += "</p>\n";
-  out += Table("Scores with 95 % (Wilson) intervals, and those of trivial rivals",
-               {"method", "effect named", "in a class of three", "block", "false alarms",
-                "unknown recognised", "log score", "Brier score"},
-               rows);
+  out += HtmlTable("Scores with 95 % (Wilson) intervals, and those of trivial rivals",
+                   {"method", "effect named", "in a class of three", "block", "false alarms",
+                    "unknown recognised", "log score", "Brier score"},
+                   rows);
   rows.clear();
   for (const auto& each : ListAt(input.trial, "power")) {
     const nlohmann::json& sizes = ListAt(each, "size_interval");
@@ -277,8 +251,8 @@ std::string TrialSummary(const ReportInput& input) {
                     Text(NumberAt(each, "found"), 5) + " of " + Text(NumberAt(each, "cases"), 5)});
   }
   if (!rows.empty()) {
-    out += Table("Power: the size that is named in 90 % of cases",
-                 {"effect", "parameter", "size", "named"}, rows);
+    out += HtmlTable("Power: the size that is named in 90 % of cases",
+                     {"effect", "parameter", "size", "named"}, rows);
   }
   return out;
 }

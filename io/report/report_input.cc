@@ -62,7 +62,8 @@ void ReadConfig(ReportInput& input) {
       [&](const std::filesystem::path&) { input.run = ReadRunFile(input.folder); });
   if (!input.run) {
     if (!std::filesystem::exists(input.folder / "run.json") &&
-        !std::filesystem::exists(input.folder / "trial.json")) {
+        !std::filesystem::exists(input.folder / "trial.json") &&
+        !std::filesystem::exists(input.folder / "campaign.json")) {
       input.missing.push_back(
           "run.json, which names the config, is not here: records, tests and priors are unknown; "
           "any command of howl run on the config writes it");
@@ -163,8 +164,10 @@ void NoteAbsent(ReportInput& input) {
   const bool has_records =
       input.config && std::ranges::any_of(input.config->experiments,
                                           [](const auto& each) { return each.record.has_value(); });
-  // A trial stands alone.
-  if (input.trial.is_object() && input.solution.is_null() && input.analysis.is_null()) return;
+  // A trial stands alone, and so does a campaign.
+  if ((input.trial.is_object() || input.campaign.is_object()) && input.solution.is_null() &&
+      input.analysis.is_null())
+    return;
   for (const Source& source :
        {Source{"analysis.json", "analyse", "spectral lines, flame curves and transfers", true},
         Source{"solution.json", "fit", "the fitted loops", false},
@@ -268,6 +271,12 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
       [&](const auto& path) { input.diagnosis = ReadJson(path, "howl.diagnosis/1"); });
   Try(input, "trial.json", "trial",
       [&](const auto& path) { input.trial = ReadJson(path, "howl.trial/1"); });
+  Try(input, "campaign.json", "campaign",
+      [&](const auto& path) { input.campaign = ReadJson(path, "howl.campaign/1"); });
+  Try(input, kCampaignCsv, "campaign",
+      [&](const auto& path) { input.campaign_table = ReadCsvTable(path); });
+  Try(input, kCampaignPointsCsv, "campaign",
+      [&](const auto& path) { input.campaign_points = ReadCsvTable(path); });
   Try(input, kTransferCsv, "analyse",
       [&](const auto& path) { input.transfer = ReadCsvTable(path); });
   Try(input, kFlameCurveCsv, "analyse",
@@ -310,7 +319,7 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
   });
   const bool empty = !input.run && input.analysis.is_null() && input.solution.is_null() &&
                      input.family.is_null() && input.diagnosis.is_null() && input.trial.is_null() &&
-                     !input.members && input.simulated.empty();
+                     input.campaign.is_null() && !input.members && input.simulated.empty();
   if (empty && input.missing.size() <= 1) {
     throw UserError(folder.string(), 0, "",
                     "holds nothing to report, expected files that the other commands wrote");

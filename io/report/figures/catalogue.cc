@@ -36,7 +36,9 @@ constexpr Entry kFigures[] = {{"records", RecordsFigure},
                               {"remains", RemainsFigure},
                               {"confusion", ConfusionFigure},
                               {"reliability", ReliabilityFigure},
-                              {"power", PowerFigure}};
+                              {"power", PowerFigure},
+                              {"campaign_quantities", CampaignQuantitiesFigure},
+                              {"campaign_gaps", CampaignGapsFigure}};
 
 }  // namespace
 

@@ -34,6 +34,8 @@ std::optional<Figure> RemainsFigure(const ReportInput& input);
 std::optional<Figure> ConfusionFigure(const ReportInput& input);
 std::optional<Figure> ReliabilityFigure(const ReportInput& input);
 std::optional<Figure> PowerFigure(const ReportInput& input);
+std::optional<Figure> CampaignQuantitiesFigure(const ReportInput& input);
+std::optional<Figure> CampaignGapsFigure(const ReportInput& input);
 
 // Those that apply. A fault in one is a sentence in `missing` and leaves the others.
 std::vector<Figure> AllFigures(const ReportInput& input, int threads,

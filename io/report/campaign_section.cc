@@ -1,0 +1,71 @@
+#include "io/report/campaign_section.h"
+
+#include <vector>
+
+#include "io/report/html_table.h"
+#include "io/report/page.h"
+#include "io/report/script.h"
+#include "io/results/result_files.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kMostRows = 200;  // what a reader looks through; the CSV has all
+
+std::string Count(const nlohmann::json& json, const char* key) {
+  return Spelled(NumberAt(json, key), 7);
+}
+
+std::string VerdictTable(const nlohmann::json& campaign) {
+  if (!campaign.contains("verdicts") || campaign["verdicts"].empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [verdict, count] : campaign["verdicts"].items()) {
+    rows.push_back({verdict, Spelled(count.get<double>(), 7)});
+  }
+  return HtmlTable("Verdicts", {"verdict", "rigs"}, rows);
+}
+
+std::string ColumnTable(const nlohmann::json& campaign) {
+  if (!campaign.contains("columns") || campaign["columns"].empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [column, numbers] : campaign["columns"].items()) {
+    rows.push_back({column, Count(numbers, "count")});
+    for (const char* const key : {"min", "quartile", "median", "upper_quartile", "max"}) {
+      rows.back().push_back(Spelled(NumberAt(numbers, key), 5));
+    }
+  }
+  return HtmlTable("Over all rigs",
+                   {"", "rigs", "smallest", "quartile", "median", "upper quartile", "largest"},
+                   rows);
+}
+
+std::string RigTable(const CsvTable& table) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t row = 0; row < table.rows.size() && row < kMostRows; ++row) {
+    rows.emplace_back();
+    for (const std::string& column : table.columns) {
+      const double number = table.Number(row, column);
+      const std::string text = table.Text(row, column);
+      rows.back().push_back(number == number ? Spelled(number, 5) : text);
+    }
+  }
+  const std::string caption = table.rows.size() > kMostRows
+                                  ? "The first " + std::to_string(kMostRows) + " of " +
+                                        std::to_string(table.rows.size()) + " rigs; all are in " +
+                                        kCampaignCsv
+                                  : std::string("Rig by rig");
+  return HtmlTable(caption, table.columns, rows);
+}
+
+}  // namespace
+
+std::string CampaignSummary(const ReportInput& input) {
+  if (!input.campaign.is_object()) return {};
+  std::string out = "<p>" + Count(input.campaign, "run") + " of " + Count(input.campaign, "rigs") +
+                    " rigs, " + Count(input.campaign, "failed") + " with an error.</p>\n";
+  out += VerdictTable(input.campaign) + ColumnTable(input.campaign);
+  if (input.campaign_table) out += RigTable(*input.campaign_table);
+  return out;
+}
+
+}  // namespace howl
