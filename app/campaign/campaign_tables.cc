@@ -14,15 +14,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A cell with a comma, a quote or a line's end stands in quotes.
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"') quoted += '"';
-    quoted += letter == '\n' ? ' ' : letter;
+// No table of howl has quoted cells, so that the simplest reader reads them: a comma in an error or
+// a key becomes a semicolon.
+std::string Unquoted(std::string text) {
+  for (char& letter : text) {
+    if (letter == ',') letter = ';';
+    if (letter == '"') letter = '\'';
+    if (letter == '\n') letter = ' ';
   }
-  return quoted + "\"";
+  return text;
 }
 
 void AddCell(const Json& row, const std::string& column, CsvWriter& csv) {
@@ -30,7 +30,7 @@ void AddCell(const Json& row, const std::string& column, CsvWriter& csv) {
   if (found == row.end() || found->is_null()) {
     csv.Cell("");
   } else if (found->is_string()) {
-    csv.Cell(Quoted(found->get<std::string>()));
+    csv.Cell(Unquoted(found->get<std::string>()));
   } else if (found->is_number_float()) {
     csv.Cell(found->get<double>());
   } else {
@@ -62,7 +62,7 @@ std::string CampaignCsv(const CampaignSpec& spec, const CampaignRigs& rigs, cons
   const std::vector<std::string> values = ValueColumns(spec);
   std::string header = "rig,seed";
   for (const std::string& column : rigs.columns) {
-    if (column != "seed") header += "," + Quoted(column);
+    if (column != "seed") header += "," + Unquoted(column);
   }
   for (const std::string& command : spec.commands) header += "," + command + "_status";
   header += ",error";
@@ -72,7 +72,7 @@ std::string CampaignCsv(const CampaignSpec& spec, const CampaignRigs& rigs, cons
     AddCell(row, "rig", csv);
     AddCell(row, "seed", csv);
     for (std::size_t k = 0; k < rigs.columns.size(); ++k) {
-      if (rigs.columns[k] != "seed") csv.Cell(Quoted(row.at("settings")[k].get<std::string>()));
+      if (rigs.columns[k] != "seed") csv.Cell(Unquoted(row.at("settings")[k].get<std::string>()));
     }
     for (const std::string& command : spec.commands) AddCell(row.at("status"), command, csv);
     AddCell(row, "error", csv);

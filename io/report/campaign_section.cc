@@ -1,5 +1,7 @@
 #include "io/report/campaign_section.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "io/report/html_table.h"
@@ -10,7 +12,7 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kMostRows = 200;  // what a reader looks through; the CSV has all
+constexpr std::size_t kMostRows = 50;  // what a reader looks through; the CSV has all
 
 std::string Count(const nlohmann::json& json, const char* key) {
   return Spelled(NumberAt(json, key), 7);
@@ -39,22 +41,32 @@ std::string ColumnTable(const nlohmann::json& campaign) {
                    rows);
 }
 
+// The columns that tell the rigs apart.
+std::vector<std::string> DifferingColumns(const CsvTable& table) {
+  std::vector<std::string> columns;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    const bool differs = std::ranges::any_of(
+        table.rows, [&](const auto& row) { return row[k] != table.rows.front()[k]; });
+    if (k == 0 || differs) columns.push_back(table.columns[k]);
+  }
+  return columns;
+}
+
 std::string RigTable(const CsvTable& table) {
+  const std::vector<std::string> columns = DifferingColumns(table);
   std::vector<std::vector<std::string>> rows;
   for (std::size_t row = 0; row < table.rows.size() && row < kMostRows; ++row) {
     rows.emplace_back();
-    for (const std::string& column : table.columns) {
+    for (const std::string& column : columns) {
       const double number = table.Number(row, column);
-      const std::string text = table.Text(row, column);
-      rows.back().push_back(number == number ? Spelled(number, 5) : text);
+      rows.back().push_back(std::isfinite(number) ? Spelled(number, 5) : table.Text(row, column));
     }
   }
-  const std::string caption = table.rows.size() > kMostRows
-                                  ? "The first " + std::to_string(kMostRows) + " of " +
-                                        std::to_string(table.rows.size()) + " rigs; all are in " +
-                                        kCampaignCsv
-                                  : std::string("Rig by rig");
-  return HtmlTable(caption, table.columns, rows);
+  const std::string which = table.rows.size() > kMostRows
+                                ? "The first " + std::to_string(kMostRows) + " of " +
+                                      std::to_string(table.rows.size()) + " rigs"
+                                : std::string("Rig by rig");
+  return HtmlTable(which + ", what differs among them; all is in " + kCampaignCsv, columns, rows);
 }
 
 }  // namespace

@@ -299,6 +299,7 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
     input.operating_parameter = input.config->operating_parameter;
     ReadRecords(input, *input.config, input.records);
   }
+  if (input.campaign.is_object()) input.title = input.campaign.value("title", "");
   if (input.title.empty()) input.title = folder.lexically_normal().filename().string();
   try {
     input.measured = ReadMeasured(input);

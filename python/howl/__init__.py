@@ -9,6 +9,7 @@ The functions run the program howl and have its answers to the bit.
 
 from ._commands import (
     analyse,
+    campaign,
     check,
     diagnose,
     family,
@@ -19,6 +20,7 @@ from ._commands import (
     simulate,
     version,
 )
+from ._campaign import Campaign
 from ._diagnosis import Check, Diagnosis
 from ._errors import ConfigError, HowlError, Interrupted, NegativeAnswer, ProgramError
 from ._experiment import Experiment
@@ -29,8 +31,8 @@ from ._result import Result
 from .readers import read
 
 __all__ = [
-    "Analysis", "Check", "ConfigError", "Diagnosis", "Experiment", "Family", "Fit", "HowlError",
+    "Analysis", "Campaign", "Check", "ConfigError", "Diagnosis", "Experiment", "Family", "Fit", "HowlError",
     "Interrupted", "NegativeAnswer", "Prediction", "ProgramError", "Progress", "Result",
-    "Simulation", "analyse", "check", "diagnose", "family", "find_program", "fit", "predict",
+    "Simulation", "analyse", "campaign", "check", "diagnose", "family", "find_program", "fit", "predict",
     "read", "report", "save", "simulate", "version",
 ]

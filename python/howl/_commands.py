@@ -8,6 +8,7 @@ from typing import Any, List, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
+from ._campaign import Campaign
 from ._diagnosis import Check, Diagnosis
 from ._errors import ConfigError, ProgramError
 from ._loops import Family, Fit, Prediction
@@ -147,6 +148,17 @@ def check(problem: Any, q: Any = None, *, sampling_hz: Any = None, phi: Any = No
     """What is wrong with a problem, all of it, and what does it allow? Mistakes are listed, and no
     exception is raised for them."""
     return result(Check, "check", [], problem, q, options_of(locals()))
+
+
+def campaign(path: PathLike, *, out: Optional[PathLike] = None, threads: Optional[int] = None,
+             seed: Optional[int] = None, progress: ProgressArgument = None) -> Campaign:
+    """What do the same commands say of many rigs?
+
+    `path` is the campaign's file (docs/campaign.md). With `out`, what stands there and has not
+    changed is not run again.
+    """
+    options = {"out": out, "threads": threads, "seed": seed, "progress": progress}
+    return result(Campaign, "campaign", [], os.fspath(path), None, options)
 
 
 def report(found: Result, *, threads: Optional[int] = None,

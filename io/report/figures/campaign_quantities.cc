@@ -111,7 +111,7 @@ std::optional<Figure> CampaignQuantitiesFigure(const ReportInput& input) {
   figure.height = 560;
   const double width = std::clamp(500.0 / static_cast<double>(rigs), 0.6, 9.0);
   Script script;
-  script.Line("set multiplot layout 2,2 margins 0.08,0.98,0.10,0.98 spacing 0.10,0.12")
+  script.Line("set multiplot layout 2,2 margins 0.10,0.98,0.10,0.98 spacing 0.12,0.12")
       .Line("unset key")
       .Line("set xrange [0.4:" + Number(static_cast<double>(rigs) + 0.6) + "]")
       .Line("set xlabel 'rig'");
