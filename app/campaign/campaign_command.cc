@@ -8,6 +8,7 @@
 #include "app/campaign/campaign_rigs.h"
 #include "app/campaign/campaign_spec.h"
 #include "app/campaign/campaign_tables.h"
+#include "app/campaign/campaign_text.h"
 #include "app/campaign/run_rig.h"
 #include "app/command.h"
 #include "app/digest.h"
@@ -123,24 +124,6 @@ Units RowsOf(const CampaignSpec& spec, const CampaignRigs& all, const Options& o
   return rows;
 }
 
-void PrintCampaign(const nlohmann::ordered_json& summary, const Options& options) {
-  std::printf("%zu of %zu rigs, %zu with an error\n", summary["run"].get<std::size_t>(),
-              summary["rigs"].get<std::size_t>(), summary["failed"].get<std::size_t>());
-  for (const auto& [verdict, count] : summary["verdicts"].items()) {
-    std::printf("  %-24s %zu\n", verdict.c_str(), count.get<std::size_t>());
-  }
-  if (!summary["columns"].empty()) {
-    std::printf("\n%-22s %8s %12s %12s %12s\n", "", "rigs", "smallest", "median", "largest");
-  }
-  for (const auto& [column, numbers] : summary["columns"].items()) {
-    std::printf("%-22s %8zu %12.5g %12.5g %12.5g\n", column.c_str(),
-                numbers["count"].get<std::size_t>(), numbers["min"].get<double>(),
-                numbers["median"].get<double>(), numbers["max"].get<double>());
-  }
-  std::printf("written: %s, %s and campaign.json in %s\n", kCampaignCsv, kCampaignPointsCsv,
-              options.out.c_str());
-}
-
 int Run(const Options& options) {
   if (const std::optional<Shard> shard = ShardOf(options)) return RunShard(options, *shard);
   const CampaignSpec spec = LoadCampaign(options.config);
@@ -156,7 +139,7 @@ int Run(const Options& options) {
   WriteWholeFile(options.out / kCampaignCsv, CampaignCsv(spec, all, rows));
   WriteWholeFile(options.out / kCampaignPointsCsv, CampaignPointsCsv(rows));
   WriteWholeFile(options.out / "campaign.json", summary.dump(2) + "\n");
-  if (!options.quiet) PrintCampaign(summary, options);
+  if (!options.quiet) PrintCampaign(summary, options.out);
   return summary["failed"] == 0 ? kDone : kNegativeAnswer;
 }
 

@@ -1,6 +1,5 @@
 #include "io/report/campaign_section.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -39,17 +38,6 @@ std::string ColumnTable(const nlohmann::json& campaign) {
   return HtmlTable("Over all rigs",
                    {"", "rigs", "smallest", "quartile", "median", "upper quartile", "largest"},
                    rows);
-}
-
-// The columns that tell the rigs apart.
-std::vector<std::string> DifferingColumns(const CsvTable& table) {
-  std::vector<std::string> columns;
-  for (std::size_t k = 0; k < table.columns.size(); ++k) {
-    const bool differs = std::ranges::any_of(
-        table.rows, [&](const auto& row) { return row[k] != table.rows.front()[k]; });
-    if (k == 0 || differs) columns.push_back(table.columns[k]);
-  }
-  return columns;
 }
 
 std::string RigTable(const CsvTable& table) {

@@ -64,4 +64,14 @@ CsvTable ReadCsvTable(const std::filesystem::path& path) {
   return table;
 }
 
+std::vector<std::string> DifferingColumns(const CsvTable& table) {
+  std::vector<std::string> columns;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    const bool differs = std::ranges::any_of(
+        table.rows, [&](const auto& row) { return row[k] != table.rows.front()[k]; });
+    if (k == 0 || differs) columns.push_back(table.columns[k]);
+  }
+  return columns;
+}
+
 }  // namespace howl

@@ -24,6 +24,9 @@ struct CsvTable {
 // Throws std::runtime_error saying what is wrong: no such file, no rows, a row of another length.
 CsvTable ReadCsvTable(const std::filesystem::path& path);
 
+// The first column, which names the rows, and those that do not have the same cell in all rows.
+std::vector<std::string> DifferingColumns(const CsvTable& table);
+
 }  // namespace howl
 
 #endif  // HOWL_IO_REPORT_CSV_TABLE_H_
