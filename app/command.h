@@ -24,7 +24,7 @@ struct Sharding {
   void (*adopt)(const Options&, const std::map<std::string, std::string>& units);
   // The option with which the command runs nothing and makes its results of the units that are
   // there; empty where it needs them all.
-  std::string table_option = "";
+  std::string table_option;
 };
 
 struct Command {

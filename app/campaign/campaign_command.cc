@@ -140,7 +140,7 @@ int Run(const Options& options) {
   WriteWholeFile(options.out / kCampaignPointsCsv, CampaignPointsCsv(rows));
   WriteWholeFile(options.out / "campaign.json", summary.dump(2) + "\n");
   if (!options.quiet) PrintCampaign(summary, options.out);
-  return summary["failed"] == 0 ? kDone : kNegativeAnswer;
+  return summary["failed"] == 0 && summary["missing"].empty() ? kDone : kNegativeAnswer;
 }
 
 std::string InputsOf(const Options& options) {

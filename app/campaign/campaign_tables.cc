@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "app/campaign/rig_row.h"
 #include "app/command.h"
@@ -123,10 +124,21 @@ Json CampaignJson(const CampaignSpec& spec, const CampaignRigs& rigs, const RigR
   }
   Json counts = Json::object();
   for (const auto& [verdict, count] : verdicts) counts[verdict] = count;
-  return {{"schema", "howl.campaign/1"}, {"title", spec.title},
-          {"commands", spec.commands},   {"rigs", rigs.rigs.size()},
-          {"run", rows.size()},          {"failed", std::ranges::count_if(rows, HasFailed)},
-          {"verdicts", counts},          {"columns", columns}};
+  std::set<std::string> there;
+  for (const Json& row : rows) there.insert(row.at("rig").get<std::string>());
+  Json missing = Json::array();
+  for (const CampaignRig& rig : rigs.rigs) {
+    if (!there.contains(rig.name)) missing.push_back(rig.name);
+  }
+  return {{"schema", "howl.campaign/1"},
+          {"title", spec.title},
+          {"commands", spec.commands},
+          {"rigs", rigs.rigs.size()},
+          {"run", rows.size()},
+          {"missing", missing},
+          {"failed", std::ranges::count_if(rows, HasFailed)},
+          {"verdicts", counts},
+          {"columns", columns}};
 }
 
 }  // namespace howl

@@ -48,6 +48,13 @@ void PrintCampaign(const nlohmann::ordered_json& summary, const std::filesystem:
   const auto run = summary["run"].get<std::size_t>();
   std::printf("%zu of %zu rigs, %zu with an error\n", run, summary["rigs"].get<std::size_t>(),
               summary["failed"].get<std::size_t>());
+  if (!summary["missing"].empty()) {
+    std::string names;
+    for (const auto& name : summary["missing"]) {
+      names += (names.empty() ? "" : ", ") + name.get<std::string>();
+    }
+    std::printf("%s\n", Wrapped("not run, or changed since: " + names, 2).c_str());
+  }
   for (const auto& [verdict, count] : summary["verdicts"].items()) {
     std::printf("  %-24s %zu\n", verdict.c_str(), count.get<std::size_t>());
   }

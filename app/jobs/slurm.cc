@@ -65,6 +65,7 @@ std::string Submit(const SlurmRequest& request) {
 }
 
 std::map<std::size_t, std::string> QueuedTasks(const std::string& job) {
+  if (job.empty()) return {};  // squeue would list everybody's
   const ChildResult result =
       RunSlurm("squeue", {"--noheader", "--array", "--jobs=" + job, "--format=%i %T"});
   std::map<std::size_t, std::string> tasks;

@@ -129,6 +129,7 @@ TEST_F(Campaign, ShardsJoinToTheBytesOfOneMachine) {
   const ProgramResult part = RunHowl("merge " + Path("parts"));
   EXPECT_EQ(part.status, 1);
   EXPECT_THAT(part.err, HasSubstr("1 of 3 shards of campaign are missing: 1"));
+  EXPECT_THAT(part.out, HasSubstr("not run, or changed since: rig-1, rig-4\n"));
   EXPECT_THAT(Column(Table("parts"), "rig"), ElementsAre("rig-2", "rig-3", "rig-5"));
   ASSERT_EQ(Run(text, "parts", " --shard 1/3").status, 0);
   EXPECT_EQ(RunHowl("merge " + Path("parts")).status, 0);
@@ -147,8 +148,12 @@ TEST_F(Campaign, RunsOnlyWhatIsNew) {
   EXPECT_EQ(more.status, 0) << more.err;
   EXPECT_THAT(more.err, HasSubstr("1 of 2 rigs are done"));
   EXPECT_EQ(fs::last_write_time(folder_.path() / "grown/rigs/rig-1/solution.json"), before);
-  // A changed config is run again.
+  // A changed config is named, and is run again.
   folder_.Write("rig.yaml", std::string(kTable) + "title: changed\n");
+  const ProgramResult table =
+      Run("commands: [fit]\nconfig: rig.yaml\ngrid: {model.modes: [1, 2]}\n", "grown", " --table");
+  EXPECT_EQ(table.status, 1);
+  EXPECT_THAT(table.out, HasSubstr("not run, or changed since: rig-1, rig-2"));
   const ProgramResult again =
       Run("commands: [fit]\nconfig: rig.yaml\ngrid: {model.modes: [1, 2]}\n", "grown");
   EXPECT_EQ(again.err.find("are done"), std::string::npos) << again.err;
