@@ -77,7 +77,7 @@ std::vector<LocatedNode> RangeValues(const ConfigCursor& range) {
     range.Fail("has no values, or more than a million, expected from, to and step to agree");
   }
   std::vector<LocatedNode> values;
-  for (double k = 0.0; k < count; ++k) {
+  for (int k = 0; k < static_cast<int>(count); ++k) {
     std::ostringstream text;
     text.precision(15);
     text << from + k * step;

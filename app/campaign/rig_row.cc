@@ -27,7 +27,7 @@ Json At(const Json& json, const std::vector<const char*>& keys) {
 // A quantity of an experiment's; points are found again by their names, so that a fit's value and a
 // family's bounds share a row.
 Row& Point(Row& row, const Json& experiment, const std::string& quantity) {
-  const Json name = At(experiment, {"name"});
+  const std::string name = At(experiment, {"name"}).get<std::string>();
   for (Row& point : row["points"]) {
     if (point["experiment"] == name && point["quantity"] == quantity) return point;
   }

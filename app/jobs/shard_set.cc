@@ -41,7 +41,8 @@ Json ParseHeader(const fs::path& path, const std::string& header) {
 }
 
 // The first shard says what the job is; the others must agree.
-void RequireSameJob(const fs::path& path, Json header, const fs::path& first_path, Json first) {
+void RequireSameJob(const fs::path& path, const Json& header, const fs::path& first_path,
+                    const Json& first) {
   for (const auto& [key, value] : first.items()) {
     if (key == "shard" || header.value(key, Json()) == value) continue;
     throw UserError(path.string(), 1, key,
@@ -51,9 +52,9 @@ void RequireSameJob(const fs::path& path, Json header, const fs::path& first_pat
   }
 }
 
-void Join(const fs::path& path, Units found, Units& all) {
-  for (auto& [key, bytes] : found) {
-    const auto [place, is_new] = all.try_emplace(key, std::move(bytes));
+void Join(const fs::path& path, const Units& found, Units& all) {
+  for (const auto& [key, bytes] : found) {
+    const auto [place, is_new] = all.try_emplace(key, bytes);
     if (is_new || place->second == bytes) continue;
     throw UserError(path.string(), 0, key,
                     "is not what another shard has, expected the same: remove it and run it again");
@@ -84,7 +85,7 @@ void AddShard(const fs::path& path, StoredUnits stored, const Json& header, Shar
   }
   std::erase(set.missing, index);
   stored.units.erase(kCountKey);
-  Join(path, std::move(stored.units), set.units);
+  Join(path, stored.units, set.units);
 }
 
 }  // namespace

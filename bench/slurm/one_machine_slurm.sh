@@ -66,11 +66,16 @@ start_munge() {
 
 start_node() { slurmd -f "$folder/slurm.conf" -N "$(hostname -s)"; }
 
-wait_until_idle() {
-  for _ in $(seq 100); do
-    if sinfo --noheader --format=%T 2>/dev/null | grep -qE 'idle|mixed|allocated'; then return 0; fi
-    sleep 0.2
+wait_until_up() {
+  local state
+  for _ in $(seq 300); do
+    state=$(sinfo --noheader --format=%T 2>/dev/null || true)
+    case $state in
+      '' | down* | unk* | future* | inval* | drain*) sleep 0.2 ;;
+      *) return 0 ;;
+    esac
   done
+  echo "the node is $state" >&2
   tail -n 5 "$folder/slurmctld.log" "$folder/slurmd.log" >&2 || true
   echo "the node did not come up" >&2
   return 1
@@ -95,11 +100,11 @@ case $action in
     start_munge
     slurmctld -f "$folder/slurm.conf"
     start_node
-    wait_until_idle
+    wait_until_up
     ;;
   node)
     start_node
-    wait_until_idle
+    wait_until_up
     ;;
   stop)
     for daemon in slurmd slurmctld munged; do stop_daemon "$daemon"; done

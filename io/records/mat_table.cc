@@ -11,6 +11,7 @@
 
 #include "io/records/array_columns.h"
 #include "io/records/hdf5_lock.h"
+#include "io/records/hdf5_table.h"
 #include "io/records/mat5_check.h"
 #include "io/user_error.h"
 
@@ -69,10 +70,17 @@ class MatTable final : public TableSource {
     for (;;) {
       const Variable variable(Mat_VarReadNextInfo(mat_.get()));
       if (!variable) break;
+      has_untold_class_ |= variable->class_type == MAT_C_EMPTY && variable->rank > 0;
       AddArrays(*variable, variable->name != nullptr ? variable->name : "");
     }
     std::sort(arrays_.begin(), arrays_.end(),
               [](const ArrayInfo& a, const ArrayInfo& b) { return a.name < b.name; });
+  }
+
+  // Files of version 7.3 state the class in an attribute, a text of fixed length; matio understands
+  // it with a zero at its end alone, which not every program writes.
+  bool HasUntoldClass() const {
+    return has_untold_class_ && Mat_GetVersion(mat_.get()) == MAT_FT_MAT73;
   }
 
   ~MatTable() override {
@@ -249,6 +257,7 @@ class MatTable final : public TableSource {
     return column;
   }
 
+  bool has_untold_class_ = false;
   std::string file_;
   MatFile mat_;
   std::vector<ArrayInfo> arrays_;
@@ -257,8 +266,14 @@ class MatTable final : public TableSource {
 }  // namespace
 
 std::unique_ptr<TableSource> OpenMatTable(const std::filesystem::path& file) {
-  const Hdf5Lock lock;
-  return std::make_unique<MatTable>(file);
+  std::unique_ptr<MatTable> table;
+  {
+    const Hdf5Lock lock;
+    table = std::make_unique<MatTable>(file);
+  }
+  if (!table->HasUntoldClass()) return table;
+  table.reset();
+  return OpenHdf5Table(file);  // such a file is an HDF5 file as well
 }
 
 }  // namespace howl

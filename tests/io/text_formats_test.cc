@@ -112,6 +112,37 @@ RecordSpec Columns(std::filesystem::path file, const char* t = "1", const char* 
   return spec;
 }
 
+// As h5py and hdf5storage write it: MATLAB's class is a text of fixed length without a zero.
+RecordSpec WriteUnterminatedMatlab73(const TemporaryFolder& folder, const Samples& samples) {
+  constexpr hsize_t kHeaderBytes = 512;
+  const std::string path = (folder / "a.mat").string();
+  const hid_t how = H5Pcreate(H5P_FILE_CREATE);
+  H5Pset_userblock(how, kHeaderBytes);
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, how, H5P_DEFAULT);
+  H5Pclose(how);
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, 6);
+  H5Tset_strpad(text, H5T_STR_NULLPAD);
+  const hid_t scalar = H5Screate(H5S_SCALAR);
+  for (const auto& [name, values] :
+       {std::pair("t", &samples.t), {"p", &samples.p}, {"q", &samples.q}}) {
+    AddDataset(file, name, {1, kRows}, *values);
+    const hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
+    const hid_t own = H5Acreate2(data, "MATLAB_class", text, scalar, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Awrite(own, text, "double"), 0);
+    H5Aclose(own);
+    H5Dclose(data);
+  }
+  H5Sclose(scalar);
+  H5Tclose(text);
+  H5Fclose(file);
+  std::string header = "MATLAB 7.3 MAT-file, by a test";
+  header.resize(124, ' ');
+  header += std::string("\x00\x02IM", 4);
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << header;
+  return Columns(path, "t", "p", "q");
+}
+
 std::vector<Form> Forms() {
   const auto text = [](std::string name, std::function<std::string(const Samples&)> content,
                        std::function<void(RecordSpec&)> state = {}) {
@@ -202,6 +233,7 @@ std::vector<Form> Forms() {
                      H5Fclose(file);
                      return Columns(folder / "a.h5", "t", "run/p", "run/q");
                    }});
+  forms.push_back({"MATLAB 7.3, its class without a final zero", WriteUnterminatedMatlab73});
   return forms;
 }
 

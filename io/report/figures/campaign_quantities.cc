@@ -2,6 +2,7 @@
 // the family is guaranteed to lie within, dark what was fitted or measured.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -30,8 +31,8 @@ constexpr Panel kPanels[] = {{"omega_hz", "ω (Hz)", 1.0},
 constexpr std::size_t kMostPanels = 4;
 
 struct Span {
-  double lo = INFINITY;
-  double hi = -INFINITY;
+  double lo = std::numeric_limits<double>::infinity();
+  double hi = -std::numeric_limits<double>::infinity();
 
   void Take(double value) {
     if (!std::isfinite(value)) return;
