@@ -56,6 +56,7 @@ def main():
     parser.add_argument("--only", default=",".join(COMPARISONS), help="comparisons, by comma")
     parser.add_argument("--quick", action="store_true", help="few repeats: does everything run?")
     options = parser.parse_args()
+    os.environ["HOWL_PEERS_WORK"] = str(options.out)  # where rigs and their diagnoses are kept
     howl = Howl(options.howl)
     found = {"howl": howl.version, **versions()}
     listed = ", ".join(f"{name} {version}" for name, version in found.items())
