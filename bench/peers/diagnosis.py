@@ -95,7 +95,15 @@ def score(answers, truths):
         else:
             right["unknown"].append(named[0] == "unknown")
     return {**{name: float(np.mean(v)) for name, v in right.items()}, "brier": float(np.mean(brier)),
-            "counts": {name: f"{sum(v)} of {len(v)}" for name, v in right.items()}}
+            "counts": {name: wilson(sum(v), len(v)) for name, v in right.items()}}
+
+
+def wilson(right, total):
+    """A share with Wilson's 95 % interval, as text."""
+    z, share = 1.96, right / total
+    middle = (share + z * z / (2 * total)) / (1 + z * z / total)
+    half = z / (1 + z * z / total) * np.sqrt(share * (1 - share) / total + (z / (2 * total)) ** 2)
+    return f"{right} of {total} ({100 * (middle - half):.0f} .. {100 * (middle + half):.0f} %)"
 
 
 QUANTITIES = [("catalogue", "higher", "effects named, or in a class of at most three"),

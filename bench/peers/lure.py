@@ -80,6 +80,16 @@ class Lure:
             v.append(self.nonlinearity(out[k - d] - out[k - d - 1]))
         return np.array(out)
 
+    def mode(self, sampling_hz, near_hz):
+        """Natural frequency and damping ratio of the pole pair of the linear part nearest to a
+        frequency; not a number where no pair oscillates."""
+        poles = np.log(np.roots(np.append(1.0, -self.d)).astype(complex))
+        poles = poles[np.imag(poles) > 0] * sampling_hz
+        if not len(poles):
+            return np.nan, np.nan
+        pole = min(poles, key=lambda s: abs(abs(s) / (2 * np.pi) - near_hz))
+        return abs(pole) / (2 * np.pi), -np.real(pole) / abs(pole)
+
 
 def line(y, sampling_hz, harmonics=3):
     """Frequency and amplitude of the strongest line: the peak of a long transform, refined."""

@@ -118,7 +118,7 @@ def run_howl(howl, members):
 
 
 def compare(howl, table, quick):
-    steps = {"emcee": 1000, "PINTS": 8000} if quick else {"emcee": 8000, "PINTS": 60000}
+    steps = {"emcee": 1000, "PINTS": 8000} if quick else {"emcee": 12000, "PINTS": 30000}
     runs = in_turns(1 if quick else 5, {
         "many": lambda: run_howl(howl, MANY), "one": lambda: run_howl(howl, 10),
         "emcee, natural parameters": lambda: run_emcee(False, steps["emcee"]),
