@@ -22,7 +22,7 @@ from membership import ALL, bounds_of, config
 NAME = "Bounds of the family"
 PROBLEMS = {"one experiment, 4 parameters": (0,), "two experiments, 8 parameters": (0, 5),
             "R228, 24 parameters": ALL}
-BUDGETS_S = ((3, 5), (60, 1))  # CPU seconds, and repeats
+BUDGETS_S = ((3, 5), (30, 1))  # CPU seconds, and repeats
 
 
 def excess(outer, inner):

@@ -48,8 +48,10 @@ def contracted(fixpoint, box):
     return box if result is None else result
 
 
-def bisect(box, scale):
-    return box.bisect(int(np.argmax([box[i].diam() / scale[i] for i in range(len(scale))])))
+def bisect(box, scale, among=None):
+    """Halves of the box along its widest side, of all or of some."""
+    among = range(len(scale)) if among is None else among
+    return box.bisect(max(among, key=lambda i: box[i].diam() / scale[i]))
 
 
 def sivia(which, budget_s):
@@ -69,8 +71,9 @@ def sivia(which, budget_s):
 
 
 def best_first(which, budget_s, inner):
-    """Each end by itself: the box that reaches farthest is halved, until it reaches no farther than
-    inner (howl's) by 1 % of that range, or its share of the time is over."""
+    """Each end by itself: the box that reaches farthest is halved, along the variables of the end's
+    own experiment, until it reaches no farther than inner (howl's) by 1 % of that range, or its share
+    of the time is over."""
     contract, box = contractor(which)
     root = contract(box)
     scale = [root[i].diam() for i in range(root.size())]
@@ -78,6 +81,7 @@ def best_first(which, budget_s, inner):
     finish = time.process_time() + budget_s
     for i in [5 * e + j for e in range(len(which)) for j in range(4)]:
         low, high = inner[which[i // 5], PARAMETERS[i % 5]]
+        own = range(i // 5 * 5, i // 5 * 5 + 5)
         for sign, wanted in ((-1, low), (1, high)):
             reach = lambda b: b[i].ub() if sign > 0 else -b[i].lb()
             heap, count = [(-reach(root), 0, root)], 0
@@ -85,7 +89,7 @@ def best_first(which, budget_s, inner):
             left -= 1
             while heap and -heap[0][0] > sign * wanted + 0.01 * (high - low) \
                     and time.process_time() < share:
-                for half in map(contract, bisect(heapq.heappop(heap)[2], scale)):
+                for half in map(contract, bisect(heapq.heappop(heap)[2], scale, own)):
                     count += 1
                     if not half.is_empty():
                         heapq.heappush(heap, (-reach(half), count, half))

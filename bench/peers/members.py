@@ -3,7 +3,9 @@
 The peers see the family as a density that is constant inside and zero outside: emcee (ensemble of
 96 walkers) and PINTS (adaptive covariance, Haario and Bardenet), each in the natural parameters,
 and, to their advantage, in howl's coordinates: xi and phase alone, of which the other parameters
-follow by the closed form, with the Jacobian as density.
+follow by the closed form, with the Jacobian as density. Beside them stands what a user may write who
+knows the closed form and sees that its density is nearly a product: rejection sampling in numpy, whose
+draws are independent. It does not go beyond one mode, and is the reference for how howl's are spread.
 """
 import csv
 import os
@@ -74,6 +76,32 @@ def run_emcee(reduced, steps):
     return effective(sampler.get_chain(discard=steps // 5))
 
 
+def run_rejection(count):
+    """Each xi with the density 3 xi^2 / XI_MAX^3, sorted; phases uniform; what is left of the density
+    (log_rest, at most `largest`) and the window of omega decide."""
+    rng = np.random.default_rng(5)
+    steepest = np.max(np.abs(r228.PHASE[:, None] + [-PHASE_TOL, PHASE_TOL]), axis=1)
+    largest = np.sum(2 * np.log(r228.FREQUENCY_HZ) - 3 * np.log(np.cos(steepest)))
+    # What the window of omega leaves of the last xi, however the others are.
+    first = r228.FREQUENCY_HZ[0] * np.exp(-np.arcsinh(XI_MAX * np.tan(steepest[0])))
+    flattest = np.abs(r228.PHASE[5]) - PHASE_TOL
+    most = np.sinh(np.log(r228.FREQUENCY_HZ[5] * (1 + SPREAD) / first)) / np.tan(flattest)
+    kept, number = [], 0
+    while number < count:
+        xi = -np.sort(-XI_MAX * np.cbrt(rng.uniform(0, 1, (100000, 6))), axis=1)
+        xi = xi[xi[:, 5] <= most]
+        x = np.hstack([xi, r228.PHASE + PHASE_TOL * rng.uniform(-1, 1, xi.shape)])
+        rest = reduced_log_density(x) - 2 * np.sum(np.log(xi), axis=1)
+        if np.max(rest) > largest:
+            raise RuntimeError("the rejection's bound does not hold")
+        kept.append(x[np.log(rng.uniform(0, 1, len(x))) < rest - largest])
+        number += len(kept[-1])
+    samples = expanded(np.concatenate(kept), rng)
+    if not np.all(is_member(*np.split(samples, 4, axis=1))):
+        raise RuntimeError("a draw is no member")
+    return {"samples": samples, "effective": number, "converged": True, "length": 1}
+
+
 class Density(pints.LogPDF):
     def __init__(self, reduced):
         self.reduced = reduced
@@ -124,7 +152,8 @@ def compare(howl, table, quick):
         "emcee, natural parameters": lambda: run_emcee(False, steps["emcee"]),
         "emcee, howl's coordinates": lambda: run_emcee(True, steps["emcee"]),
         "PINTS, natural parameters": lambda: run_pints(False, steps["PINTS"]),
-        "PINTS, howl's coordinates": lambda: run_pints(True, steps["PINTS"])})
+        "PINTS, howl's coordinates": lambda: run_pints(True, steps["PINTS"]),
+        "rejection in closed form": lambda: run_rejection(2000 if quick else MANY)})
     many, one = runs.pop("many"), runs.pop("one")
     total = [m.value[0]["counts"]["effective_sample_size"] for m in many]
     ours = [n / (m.cpu_s - o.cpu_s) for n, m, o in zip(total, many, one)]
@@ -139,7 +168,8 @@ def compare(howl, table, quick):
         table.add(NAME, f"the same with howl's process, bounds and files for {MANY} members",
                   "higher", whole, name, values, state)
     extents(howl, table, runs, one)
-    agreement(howl, table, runs["emcee, howl's coordinates"][-1].value)
+    for name in ("rejection in closed form", "emcee, howl's coordinates"):
+        agreement(howl, table, name, runs[name][-1].value)
 
 
 def extents(howl, table, runs, one):
@@ -156,14 +186,15 @@ def extents(howl, table, runs, one):
                   f"howl after {one[-1].cpu_s:.2g} CPU s, peer after {peer[-1].cpu_s:.3g}")
 
 
-def agreement(howl, table, other):
+def agreement(howl, table, peer, other):
     """Both draw from the same distribution: the mean of xi in the first and last experiment."""
     _, rows = run_howl(howl, FEW)
     for column, name in ((0, "exp1"), (5, "exp6")):
         mine = np.array([float(r["xi"]) for r in rows if r["experiment"] == name])
-        theirs = other["samples"][:, column]
+        size = other["samples"].shape[1]
+        theirs = other["samples"][:, column + (6 if size == 24 else 0)]
         error = np.hypot(np.std(mine) / np.sqrt(0.8 * len(mine)),
                          np.std(theirs) / np.sqrt(other["effective"]))
         table.note(NAME, f"mean xi of {name}: howl's {len(mine)} members {np.mean(mine):.5f}, "
-                   f"emcee in howl's coordinates {np.mean(theirs):.5f}, difference "
+                   f"{peer} {np.mean(theirs):.5f}, difference "
                    f"{(np.mean(mine) - np.mean(theirs)) / error:.1f} standard errors")

@@ -23,8 +23,8 @@ import traceback
 from common import Howl, Table
 
 HERE = pathlib.Path(__file__).resolve().parent
-COMPARISONS = ["joint_fit", "bounds", "members", "simulation", "identification", "diagnosis",
-               "limit_cycles"]
+COMPARISONS = ["joint_fit", "bounds", "members", "simulation", "limit_cycles", "identification",
+               "diagnosis"]
 
 
 def versions():
