@@ -21,7 +21,7 @@ def of_channel(x):
     hz = np.fft.rfftfreq(size, 1 / SAMPLING_HZ)
     peak = np.argmax(spectrum * (hz > 100))
     f, top = hz[peak], spectrum[peak]
-    around = lambda at, width: spectrum[np.abs(hz - at) <= width]
+    around = lambda at, width: np.append(spectrum[np.abs(hz - at) <= width], 1e-12 * top)
     harmonics = [np.log(np.max(around(k * f, 3)) / top + 1e-9) for k in (2, 3, 4, 5)]
     harmonic = np.min(np.abs(hz[:, None] - f * np.arange(0, 12)), axis=1) < 25
     rest = np.where(harmonic, 0, spectrum)

@@ -66,7 +66,7 @@ def describing_function(loop, near_hz=218.0):
         error = s * loop.response(s) * np.exp(-s * loop.tau_s) * gain - 1
         return [error.real, error.imag]
 
-    f, rate = fsolve(balance, [near_hz, 1.0 / abs(loop.slope)], xtol=1e-14)
+    f, rate = fsolve(balance, [near_hz, 1.0 / abs(loop.slope)], xtol=1e-12)
     return float(f), float(abs(rate / (2 * np.pi * f)))
 
 
