@@ -6,8 +6,6 @@ Peers: collocation of the delay equation on a periodic mesh with Gauss points, a
 (Engelborghs and others 2002), written here in numpy; and scipy's solve_bvp on ordinary equations in
 which the delay is a line of Chebyshev nodes. The reference is loop.fourier_cycle, to rounding.
 """
-import pathlib
-import tempfile
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
