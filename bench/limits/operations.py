@@ -17,50 +17,43 @@ import tempfile
 
 ARITHMETIC = re.compile(r"^v?(add|sub|mul|div|sqrt|min|max|addsub|hadd|hsub)([sp][sd])$")
 FUSED = re.compile(r"^vfn?m(?:add|sub|addsub|subadd)(?:132|213|231)([sp][sd])$")
-OF_KIND = {"div": "divisions", "sqrt": "roots"}
+OF_KIND = {"div": "division", "sqrt": "root"}
+LIBRARY = re.compile(r"/libm[.-]")
 ALLOCATORS = ("malloc", "calloc", "realloc", "aligned_alloc", "memalign", "posix_memalign")
 
 
 def operations_of(mnemonic, operands):
-    """(kind, operations) of one instruction; no operations: (None, 0)."""
+    """(kind, lanes, operations) of one instruction, None where it does none."""
     found = ARITHMETIC.match(mnemonic)
     fused = FUSED.match(mnemonic)
     if not found and not fused:
-        return None, 0
+        return None
     form = found[2] if found else fused[1]
     lanes = 1
     if form[0] == "p":
         width = 64 if "zmm" in operands else 32 if "ymm" in operands else 16
         lanes = width // (8 if form[1] == "d" else 4)
     if fused:
-        return "sums and products", 2 * lanes
-    return OF_KIND.get(found[1], "sums and products"), lanes
+        return "sum or product", lanes, 2 * lanes
+    return OF_KIND.get(found[1], "sum or product"), lanes, lanes
 
 
 def disassembled(path):
-    """address -> (kind, operations) of the instructions of a file that do any."""
+    """address -> operations_of() the instruction there, of those of a file that do any."""
     text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", path], capture_output=True,
                           text=True, check=True).stdout
     out = {}
     for line in text.split("\n"):
         found = re.match(r"\s*([0-9a-f]+):\s+(?:lock |rep |bnd )?(\S+)\s*(.*)", line)
         if found:
-            kind, count = operations_of(found[2], found[3])
-            if count:
-                out[int(found[1], 16)] = (kind, count)
+            does = operations_of(found[2], found[3])
+            if does:
+                out[int(found[1], 16)] = does
     return out
 
 
 def read_callgrind(path):
     """Runs of each (object, address), calls of each function by name, totals of the events."""
-    names = {}
-
-    def name(text):
-        found = re.match(r"\((\d+)\)(?: (.*))?$", text)
-        if found[2] is not None:
-            names[found[1]] = found[2]
-        return names[found[1]]
-
     runs, calls = collections.Counter(), collections.Counter()
     objects, functions = {}, {}
     events, totals = [], []
@@ -102,38 +95,45 @@ def cache_bytes(name, otherwise):
         return otherwise
 
 
-def count(study, load):
-    """Operations, calls and traffic of one unit of a workload."""
+def run_counted(study, load):
+    """What callgrind counted in one run of a workload, and the units done."""
     size = 1 << (cache_bytes("LEVEL3_CACHE_SIZE", 1 << 25).bit_length() - 1)
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "callgrind")
         run = subprocess.run(
-            ["valgrind", "--tool=callgrind", "--dump-instr=yes", "--dump-line=no", "--compress-pos=no",
-             "--cache-sim=yes", f"--LL={size},16,64", "--toggle-collect=howl::limits::MeasuredRun*",
-             f"--callgrind-out-file={out}", study, "--once", load],
-            capture_output=True, text=True)
+            ["valgrind", "--tool=callgrind", "--dump-instr=yes", "--dump-line=no",
+             "--compress-pos=no", "--cache-sim=yes", f"--LL={size},16,64",
+             "--toggle-collect=howl::limits::MeasuredRun*", f"--callgrind-out-file={out}", study,
+             "--once", load], capture_output=True, text=True)
         if run.returncode != 0:
             raise SystemExit(f"{load}: {run.stderr}")
-        runs, calls, totals = read_callgrind(out)
-    units = float(run.stdout)
-    result = collections.Counter(instructions=totals["Ir"] / units)
+        return read_callgrind(out), float(run.stdout)
+
+
+def count(study, load):
+    """Of one unit: operations of the program's own code by (kind, lanes), operations in all, calls
+    of the C library by name, bytes that pass beyond the first cache and beyond the last."""
+    (runs, calls, totals), units = run_counted(study, load)
+    own, functions = collections.Counter(), collections.Counter()
+    everywhere = 0.0
     listings = {}
     for (path, address), times in runs.items():
         if path not in listings:
             listings[path] = disassembled(path) if os.path.exists(path) else {}
-        kind, number = listings[path].get(address, (None, 0))
-        if number:
-            where = "library" if re.search(r"/libm[.-]", path) else "own"
-            result[where] += times * number / units
-            result[kind] += times * number / units
-    result["beyond L1"] = 64.0 * (totals["D1mr"] + totals["D1mw"]) / units
-    result["memory"] = 64.0 * (totals["DLmr"] + totals["DLmw"]) / units
-    functions = {}
+        does = listings[path].get(address)
+        if does:
+            kind, lanes, operations = does
+            everywhere += times * operations / units
+            if not LIBRARY.search(path):
+                own[kind, lanes] += times * operations / units
     for function, times in calls.items():
-        plain = function_called(function)
-        if plain:
-            functions[plain] = functions.get(plain, 0) + times / units
-    return dict(result), functions
+        entry = entry_called(function)
+        if entry:
+            functions[entry] += times / units
+    return {"own": own, "all": everywhere, "calls": functions,
+            "instructions": totals["Ir"] / units,
+            "beyond_first_cache": 64.0 * (totals["D1mr"] + totals["D1mw"]) / units,
+            "memory": 64.0 * (totals["DLmr"] + totals["DLmw"]) / units}
 
 
 # Entries of the C library as the program calls them; what they call inside is a part of them.
@@ -141,7 +141,7 @@ ENTRIES = ["exp", "log", "pow", "sin", "cos", "sincos", "tan", "atan", "atan2", 
            "fesetround"]
 
 
-def function_called(name):
+def entry_called(name):
     """The entry that a function of the C library is, under any of its names; None for others."""
     if name in ALLOCATORS:
         return "malloc"
