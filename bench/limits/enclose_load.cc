@@ -19,7 +19,8 @@ std::function<double()> Prepare(int modes) {
   auto enclosure = std::make_shared<Enclosure>(R228Family(modes), options);
   return [enclosure, every] {
     enclosure->Run(nullptr, [every](std::size_t k) { return k % every == 0; });
-    return static_cast<double>((enclosure->Searches() + every - 1) / every);
+    const std::size_t bounds = (enclosure->Searches() + every - 1) / every;
+    return static_cast<double>(bounds);
   };
 }
 

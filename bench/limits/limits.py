@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How near the hot loops come to what the machine can do: the tables of docs/limits.md.
 
-    limits.py BUILD_DIR [ROUNDS]     (needs valgrind and binutils; ten minutes)
+    limits.py BUILD_DIR [ROUNDS]     (needs valgrind and binutils; five minutes on an idle core)
 
 build/bench/limits_study measures the machine's peaks and the workloads in turn on one thread, each
 once a round; shares are taken within a round, and medians, least and greatest are over the rounds.
@@ -23,7 +23,7 @@ DIVISIONS = {1: "division, scalar", 2: "division, 2 lanes (SSE2)", 4: "division,
              8: "division, 8 lanes (AVX-512)"}
 # Calls without a peak of their own: the nearest kind.
 LIKE = {"malloc": "384 bytes allocated and freed", "fesetround": "rounding mode switched",
-        "sincos": "sin", "pow": "exp", "tanh": "exp"}
+        "sincos": "sin", "asin": "atan", "pow": "exp", "tanh": "exp"}
 
 
 def median(values):
@@ -40,7 +40,7 @@ def nanoseconds(seconds):
 
 
 def percent(share):
-    return f"{100 * share:.2g} %"
+    return f"{100 * share:.0f} %" if share >= 0.095 else f"{100 * share:.2g} %"
 
 
 class Machine:
@@ -97,22 +97,30 @@ def print_rates(measured, machine, counts):
     for name, row in measured["loads"].items():
         seconds, counted = row["seconds_per_unit"], counts[name]
 
-        def share(peak):
-            return [counted["all"] * p / s for p, s in zip(machine.seconds[peak], seconds)]
-        bytes_share = [counted["memory"] * p / s
-                       for p, s in zip(machine.seconds["memory, triad"], seconds)]
+        def share(work, peak):
+            return spread([work * p / s for p, s in zip(machine.seconds[peak], seconds)], percent)
+        rows.append([name, row["unit"], spread(seconds, nanoseconds),
+                     f"{counted['all'] / median(seconds) / 1e9:.2g}",
+                     share(counted["all"], SUMS[1]), share(counted["all"], machine.vector),
+                     share(counted["memory"], "memory, triad")])
+    print_table(["workload", "unit", "ns a unit", "10^9 operations a second",
+                 "of the scalar peak", "of the vector peak", "of the bandwidth"], rows)
+
+
+def print_counts(counts):
+    rows = []
+    for name, counted in counts.items():
         divided = sum(n for (kind, _), n in counted["own"].items() if kind != "sum or product")
         inside = counted["all"] - sum(counted["own"].values())
-        rows.append([name, row["unit"], spread(seconds, nanoseconds), f"{counted['all']:,.0f}",
-                     f"{inside:,.0f}", f"{divided:,.0f}", f"{counted['instructions']:,.0f}",
-                     f"{counted['all'] / median(seconds) / 1e9:.2g}",
-                     spread(share(SUMS[1]), percent), spread(share(machine.vector), percent),
-                     f"{counted['beyond_first_cache']:,.3g}", f"{counted['memory']:,.3g}",
-                     percent(median(bytes_share))])
-    print_table(["workload", "unit", "ns a unit", "operations a unit", "of these in the C library",
-                 "divisions and roots", "instructions", "10^9 operations a second",
-                 "of the scalar peak", "of the vector peak", "bytes beyond the first cache",
-                 "bytes of memory", "of the bandwidth"], rows)
+        calls = sorted(counted["calls"].items(), key=lambda call: -call[1])
+        called = ", ".join(f"{n:,.3g} {call}" if n < 1000 else f"{n:,.0f} {call}"
+                           for call, n in calls if n >= 0.005)
+        rows.append([name, f"{counted['all']:,.0f}", f"{inside:,.0f}", f"{divided:,.0f}",
+                     f"{counted['instructions']:,.0f}", f"{counted['beyond_first_cache']:,.0f}",
+                     f"{counted['memory']:,.0f}", called or "-"])
+    print_table(["workload", "operations a unit", "of these in the C library",
+                 "divisions and roots", "instructions", "bytes beyond the first cache",
+                 "bytes of memory", "calls"], rows)
 
 
 def print_parts(measured, machine, counts):
@@ -128,14 +136,6 @@ def print_parts(measured, machine, counts):
     print_table(head, rows)
 
 
-def print_calls(counts):
-    rows = []
-    for name, counted in counts.items():
-        calls = sorted(counted["calls"].items(), key=lambda call: -call[1])
-        rows.append([name, ", ".join(f"{n:.3g} {call}" for call, n in calls if n >= 0.005) or "-"])
-    print_table(["workload", "calls a unit"], rows)
-
-
 def main():
     study = pathlib.Path(sys.argv[1]) / "bench" / "limits_study"
     rounds = sys.argv[2] if len(sys.argv) > 2 else "15"
@@ -146,8 +146,8 @@ def main():
     print(f"{rounds} rounds; median (least .. greatest). Vector peak: {machine.vector}\n")
     print_peaks(measured)
     print_rates(measured, machine, counts)
+    print_counts(counts)
     print_parts(measured, machine, counts)
-    print_calls(counts)
 
 
 if __name__ == "__main__":

@@ -28,6 +28,9 @@ HOWL_INLINE void Keep(V& value) {
 #endif
 }
 
+template <typename V>
+constexpr std::size_t kLanes = sizeof(V) / sizeof(double);
+
 template <typename V, bool kFused>
 HOWL_INLINE void MultiplyAddOnce(V& x, const V& m, const V& a) {
   V product = x * m;
@@ -45,7 +48,7 @@ HOWL_INLINE double MultiplyAdd(std::index_sequence<I...>) {
   Keep(m);
   Keep(a);
   for (int n = 0; n < kRepeats; ++n) (MultiplyAddOnce<V, kFused>(x[I], m, a), ...);
-  return 2.0 * static_cast<double>(sizeof...(I) * sizeof(V) / sizeof(double)) * kRepeats;
+  return 2.0 * static_cast<double>(sizeof...(I) * kLanes<V>) * kRepeats;
 }
 
 template <typename V>
@@ -62,7 +65,7 @@ HOWL_INLINE double Divide(std::index_sequence<I...>) {
   Keep(a);
   constexpr int kTimes = kRepeats / 4;
   for (int n = 0; n < kTimes; ++n) (DivideOnce(x[I], a), ...);
-  return static_cast<double>(sizeof...(I) * sizeof(V) / sizeof(double)) * kTimes;
+  return static_cast<double>(sizeof...(I) * kLanes<V>) * kTimes;
 }
 
 typedef double Two __attribute__((vector_size(16)));
@@ -77,7 +80,8 @@ Measured Always(const char* id, double (*run)()) {
   return {id, "operation", [run] { return std::function<double()>(run); }};
 }
 
-#if defined(__x86_64__)
+// clang checks the registers of an inlined function against the narrowest machine.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 typedef double Four __attribute__((vector_size(32)));
 typedef double Eight __attribute__((vector_size(64)));
 

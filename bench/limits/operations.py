@@ -53,38 +53,44 @@ def disassembled(path):
 
 
 def read_callgrind(path):
-    """Runs of each (object, address), calls of each function by name, totals of the events."""
-    runs, calls = collections.Counter(), collections.Counter()
+    """Runs of each (object, address), calls of each function by its name, totals of the events.
+
+    Counts of calls in the file are of the whole program, before the measured run too; so a call is
+    counted where the first instruction of a function runs."""
+    runs, entries = collections.Counter(), {}
     objects, functions = {}, {}
     events, totals = [], []
-    at, called, of_call = None, None, False
-    for line in open(path, encoding="utf-8"):
-        line = line.rstrip("\n")
-        key, _, rest = line.partition("=")
-        if key in ("ob", "cob"):
-            found = re.match(r"\((\d+)\)(?: (.*))?$", rest)
-            if found[2] is not None:
-                objects[found[1]] = found[2]
-            if key == "ob":
-                at = objects[found[1]]
-        elif key in ("fn", "cfn"):
-            found = re.match(r"\((\d+)\)(?: (.*))?$", rest)
-            if found[2] is not None:
-                functions[found[1]] = found[2]
-            called = functions[found[1]]
-        elif key == "calls":
-            calls[re.sub(r"'\d+$", "", called)] += int(rest.split()[0])
-            of_call = True
-        elif line.startswith("0x"):
-            if not of_call:
-                address, count = line.split()[:2]
-                runs[at, int(address, 16)] += int(count)
-            of_call = False
-        elif line.startswith("events: "):
-            events = line.split()[1:]
-        elif line.startswith("summary: "):
-            totals = [int(word) for word in line.split()[1:]]
+    at, inside, of_call = None, None, False
+    with open(path, encoding="utf-8") as lines:
+        for line in lines:
+            key, _, rest = line.rstrip("\n").partition("=")
+            named = re.match(r"\((\d+)\)(?: (.*))?$", rest)
+            if named and key in ("ob", "cob", "fn", "cfn"):
+                names = objects if key.endswith("ob") else functions
+                if named[2] is not None:
+                    names[named[1]] = named[2]
+                if key == "ob":
+                    at = names[named[1]]
+                elif key == "fn":
+                    inside = re.sub(r"'\d+$", "", names[named[1]])
+            elif key == "calls":
+                of_call = True
+            elif line.startswith("0x"):
+                if not of_call:  # else the cost of the function called
+                    words = line.split()
+                    address = int(words[0], 16)
+                    runs[at, address] += int(words[1])
+                    if (at, inside) not in entries or address < entries[at, inside]:
+                        entries[at, inside] = address
+                of_call = False
+            elif line.startswith("events: "):
+                events = line.split()[1:]
+            elif line.startswith("summary: "):
+                totals = [int(word) for word in line.split()[1:]]
     totals += [0] * (len(events) - len(totals))
+    calls = collections.Counter()
+    for (where, function), address in entries.items():
+        calls[function] += runs[where, address]
     return runs, calls, dict(zip(events, totals))
 
 
@@ -137,8 +143,8 @@ def count(study, load):
 
 
 # Entries of the C library as the program calls them; what they call inside is a part of them.
-ENTRIES = ["exp", "log", "pow", "sin", "cos", "sincos", "tan", "atan", "atan2", "hypot", "tanh",
-           "fesetround"]
+ENTRIES = ["exp", "log", "pow", "sin", "cos", "sincos", "tan", "asin", "atan", "atan2", "hypot",
+           "tanh", "fesetround"]
 
 
 def entry_called(name):
