@@ -94,21 +94,22 @@ def read_callgrind(path):
     return runs, calls, dict(zip(events, totals))
 
 
-def cache_bytes(name, otherwise):
+def last_cache_bytes():
+    """Of the last cache, down to a power of two; 32 MiB where the machine does not say."""
     try:
-        return int(subprocess.run(["getconf", name], capture_output=True, text=True).stdout)
-    except ValueError:
-        return otherwise
+        with open("/sys/devices/system/cpu/cpu0/cache/index3/size", encoding="ascii") as said:
+            return 1 << ((int(said.read().strip().removesuffix("K")) << 10).bit_length() - 1)
+    except (OSError, ValueError):
+        return 1 << 25
 
 
 def run_counted(study, load):
     """What callgrind counted in one run of a workload, and the units done."""
-    size = 1 << (cache_bytes("LEVEL3_CACHE_SIZE", 1 << 25).bit_length() - 1)
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "callgrind")
         run = subprocess.run(
             ["valgrind", "--tool=callgrind", "--dump-instr=yes", "--dump-line=no",
-             "--compress-pos=no", "--cache-sim=yes", f"--LL={size},16,64",
+             "--compress-pos=no", "--cache-sim=yes", f"--LL={last_cache_bytes()},16,64",
              "--toggle-collect=howl::limits::MeasuredRun*", f"--callgrind-out-file={out}", study,
              "--once", load], capture_output=True, text=True)
         if run.returncode != 0:
