@@ -10,18 +10,31 @@
 #ifndef HOWL_ESTIMATION_FAMILY_BOUNDS_INTERVAL_H_
 #define HOWL_ESTIMATION_FAMILY_BOUNDS_INTERVAL_H_
 
+#include <bit>
 #include <boost/numeric/interval.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace howl {
 
+// Boost.Interval switches the rounding mode twice for each root that it rounds downward, which took
+// a fifth of the time of a contraction with two modes. The root rounded upward tells the same: it
+// is exact where its square is x, however rounded, and else the number below it is the root rounded
+// downward.
+struct OutwardArithmetic : boost::numeric::interval_lib::rounded_arith_opp<double> {
+  double sqrt_down(const double& x) {  // x > 0
+    const double root = sqrt_up(x);
+    if (mul_up(root, root) == x && mul_down(root, root) == x) return root;
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(root) - 1);
+  }
+};
+
 using GuardedInterval = boost::numeric::interval<
-    double,
-    boost::numeric::interval_lib::policies<
-        boost::numeric::interval_lib::save_state<boost::numeric::interval_lib::rounded_transc_std<
-            double, boost::numeric::interval_lib::rounded_arith_opp<double>>>,
-        boost::numeric::interval_lib::checking_base<double>>>;
+    double, boost::numeric::interval_lib::policies<
+                boost::numeric::interval_lib::save_state<
+                    boost::numeric::interval_lib::rounded_transc_std<double, OutwardArithmetic>>,
+                boost::numeric::interval_lib::checking_base<double>>>;
 using Interval = boost::numeric::interval_lib::unprotect<GuardedInterval>::type;
 
 class RoundingGuard {

@@ -363,11 +363,15 @@ struct MemberDrawer::Impl : MemberChart {
   // parts in the ratio of the sines of the angles to the other part's direction, and from the
   // one-mode solution down the share only grows.
   double LeastOmega(double frequency_hz, double xi_i, double tangent, const Range& wedge) const {
+    // With y and y_r the modes' detuning, sin(atan(y / xi) - atan(t)) is (y - xi t) / sqrt(xi^2 +
+    // y^2) but for a factor of t that both sides have.
+    const double across = xi_i * tangent;
     const auto is_minor = [&](double omega_hz) {
-      const double lag = std::atan(tangent);
-      const double to_first = std::atan(Detuning(frequency_hz, omega_hz) / xi_i) - lag;
-      const double to_second = lag - std::atan(Detuning(frequency_hz, ratio * omega_hz) / xi_i);
-      return std::sin(to_first) <= problem.test.second_mode_share_max * std::sin(to_second);
+      const double y = Detuning(frequency_hz, omega_hz);
+      const double y_r = Detuning(frequency_hz, ratio * omega_hz);
+      const double to_first = (y - across) / std::sqrt(xi_i * xi_i + y * y);
+      const double to_second = (across - y_r) / std::sqrt(xi_i * xi_i + y_r * y_r);
+      return to_first <= problem.test.second_mode_share_max * to_second;
     };
     double lo = wedge.lo, hi = wedge.hi;
     if (!std::isfinite(problem.test.second_mode_share_max) || is_minor(lo)) return lo;

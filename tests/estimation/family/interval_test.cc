@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
+#include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "estimation/family/bounds/contract.h"
 #include "tests/estimation/family/reference.h"
@@ -16,6 +19,48 @@
 
 namespace howl {
 namespace {
+
+// The root of x in the rounding mode itself.
+double RootRounded(double x, int mode) {
+  const int before = std::fegetround();
+  std::fesetround(mode);
+  volatile double from = x;  // not to be moved across the switches
+  volatile double root = std::sqrt(from);
+  std::fesetround(before);
+  return root;
+}
+
+TEST(IntervalTest, RootsAreThoseOfTheRoundingModes) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<double> values = {0.0,
+                                1.0,
+                                4.0,
+                                std::numeric_limits<double>::denorm_min(),
+                                std::numeric_limits<double>::min(),
+                                std::numeric_limits<double>::max(),
+                                std::numeric_limits<double>::infinity()};
+  for (int draw = 0; draw < 100000; ++draw) {
+    const double x = std::ldexp(uniform(random), static_cast<int>(random() % 2100) - 1070);
+    values.push_back(x);
+    // Exact squares, and their neighbours.
+    const double root = static_cast<double>(random() % (1u << 26));
+    values.push_back(root * root);
+    values.push_back(std::nextafter(root * root, 1e300));
+    values.push_back(std::nextafter(root * root, 0.0));
+    // Squares that are not exact: just above or below one.
+    values.push_back(x * x);
+  }
+  for (const double x : values) {
+    Interval root;
+    {
+      const RoundingGuard guard;
+      root = sqrt(Interval(x));
+    }
+    ASSERT_EQ(root.lower(), RootRounded(x, FE_DOWNWARD)) << x;
+    ASSERT_EQ(root.upper(), RootRounded(x, FE_UPWARD)) << x;
+  }
+}
 
 #ifdef HOWL_HAVE_MPFI
 using Precise = boost::multiprecision::mpfi_float_50;
