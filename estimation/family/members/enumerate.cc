@@ -411,10 +411,12 @@ struct MemberDrawer::Impl : MemberChart {
         std::vector<Range> narrowed;
         for (const Range& part : allowed) {
           const double turn = 2.0 * std::numbers::pi;
-          const double last = std::floor((part.hi * w - turned + tolerance) / turn);
-          for (double k = std::ceil((part.lo * w - turned - tolerance) / turn); k <= last; ++k) {
+          const auto first = std::lround(std::ceil((part.lo * w - turned - tolerance) / turn));
+          const auto last = std::lround(std::floor((part.hi * w - turned + tolerance) / turn));
+          for (long k = first; k <= last; ++k) {
+            const double whole = static_cast<double>(k) * turn;
             const Range here = Intersection(
-                part, {(turned - tolerance + k * turn) / w, (turned + tolerance + k * turn) / w});
+                part, {(turned - tolerance + whole) / w, (turned + tolerance + whole) / w});
             if (!IsEmpty(here)) narrowed.push_back(here);
           }
         }
