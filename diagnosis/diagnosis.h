@@ -106,11 +106,11 @@ struct Diagnosis {
 
 struct DiagnosisOptions {
   BaseModel model;
-  bool choose_modes = false;           // by the records, whatever the model says
-  bool choose_delays = false;          // the same: one for all, or each experiment's own
-  int threads = 0;                     // 0: as many as the machine has
-  std::uint64_t seed = 1;              // of the bootstrap's replicates
-  std::size_t bootstrap = 0;           // replicates (bootstrap/bootstrap.h)
+  bool choose_modes = false;   // by the records, whatever the model says
+  bool choose_delays = false;  // the same: one for all, or each experiment's own
+  int threads = 0;             // 0: as many as the machine has
+  std::uint64_t seed = 1;      // of the bootstrap's replicates
+  std::size_t bootstrap = 0;   // replicates (bootstrap/bootstrap.h)
   // Where it is set, only these replicates are run, for the memory, and the diagnosis then ends as
   // if it had been stopped: one of several processes' shares.
   std::function<bool(std::size_t replicate)> owns_replicate;

@@ -20,8 +20,8 @@ std::string CampaignCsv(const CampaignSpec& spec, const CampaignRigs& rigs, cons
 // A row for each quantity of each experiment of each rig.
 std::string CampaignPointsCsv(const RigRows& rows);
 
-// howl.campaign/1: how many rigs there are, were run and failed; those that are missing; counts of verdicts; and of each
-// column of numbers count, smallest, quartiles and largest.
+// howl.campaign/1: how many rigs there are, were run and failed; those that are missing; counts of
+// verdicts; and of each column of numbers count, smallest, quartiles and largest.
 nlohmann::ordered_json CampaignJson(const CampaignSpec& spec, const CampaignRigs& rigs,
                                     const RigRows& rows);
 
