@@ -2,6 +2,7 @@
 
 import csv
 import subprocess
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -12,11 +13,20 @@ pytest.importorskip("yaml")
 
 import numpy as np
 import pandas as pd
+import yaml
 
 import howl
 
 PROJECT = Path(__file__).resolve().parents[2]
 CONFIGS = PROJECT / "configs"
+
+# Six experiments with two modes, bounded ten times as closely as usual: the search takes seconds on any
+# machine, and the first progress is shown after two.
+FOLDER = tempfile.TemporaryDirectory()
+LONG = Path(FOLDER.name) / "long.yaml"
+problem = yaml.safe_load((CONFIGS / "r228_two_modes.yaml").read_text())
+problem.setdefault("family", {})["width"] = 0.001
+LONG.write_text(yaml.safe_dump(problem))
 
 
 def pytest_collection_modifyitems(items):

@@ -4,24 +4,14 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import time
-from pathlib import Path
 
 import pytest
-import yaml
-from conftest import CONFIGS
+from conftest import LONG
 
 import howl
 from howl._program import Completed, run_program
 
-# Six experiments with two modes, bounded ten times as closely as usual: the search takes seconds on any
-# machine, and the first progress is shown after two.
-FOLDER = tempfile.TemporaryDirectory()
-LONG = Path(FOLDER.name) / "long.yaml"
-problem = yaml.safe_load((CONFIGS / "r228_two_modes.yaml").read_text())
-problem.setdefault("family", {})["width"] = 0.001
-LONG.write_text(yaml.safe_dump(problem))
 FEWEST_BOUNDS = 20  # other stretches of the work have fewer units
 
 
@@ -39,11 +29,11 @@ def children():
 
 def test_the_same_call_goes_on_where_ctrl_c_stopped_it():
     with pytest.raises(KeyboardInterrupt) as first:
-        howl.family(LONG, progress=stop)
+        howl.family(LONG, threads=1, progress=stop)
     assert isinstance(first.value, howl.Interrupted)
     assert "goes on from" in str(first.value) and not children()
     try:  # what is left may be over before it shows how far it is
-        notes = howl.family(str(LONG), progress=stop).notes
+        notes = howl.family(str(LONG), threads=1, progress=stop).notes
     except howl.Interrupted as second:
         notes = second.notes
     assert any("going on from" in note for note in notes)
@@ -51,7 +41,7 @@ def test_the_same_call_goes_on_where_ctrl_c_stopped_it():
 
 def test_with_a_folder_the_program_itself_goes_on(tmp_path):
     with pytest.raises(howl.Interrupted):
-        howl.family(LONG, out=tmp_path, progress=stop)
+        howl.family(LONG, threads=1, out=tmp_path, progress=stop)
     assert (tmp_path / "bounds.state").exists()
     assert not (tmp_path / "family.json").exists()
 
@@ -74,7 +64,7 @@ def test_an_observers_exception_ends_the_program():
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
-        howl.family(LONG, progress=fail)
+        howl.family(LONG, threads=1, progress=fail)
     assert not children()
 
 
@@ -89,7 +79,7 @@ def test_the_status_and_both_streams_of_the_program(tmp_path, monkeypatch):
 
 def test_ctrl_c_in_a_terminal_reaches_the_program_once(tmp_path):
     """Both get the terminal's signal where they share a process group; the program must not."""
-    code = (f"import howl\ntry: howl.family({str(LONG)!r}, progress=lambda s:"
+    code = (f"import howl\ntry: howl.family({str(LONG)!r}, threads=1, progress=lambda s:"
             f" print('now', flush=True) if (s.total or 99) >= {FEWEST_BOUNDS} else None)\n"
             "except howl.Interrupted as e: print('caught', e)\n")
     python = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
