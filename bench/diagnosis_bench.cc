@@ -1,41 +1,19 @@
 // Where the time of one diagnosis goes: six simulated operating points of 16 000 samples.
 #include <benchmark/benchmark.h>
 
+#include "bench/simulated_rig.h"
 #include "diagnosis/bootstrap/fitted_rig.h"
 #include "diagnosis/coherent_lines.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/effect_fit.h"
 #include "diagnosis/gain_fluctuation.h"
 #include "diagnosis/slack.h"
-#include "model/simulate.h"
 
 namespace howl {
 namespace {
 
 const std::vector<DiagnosisExperiment>& Rig() {
-  static const std::vector<DiagnosisExperiment> rig = [] {
-    std::vector<SimulationCase> cases;
-    for (int k = 0; k < 6; ++k) {
-      SimulationCase one;
-      one.rig.model = {
-          {{206.0 - 2.0 * k, 0.17 - 0.01 * k, 6400.0 - 200.0 * k, 1700.0, 3.0}, 0.00352},
-          {FlameShape::kTanh, -0.72e-4, 0.45, 0.0}};
-      one.rig.noise = {4e-7, 1200.0, 0.02, 0.002};
-      one.rig.past = {{0.1, 205.0, 0.0, 0.0}};
-      one.seed = static_cast<std::uint64_t>(k);
-      cases.push_back(std::move(one));
-    }
-    SimulationOptions options;
-    options.duration_s = 3.2;
-    options.settle_s = 0.5;
-    std::vector<DiagnosisExperiment> experiments;
-    for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
-      experiments.push_back({"exp" + std::to_string(experiments.size() + 1),
-                             0.56 - 0.02 * static_cast<double>(experiments.size()),
-                             {record.sampling_hz, record.pressure, record.heat_release}});
-    }
-    return experiments;
-  }();
+  static const std::vector<DiagnosisExperiment> rig = SimulatedPoints(6);
   return rig;
 }
 

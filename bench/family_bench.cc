@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bench/r228_family.h"
 #include "estimation/family/answers/tradeoff.h"
 #include "estimation/family/bounds/enclose.h"
 #include "estimation/family/members/enumerate.h"
@@ -54,13 +55,7 @@ BENCHMARK(BM_Enclose)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 // The same with two modes, shared M, and the line near 750 Hz: configs/r228_two_modes.yaml.
 void BM_EncloseTwoModes(benchmark::State& state) {
-  FamilyProblem problem = Problem(2);
-  for (std::size_t i = 0; i < 4; ++i) problem.experiments[i].lines = {{750.0, 10.0}};
-  problem.domain[ParameterKind::kOmega].lo = 150.0;
-  problem.domain[ParameterKind::kXi].lo = 0.02;
-  problem.domain[ParameterKind::kM].hi = 5000.0;
-  problem.test.second_crossing_tolerance_deg = 30.0;
-  problem.test.xi_max = 0.4;
+  const FamilyProblem problem = R228Family(2);
   double excess = 0.0;
   for (auto _ : state) {
     Enclosure enclosure(problem, {.width = 0.01, .threads = 2});

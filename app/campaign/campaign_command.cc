@@ -15,7 +15,6 @@
 #include "app/interruption.h"
 #include "app/jobs/shard.h"
 #include "app/jobs/unit_store.h"
-#include "app/negative_answer.h"
 #include "estimation/parallel.h"
 #include "io/config/config.h"
 #include "io/results/result_files.h"
@@ -128,7 +127,7 @@ int Run(const Options& options) {
   if (const std::optional<Shard> shard = ShardOf(options)) return RunShard(options, *shard);
   const CampaignSpec spec = LoadCampaign(options.config);
   const CampaignRigs all = MakeRigs(spec, options.seed, options.out);
-  CheckFirst(all);
+  if (!options.Has(kTableOption)) CheckFirst(all);
   const Units found = RowsOf(spec, all, options);
   RigRows rows;
   for (const CampaignRig& rig : all.rigs) {

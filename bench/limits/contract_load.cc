@@ -2,8 +2,8 @@
 // around it. The boxes are the parts of the family's whole box, xi of each experiment halved.
 #include <memory>
 
-#include "bench/limits/family_load.h"
 #include "bench/limits/measured.h"
+#include "bench/r228_family.h"
 #include "estimation/family/bounds/contract.h"
 
 namespace howl::limits {

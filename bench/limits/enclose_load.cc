@@ -3,8 +3,8 @@
 // contract_load.cc.
 #include <memory>
 
-#include "bench/limits/family_load.h"
 #include "bench/limits/measured.h"
+#include "bench/r228_family.h"
 #include "estimation/family/bounds/enclose.h"
 
 namespace howl::limits {

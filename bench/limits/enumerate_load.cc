@@ -1,8 +1,8 @@
 // Members drawn, built and tested; the pilot search that a drawer makes first is not measured.
 #include <memory>
 
-#include "bench/limits/family_load.h"
 #include "bench/limits/measured.h"
+#include "bench/r228_family.h"
 #include "estimation/family/members/enumerate.h"
 
 namespace howl::limits {

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "bench/limits/measured.h"
+#include "bench/simulated_rig.h"
 #include "diagnosis/effect_fit.h"
 #include "diagnosis/structure/structure_fit.h"
-#include "model/simulate.h"
 
 namespace howl::limits {
 namespace {
@@ -18,27 +18,7 @@ struct State {
 };
 
 std::shared_ptr<const State> MakeState() {
-  std::vector<SimulationCase> cases;
-  for (int k = 0; k < 2; ++k) {
-    SimulationCase one;
-    one.rig.model = {{{206.0 - 2.0 * k, 0.17 - 0.01 * k, 6400.0 - 200.0 * k, 1700.0, 3.0}, 0.00352},
-                     {FlameShape::kTanh, -0.72e-4, 0.45, 0.0}};
-    one.rig.noise = {4e-7, 1200.0, 0.02, 0.002};
-    one.rig.past = {{0.1, 205.0, 0.0, 0.0}};
-    one.seed = static_cast<std::uint64_t>(k);
-    cases.push_back(std::move(one));
-  }
-  SimulationOptions options;
-  options.duration_s = 3.2;
-  options.settle_s = 0.5;
-  options.threads = 1;
-  std::vector<DiagnosisExperiment> rig;
-  for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
-    rig.push_back({"exp" + std::to_string(rig.size() + 1),
-                   0.56 - 0.02 * static_cast<double>(rig.size()),
-                   {record.sampling_hz, record.pressure, record.heat_release}});
-  }
-  const std::vector<CutRecord> records = MakeCutRecords(rig);
+  const std::vector<CutRecord> records = MakeCutRecords(SimulatedPoints(2));
   std::vector<JointBand> bands;
   for (const CutRecord& record : records) bands.push_back(MakeJointBand(record));
   auto state = std::make_shared<State>();

@@ -57,6 +57,17 @@ inline ProgramResult RunHowl(const std::string& arguments) {
           ReadFile(folder.path() / "err")};
 }
 
+// Starts the program and does not wait for it; it and what it starts are a process group, which has
+// the number that is returned. `arguments` go through the shell.
+inline pid_t StartHowl(const std::string& arguments) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  setpgid(0, 0);
+  const std::string line = "exec " + std::string(HOWL_PROGRAM) + " " + arguments;
+  execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+  _exit(127);
+}
+
 inline std::string Config(const std::string& name) {
   return std::string(HOWL_SOURCE_DIR) + "/configs/" + name + ".yaml";
 }

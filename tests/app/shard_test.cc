@@ -143,24 +143,6 @@ TEST(Shards, BadRequestsAreNamed) {
   EXPECT_THAT(none.err, HasSubstr("has no shard"));
 }
 
-// Starts the program, kills it after a while, and says whether it was still running.
-bool RunAndKill(const std::vector<std::string>& words, std::chrono::milliseconds after) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::vector<char*> arguments;
-    std::vector<std::string> copies = words;
-    for (std::string& word : copies) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    setpgid(0, 0);
-    execv(arguments[0], arguments.data());
-    _exit(127);
-  }
-  std::this_thread::sleep_for(after);
-  const bool was_running = kill(-child, SIGKILL) == 0 && waitpid(child, nullptr, WNOHANG) == 0;
-  waitpid(child, nullptr, 0);
-  return was_running;
-}
-
 TEST(TrialShards, JoinToTheSheetOfOneMachineThoughOneWasKilled) {
   const TemporaryFolder folder;
   const std::string config =
@@ -174,10 +156,11 @@ TEST(TrialShards, JoinToTheSheetOfOneMachineThoughOneWasKilled) {
   const std::string command = "trial " + config + asks + " --out " + folder.path().string();
   ASSERT_EQ(RunHowl(command + "/whole").status, 0);
   const std::string out = (folder.path() / "parts").string();
-  RunAndKill({HOWL_PROGRAM, "trial", config, "--cases", "3", "--effects", "none,quantisation",
-              "--severities", "large", "--duration", "0.85", "--threads", "1", "--out", out,
-              "--shard", "2/2", "--quiet"},
-             std::chrono::milliseconds(700));
+  const pid_t shard = StartHowl(command + "/parts --quiet" + ShardOption(2, 2));
+  ASSERT_GT(shard, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  EXPECT_EQ(kill(-shard, SIGKILL), 0);
+  EXPECT_EQ(waitpid(shard, nullptr, 0), shard);
   EXPECT_FALSE(fs::exists(out + "/shards/2-of-2.trial.shard"));
   RunShards(command + "/parts", {2, 1});
   // What was withheld is in no file that can be read before the merge.

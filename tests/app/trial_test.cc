@@ -88,14 +88,8 @@ std::string Trial::command_;
 
 TEST_F(Trial, RunsBlindGoesOnScoresAndNoticesChanges) {
   // Interrupted when the first diagnosis has ended.
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    const std::string line =
-        "exec " + std::string(HOWL_PROGRAM) + " " + command_ + Folder().string() + " --quiet";
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
+  const pid_t child = StartHowl(command_ + Folder().string() + " --quiet");
+  ASSERT_GT(child, 0);
   int waited = 0;
   for (; waited < 6000 && Count(Folder(), "diagnosed") == 0; ++waited) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

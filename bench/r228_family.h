@@ -1,11 +1,11 @@
 // The family of test R228, with one mode and with two (configs/r228_two_modes.yaml).
-#ifndef HOWL_BENCH_LIMITS_FAMILY_LOAD_H_
-#define HOWL_BENCH_LIMITS_FAMILY_LOAD_H_
+#ifndef HOWL_BENCH_R228_FAMILY_H_
+#define HOWL_BENCH_R228_FAMILY_H_
 
 #include "estimation/family/problem/problem.h"
 #include "tests/r228.h"
 
-namespace howl::limits {
+namespace howl {
 
 inline FamilyProblem R228Family(int modes) {
   FamilyProblem problem;
@@ -21,6 +21,6 @@ inline FamilyProblem R228Family(int modes) {
   return problem;
 }
 
-}  // namespace howl::limits
+}  // namespace howl
 
-#endif  // HOWL_BENCH_LIMITS_FAMILY_LOAD_H_
+#endif  // HOWL_BENCH_R228_FAMILY_H_
