@@ -120,6 +120,10 @@ int Run(const Options& options) {
       static ProgressLine line("replicates of the bootstrap", false);
       line.Show(done, total);
     };
+    how.budget_progress = [](std::size_t done, std::size_t total) {
+      static ProgressLine line("items of a step of the budget", false);
+      line.Show(done, total);
+    };
   }
   if (const auto path = options.Text("--reference")) {
     const Config reference = LoadConfig(*path);

@@ -16,9 +16,9 @@ constexpr std::size_t kShownCandidates = 5;
 constexpr std::size_t kShownMoved = 4;
 constexpr double kMovedShare = 0.03;
 
-std::string ParameterText(const Candidate& candidate) {
+std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
   std::string text;
-  for (const EstimatedParameter& parameter : candidate.parameters) {
+  for (const EstimatedParameter& parameter : parameters) {
     if (!text.empty()) text += ", ";
     text += parameter.name + " " + Significant(parameter.value, 4);
     if (!parameter.unit.empty()) text += " " + parameter.unit;
@@ -84,6 +84,36 @@ std::string BaseText(const Diagnosis& diagnosis) {
   return text + "\n";
 }
 
+// The budget as a waterfall: a bar as long as the gap before each item, of which the item takes off
+// the light part.
+void PrintBudget(const Budget& budget) {
+  constexpr double kWidth = 40.0;
+  std::printf("budget, left out: several causes take the gap from %.3f to %.3f\n",
+              budget.gap_before, budget.gap_left);
+  TextTable table({"item", "gap after", "", "lost without: nats", "gap", "points", "estimate"});
+  for (const BudgetEntry& entry : budget.entries) {
+    const auto cells = [&](double gap) {
+      return static_cast<std::size_t>(
+          std::lround(kWidth * std::clamp(gap / std::max(budget.gap_before, 1e-12), 0.0, 1.0)));
+    };
+    const std::size_t stays = cells(entry.gap_after);
+    const std::size_t was = std::max(cells(entry.gap_before), stays);
+    std::string names = entry.item;
+    for (const std::string& other : entry.equals) names += " = " + other;
+    table.AddRow(
+        {names, Fixed(entry.gap_after, 3), std::string(stays, '#') + std::string(was - stays, '.'),
+         Fixed(entry.lost_nats, 1), Fixed(entry.lost_gap, 3),
+         std::to_string(entry.experiments_better) + "/" + std::to_string(budget.experiments),
+         ParameterText(entry.parameters)});
+  }
+  std::printf("%s", table.Text().c_str());
+  for (const Place& place : budget.left) {
+    std::printf("left: %s, %.0f to %.0f Hz, %zu experiments (share %.2f)\n",
+                place.block == LoopBlock::kAcoustics ? "p from q" : "q from p", place.low_hz,
+                place.high_hz, place.experiments.size(), place.share);
+  }
+}
+
 }  // namespace
 
 void PrintDiagnosis(const Diagnosis& diagnosis) {
@@ -131,11 +161,12 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
     const Candidate& candidate = diagnosis.candidates[i];
     table.AddRow({candidate.effect, Fixed(candidate.probability, 3), Fixed(candidate.gain, 1),
                   Fixed(candidate.gap_after, 3), Fixed(kPerCent * candidate.shrinkage, 1),
-                  ParameterText(candidate)});
+                  ParameterText(candidate.parameters)});
   }
   std::printf("%s", table.Text().c_str());
   std::printf("%s", BoundText(diagnosis).c_str());
   std::printf("%s", MovedText(diagnosis).c_str());
+  if (diagnosis.budget) PrintBudget(*diagnosis.budget);
   std::printf("next: %s\n", diagnosis.advice.c_str());
 }
 

@@ -70,12 +70,25 @@ Acoustics<double> ToAcoustics(const BaseModel& model, const AcousticLocals& loca
   return {std::exp(locals[0]), std::exp(locals[1]), locals[2], locals[3], model.harmonic_ratio};
 }
 
+Response FurtherResponse(const std::vector<FurtherMode>& modes, double frequency_hz) {
+  Response sum = 0.0;
+  for (const FurtherMode& mode : modes) {
+    const double omega = kRadPerSPerHz * mode.omega_hz;
+    const double w = kRadPerSPerHz * frequency_hz;
+    sum += Response(mode.b * omega, mode.a * w) /
+           Response(omega * omega - w * w, 2.0 * mode.xi * omega * w);
+  }
+  return sum;
+}
+
 Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
-                                  const AcousticLocals& locals) {
+                                  const AcousticLocals& locals,
+                                  const std::vector<FurtherMode>& further) {
   const Acoustics<double> acoustics = ToAcoustics(record.model, locals);
   const auto path = [&](double f) {
-    const Response k =
-        effect.Acoustics(acoustics, f, record.at, x) * effect.PressureInstrument(f, x);
+    Response g = effect.Acoustics(acoustics, f, record.at, x);
+    if (!further.empty()) g += FurtherResponse(further, f);
+    const Response k = g * effect.PressureInstrument(f, x);
     // Complex quotients are slow, and most effects need none.
     const Response h = effect.HeatReleaseInstrument(f, x);
     return h == 1.0 ? k : k / h;

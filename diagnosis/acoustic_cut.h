@@ -5,6 +5,10 @@
 //
 // Where the acoustics move (acoustic_modulation.h), R is that of their mean, and what the movement
 // adds to p is subtracted too.
+//
+// G may have modes beside the base's, each with its own damping and a complex residue:
+//
+//   sum over k of (a_k s + b_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
 #ifndef HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_
 #define HOWL_DIAGNOSIS_ACOUSTIC_CUT_H_
 
@@ -26,9 +30,18 @@ inline bool IsFree(const BaseModel& model, Eigen::Index local) {
 
 Acoustics<double> ToAcoustics(const BaseModel& model, const AcousticLocals& locals);
 
+struct FurtherMode {
+  double omega_hz = 0.0;
+  double xi = 0.0;
+  double a = 0.0;  // both in the unit of N
+  double b = 0.0;
+};
+Response FurtherResponse(const std::vector<FurtherMode>& modes, double frequency_hz);
+
 // R on the extended band.
 Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
-                                  const AcousticLocals& locals);
+                                  const AcousticLocals& locals,
+                                  const std::vector<FurtherMode>& further = {});
 
 // E_A on the band.
 Eigen::VectorXcd AcousticResidual(const CutRecord& record, const Effect& effect, EffectValues x,

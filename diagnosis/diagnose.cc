@@ -29,6 +29,16 @@ class SecondMemory final : public FitMemory {
 // ln 19, in nats: the effect is preferred to own delays at odds of 19 to 1.
 constexpr double kLogOddsToAccuse = 2.944438979166440;
 
+BudgetOptions BudgetOptionsOf(const DiagnosisOptions& options) {
+  BudgetOptions out;
+  out.withheld = options.withheld;
+  out.further = options.further;
+  out.memory = options.memory;
+  out.progress = options.budget_progress;
+  out.stopped = options.stopped;
+  return out;
+}
+
 }  // namespace
 
 bool DelaysDiffer(double own_delays_gain) { return own_delays_gain > DetectionGain(true); }
@@ -71,6 +81,15 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
     out.own_delays_gain = own_delays_gain;
   }
   out.second_mode_gain = second_mode_gain;
+  // A reference has the rig's own gap already. What is repaired are samples, and a transfer function
+  // fitted to them would speak of the repair.
+  const bool wanted = options.find_budget && options.reference.empty() && out.repaired.empty();
+  if (wanted && !out.stopped && out.kind == VerdictKind::kUnknown) {
+    BaseModel model = out.model;
+    if (options.choose_delays) model.own_delays = true;
+    out.budget = FindBudget(experiments, model, BudgetOptionsOf(options));
+    out.stopped = out.budget->stopped;
+  }
   return out;
 }
 

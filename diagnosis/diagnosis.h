@@ -15,11 +15,14 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "diagnosis/budget/budget.h"
 #include "diagnosis/cut_record.h"
+#include "diagnosis/estimated_parameter.h"
 #include "diagnosis/fit_memory.h"
 #include "diagnosis/gap_map.h"
 #include "diagnosis/moved_parameters.h"
@@ -28,15 +31,6 @@
 namespace howl {
 
 enum class VerdictKind : std::uint8_t { kNone, kEffect, kUnknown };
-
-struct EstimatedParameter {
-  std::string name;
-  double value = 0.0;
-  double low = 0.0;  // 95 %; NaN where no error was estimated
-  double high = 0.0;
-  std::string unit;
-  bool at_bound = false;  // of the search: the value is that of the bound, not of the data
-};
 
 struct Candidate {
   std::string effect;
@@ -51,14 +45,6 @@ struct Candidate {
   double p_value = 1.0;
   double probability = 0.0;
   std::vector<EstimatedParameter> parameters;
-};
-
-struct Place {
-  LoopBlock block = LoopBlock::kAcoustics;
-  double low_hz = 0.0;
-  double high_hz = 0.0;
-  std::vector<std::string> experiments;
-  double share = 0.0;
 };
 
 struct Diagnosis {
@@ -101,6 +87,8 @@ struct Diagnosis {
   // The largest gain of each replicate of the bootstrap, ascending; empty if there was none.
   std::vector<double> bootstrap_gains;
   std::string advice;
+  // Where no single cause was found, what a search for several adds to the base (budget/budget.h).
+  std::optional<Budget> budget;
   bool stopped = false;  // the run was stopped before its end, and the rest is empty
 };
 
@@ -114,6 +102,8 @@ struct DiagnosisOptions {
   // Where it is set, only these replicates are run, for the memory, and the diagnosis then ends as
   // if it had been stopped: one of several processes' shares.
   std::function<bool(std::size_t replicate)> owns_replicate;
+  // Where no single cause is found, several are searched for (Diagnosis::budget).
+  bool find_budget = true;
   std::vector<std::string> withheld;   // identifiers of the catalogue that are not tried
   std::vector<EffectPointer> further;  // effects of the user's own
   // Records that take the model's place (reference.h); none: the base alone is the model.
@@ -121,6 +111,7 @@ struct DiagnosisOptions {
   // Progress in starts of the search, of which an effect has a few or many.
   std::function<void(std::size_t done, std::size_t total)> progress;
   std::function<void(std::size_t done, std::size_t total)> bootstrap_progress;
+  std::function<void(std::size_t done, std::size_t total)> budget_progress;
   FitMemory* memory = nullptr;    // of an interrupted run of the same inputs
   std::function<bool()> stopped;  // asked between effects
 };

@@ -22,7 +22,7 @@ std::shared_ptr<const State> MakeState() {
   std::vector<JointBand> bands;
   for (const CutRecord& record : records) bands.push_back(MakeJointBand(record));
   auto state = std::make_shared<State>();
-  state->fit = StartOf(bands, FitBase(records), BaseNoise());
+  state->fit = StartOf(&bands, FitBase(records), BaseNoise());
   state->band = std::move(bands[0]);
   state->effect = state->fit.structure.Joined();
   state->residuals =

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kGainDataSize = 500.0;  // independent bins that a shared parameter draws on
 constexpr double kOverdispersion = 2.5;
-constexpr double kAtBound = 1e-6;
 
 }  // namespace
 
@@ -53,16 +52,6 @@ bool ShowsLimits(const AttemptContext& at, bool pressure) {
 EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   return {name, value, unknown, unknown, unit};
-}
-
-bool StandsAtBound(const EffectParameter& parameter, double value) {
-  const auto scaled = [&](double x) {
-    return parameter.scale == ParameterScale::kLogarithmic ? std::log(x) : x;
-  };
-  const double low = scaled(parameter.low);
-  const double high = scaled(parameter.high);
-  const double enough = kAtBound * (high - low);
-  return scaled(value) - low <= enough || high - scaled(value) <= enough;
 }
 
 double PriceOfParameters(double parameters) { return 0.5 * parameters * std::log(kGainDataSize); }

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "diagnosis/candidates/attempt.h"
-#include "estimation/analysis/half_width.h"
 
 namespace howl {
 namespace {
@@ -20,18 +19,6 @@ std::vector<ExperimentFit> HoldOutAll(const AttemptContext& at, const EffectFit&
       out.back().flame_residual = at.base_held_out[e].flame_residual;
     }
   }
-  return out;
-}
-
-EstimatedParameter WithError(const EffectParameter& p, double value, double error) {
-  EstimatedParameter out{p.name, value, value - HalfWidth95(error), value + HalfWidth95(error),
-                         p.unit};
-  if (p.scale == ParameterScale::kLogarithmic && value > 0.0) {
-    const double factor = std::exp(std::min(HalfWidth95(error) / value, 20.0));
-    out.low = value / factor;
-    out.high = value * factor;
-  }
-  out.at_bound = StandsAtBound(p, value);
   return out;
 }
 

@@ -6,15 +6,9 @@
 namespace howl {
 namespace {
 
-// The reach to either side over which the signals' ratio is smoothed: the width of a mode of
-// damping 0.05 at the cycle; above twice the cycle's frequency, in proportion to the frequency.
-constexpr double kRatioReach = 0.1;
-
-double RatioReach(double frequency_hz, double cycle_hz) {
-  return kRatioReach * std::max(cycle_hz, 0.5 * frequency_hz);
-}
-
 constexpr Eigen::Index kPowerReach = 4;  // bins
+
+}  // namespace
 
 Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x) {
   Eigen::VectorXd out(x.size());
@@ -25,8 +19,6 @@ Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x) {
   }
   return out;
 }
-
-}  // namespace
 
 Eigen::VectorXcd SineTapered(const Eigen::Ref<const Eigen::VectorXcd>& extended,
                              Eigen::Index count) {
@@ -48,16 +40,16 @@ JointBand MakeJointBand(const CutRecord& record) {
   const double low = out.frequency_hz[0];
   const double high = out.frequency_hz[out.count - 1];
   out.log_frequency = 2.0 * (out.frequency_hz.array() / low).log() / std::log(high / low) - 1.0;
-  out.pressure_over_heat_release.resize(out.count);
+  out.share = Eigen::VectorXd::Constant(out.count, kSineTaperShare);
   for (Eigen::Index i = 0; i < out.count; ++i) {
-    const auto reach = static_cast<Eigen::Index>(
-        RatioReach(out.frequency_hz[i], record.lowest_cycle_hz) / record.bin_hz);
-    const Eigen::Index from = std::max<Eigen::Index>(i - reach, 0);
-    const Eigen::Index bins = std::min(i + reach + 1, out.count) - from;
-    out.pressure_over_heat_release[i] =
-        std::sqrt(out.pressure.segment(from, bins).squaredNorm() /
-                  out.heat_release.segment(from, bins).squaredNorm());
+    // The bin stands between two of the record's.
+    if (record.masked[static_cast<std::size_t>(i)] ||
+        record.masked[static_cast<std::size_t>(i + 1)]) {
+      out.share[i] = 0.0;
+    }
   }
+  out.acoustic_power = Eigen::VectorXd::Ones(out.count);
+  out.flame_power = Eigen::VectorXd::Ones(out.count);
   out.pressure_power = SmoothPower(out.pressure);
   out.heat_release_power = SmoothPower(out.heat_release);
   return out;

@@ -25,10 +25,14 @@ struct JointBand {
   Eigen::VectorXcd heat_release;
   Eigen::VectorXd log_frequency;  // -1 .. 1 over the band
 
-  // The root of |P|^2 over |Q|^2, smoothed over a fifth of the cycle's frequency and more. An error
-  // of the transfer from q to p is relative to it, and one of the transfer from p to q to its
-  // inverse.
-  Eigen::VectorXd pressure_over_heat_release;
+  // What a bin counts for: kSineTaperShare, and nothing where a line is masked.
+  Eigen::VectorXd share;
+
+  // |R Q|^2 and |H Phi|^2 of the base, smoothed over a few bins, to which the model's errors are
+  // relative. They are the first fit's for every structure, so that none can make its errors
+  // smaller by predicting less (structure_fit.h). Ones until then.
+  Eigen::VectorXd acoustic_power;
+  Eigen::VectorXd flame_power;
   // |P|^2 and |Q|^2, smoothed over a few bins: an error in proportion to one bin's own power would
   // take bins that noise makes large for errors.
   Eigen::VectorXd pressure_power;
@@ -36,6 +40,9 @@ struct JointBand {
 };
 
 JointBand MakeJointBand(const CutRecord& record);
+
+// |x|^2, smoothed over a few bins.
+Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x);
 
 // A spectrum on the record's extended band after the taper: `count` bins.
 Eigen::VectorXcd SineTapered(const Eigen::Ref<const Eigen::VectorXcd>& extended,

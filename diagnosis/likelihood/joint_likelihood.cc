@@ -42,13 +42,14 @@ Eigen::VectorXd MeanSlopes(const FlameColumns& flame) {
 
 // 1 - R F at each bin, as a function of the flame's mean slope.
 struct ReturnDifference {
+  const Eigen::VectorXd& share;
   Eigen::VectorXcd without;    // 1 - R leak
   Eigen::VectorXcd per_slope;  // R F / slope
 
   double LogLikelihood(double slope) const {
     double sum = 0.0;
     for (Eigen::Index i = 0; i < per_slope.size(); ++i) {
-      sum += kSineTaperShare * std::log(std::norm(without[i] - slope * per_slope[i]));
+      sum += share[i] * std::log(std::norm(without[i] - slope * per_slope[i]));
     }
     return sum;
   }
@@ -62,7 +63,7 @@ struct ReturnDifference {
       double curvature = 0.0;
       for (Eigen::Index k = 0; k < per_slope.size(); ++k) {
         const Complex2 z = without[k] - slope * per_slope[k];
-        const double scale = 2.0 * kSineTaperShare / std::norm(z);
+        const double scale = 2.0 * share[k] / std::norm(z);
         gradient -= scale * ConjugateTimes(z, per_slope[k]).real();
         curvature += scale * std::norm(per_slope[k]);
       }
@@ -96,14 +97,15 @@ Eigen::VectorXcd FlamePath(const JointBand& band, const Effect& effect, EffectVa
 }
 
 AcousticPart MakeAcousticPart(const JointBand& band, const Effect& effect, EffectValues x,
-                              const AcousticLocals& locals) {
+                              const PointLoop& point) {
   const CutRecord& record = band.record;
   const Eigen::Index start = record.first - kTapReach;
   const Eigen::Index extended = band.count + 2 * kTapReach;
-  const Eigen::VectorXcd r = RecordedTransfer(record, effect, x, locals);
+  const Eigen::VectorXcd r =
+      RecordedTransfer(record, effect, x, point.acoustics, FurtherModesOf(record.model, point));
   Eigen::VectorXcd driven =
       r.head(extended).cwiseProduct(record.heat_release_spectrum.segment(start, extended));
-  const Eigen::VectorXcd moved = PressureOfMovement(record, effect, x, locals);
+  const Eigen::VectorXcd moved = PressureOfMovement(record, effect, x, point.acoustics);
   if (moved.size() > 0) driven += moved.head(extended);
   return {r.segment(kTapReach, band.count), band.pressure - SineTapered(driven, band.count)};
 }
@@ -144,6 +146,20 @@ Eigen::MatrixXd Spectra(const JointBand& band, const std::vector<NoiseTerm>& noi
 
 }  // namespace
 
+std::vector<FurtherMode> FurtherModesOf(const BaseModel& model, const PointLoop& point) {
+  std::vector<FurtherMode> out;
+  for (Eigen::Index k = 0; k < point.base_b.size(); ++k) {
+    const double ratio = k == 0 ? 1.0 : model.harmonic_ratio;
+    out.push_back({ratio * std::exp(point.acoustics[0]), std::exp(point.acoustics[1]), 0.0,
+                   point.residue_scale * point.base_b[k]});
+  }
+  for (const Eigen::Vector4d& mode : point.modes) {
+    out.push_back({std::exp(mode[0]), std::exp(mode[1]), point.residue_scale * mode[2],
+                   point.residue_scale * mode[3]});
+  }
+  return out;
+}
+
 JointResiduals MakeJointResiduals(const JointBand& band, const Effect& effect,
                                   const SharedLoop& shared, const PointLoop& point) {
   return MoveJointResiduals(band, effect, shared, point, {}, {});
@@ -155,8 +171,8 @@ JointResiduals MoveJointResiduals(const JointBand& band, const Effect& effect,
   JointResiduals out = before;
   const double tau_s = shared.tau_s * std::exp(point.log_delay);
   if (moves.acoustic) {
-    out.acoustic = std::make_shared<const AcousticPart>(
-        MakeAcousticPart(band, effect, shared.values, point.acoustics));
+    out.acoustic =
+        std::make_shared<const AcousticPart>(MakeAcousticPart(band, effect, shared.values, point));
   }
   if (moves.flame_input) {
     out.input = std::make_shared<const FlameColumns>(
@@ -176,7 +192,7 @@ JointEvaluation Evaluate(const JointBand& band, const std::vector<NoiseTerm>& no
   const Eigen::Index n = band.count;
   const double slope = residuals.flame->slopes.dot(point.flame);
   out.f = (slope * residuals.flame->path).array() + residuals.flame->leak;
-  ReturnDifference closed{Eigen::VectorXcd(n), Eigen::VectorXcd(n)};
+  ReturnDifference closed{band.share, Eigen::VectorXcd(n), Eigen::VectorXcd(n)};
   const Eigen::MatrixXd spectra = Spectra(band, noise, point);
   out.inverse.resize(static_cast<std::size_t>(n));
   Eigen::VectorXd flame_weight(n);
@@ -185,9 +201,8 @@ JointEvaluation Evaluate(const JointBand& band, const std::vector<NoiseTerm>& no
   for (Eigen::Index i = 0; i < n; ++i) {
     const Complex2 r = residuals.acoustic->r[i];
     const Complex2 f = out.f[i];
-    const double rho = band.pressure_over_heat_release[i];
-    double aa = shared.eps_a * shared.eps_a * rho * rho * band.heat_release_power[i];
-    double bb = shared.eps_b * shared.eps_b / (rho * rho) * band.pressure_power[i];
+    double aa = shared.eps_a * shared.eps_a * band.acoustic_power[i];
+    double bb = shared.eps_b * shared.eps_b * band.flame_power[i];
     Complex2 ab = 0.0;
     for (std::size_t j = 0; j < noise.size(); ++j) {
       const NoiseDirection u = DirectionOf(noise[j].source, r, f);
@@ -208,10 +223,10 @@ JointEvaluation Evaluate(const JointBand& band, const std::vector<NoiseTerm>& no
     const Complex2 eb = residuals.flame->target[i];
     const Complex2 wea = waa * ea + Times(wab, eb);
     const Complex2 web = ConjugateTimes(wab, ea) + wbb * eb;
-    value -= kSineTaperShare * (std::log(determinant) + ConjugateTimes(ea, wea).real() +
-                                ConjugateTimes(eb, web).real());
-    flame_weight[i] = kSineTaperShare * wbb;
-    weighted_target[i] = kSineTaperShare * web;
+    value -= band.share[i] * (std::log(determinant) + ConjugateTimes(ea, wea).real() +
+                              ConjugateTimes(eb, web).real());
+    flame_weight[i] = band.share[i] * wbb;
+    weighted_target[i] = band.share[i] * web;
   }
   out.flame_curvature = RealGram(flame_weight, residuals.flame->columns, residuals.flame->columns);
   out.flame_curvature.diagonal().array() += kRidge * out.flame_curvature.diagonal().maxCoeff();
@@ -259,7 +274,7 @@ JointAdjoint AdjointOf(const JointBand& band, const std::vector<NoiseTerm>& nois
       by_r += s * turn.by_r * (std::conj(we[0]) * along - std::conj(wu[0]));
       by_f += s * turn.by_f * (std::conj(we[1]) * along - std::conj(wu[1]));
     }
-    const double scale = 2.0 * kSineTaperShare;
+    const double scale = 2.0 * band.share[i];
     out.r[i] = scale * by_r;
     out.f[i] = scale * by_f;
     out.acoustic[i] = -scale * std::conj(we[0]);
@@ -296,24 +311,23 @@ NoiseScore ScoreNoise(const JointBand& band, const std::vector<NoiseTerm>& noise
   const Eigen::VectorXcd left = residuals.flame->target - residuals.flame->columns * at.flame;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Matrix2cd& w = at.inverse[static_cast<std::size_t>(i)];
-    const double rho = band.pressure_over_heat_release[i];
     const Eigen::Vector2cd we = w * Eigen::Vector2cd(residuals.acoustic->residual[i], left[i]);
     for (std::size_t j = 0; j < noise.size(); ++j) {
       const NoiseDirection u = DirectionOf(noise[j].source, residuals.acoustic->r[i], at.f[i]);
       direction[j] = {u.acoustic, u.flame};
       power[static_cast<Eigen::Index>(j)] = spectra(i, static_cast<Eigen::Index>(j));
     }
-    direction[noise.size()] = {rho * std::sqrt(band.heat_release_power[i]), 0.0};
-    direction[noise.size() + 1] = {0.0, std::sqrt(band.pressure_power[i]) / rho};
+    direction[noise.size()] = {std::sqrt(band.acoustic_power[i]), 0.0};
+    direction[noise.size() + 1] = {0.0, std::sqrt(band.flame_power[i])};
     power[sources - 2] = shared.eps_a * shared.eps_a;
     power[sources - 1] = shared.eps_b * shared.eps_b;
     for (Eigen::Index j = 0; j < sources; ++j) {
       const auto at_j = static_cast<std::size_t>(j);
       turned[at_j] = w * direction[at_j];
       const double trace = direction[at_j].dot(turned[at_j]).real();
-      score(i, j) = kSineTaperShare * power[j] * (std::norm(direction[at_j].dot(we)) - trace);
+      score(i, j) = band.share[i] * power[j] * (std::norm(direction[at_j].dot(we)) - trace);
       for (Eigen::Index k = 0; k <= j; ++k) {
-        pairs(i, pair(j, k)) = kSineTaperShare * power[j] * power[k] *
+        pairs(i, pair(j, k)) = band.share[i] * power[j] * power[k] *
                                std::norm(direction[static_cast<std::size_t>(k)].dot(turned[at_j]));
       }
     }
@@ -343,8 +357,8 @@ Eigen::MatrixXd MeanInformation(const JointBand& band, const JointResiduals& res
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Matrix2cd& w = at.inverse[static_cast<std::size_t>(i)];
     for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-      const Complex2 ea = kSineTaperShare * columns(i, k);
-      const Complex2 eb = kSineTaperShare * columns(n + i, k);
+      const Complex2 ea = band.share[i] * columns(i, k);
+      const Complex2 eb = band.share[i] * columns(n + i, k);
       weighted(i, k) = w(0, 0).real() * ea + Times(w(0, 1), eb);
       weighted(n + i, k) = Times(w(1, 0), ea) + w(1, 1).real() * eb;
     }

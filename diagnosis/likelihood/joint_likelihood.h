@@ -11,9 +11,8 @@
 // alone. The determinant is the Jacobian of the change from (P, Q) to (E_A, E_B): without it a fit
 // of both cuts of a closed loop is biased. w is the weight of a bin under the taper.
 //
-// The model's transfer functions have errors in proportion to the signals' ratio rho,
-// rho^2 = |P|^2 / |Q|^2: eps_A rho in R and eps_B / rho in F. Sigma contains them as two further
-// sources.
+// The model has errors in proportion to what it predicts, eps_A |R Q| and eps_B |H Phi|, both of
+// the base (joint_band.h). Sigma contains them as two further sources.
 //
 // The flame's coefficients take their most likely values.
 #ifndef HOWL_DIAGNOSIS_LIKELIHOOD_JOINT_LIKELIHOOD_H_
@@ -41,10 +40,17 @@ struct SharedLoop {
 
 struct PointLoop {
   AcousticLocals acoustics = AcousticLocals::Zero();
+  // Where residues are complex: b of the base's modes (acoustic_cut.h) over residue_scale.
+  Eigen::VectorXd base_b;
+  // ln omega (Hz), ln xi, and a and b over residue_scale, of each further mode.
+  std::vector<Eigen::Vector4d> modes;
+  double residue_scale = 1.0;          // N of the start
   double log_delay = 0.0;              // of its delay over the shared one
   std::vector<Eigen::VectorXd> noise;  // coefficients of ln S_j, one vector a source
   Eigen::VectorXd flame;               // coefficients, of the last evaluation
 };
+
+std::vector<FurtherMode> FurtherModesOf(const BaseModel& model, const PointLoop& point);
 
 // The model's residuals and responses for a record, which do not depend on the noise. Each of the
 // two parts is kept where no moved parameter changes it.

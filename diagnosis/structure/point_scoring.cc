@@ -1,8 +1,11 @@
 #include "diagnosis/structure/point_scoring.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "diagnosis/fitter.h"
 #include "diagnosis/structure/structure_priors.h"
@@ -22,10 +25,11 @@ double Normal(double x, double deviation) {
 class Moved {
  public:
   Moved(const JointBand& band, const Effect& effect, const std::vector<NoiseTerm>& noise,
-        const SharedLoop& shared, const PointLoop& point, Eigen::Index parameters)
+        const SharedLoop& shared, const PointLoop& point, const JointResiduals& now,
+        Eigen::Index parameters)
       : band_(band),
         effect_(effect),
-        now_(MakeJointResiduals(band, effect, shared, point)),
+        now_(now),
         here_(Evaluate(band, noise, shared, point, now_)),
         adjoint_(AdjointOf(band, noise, point, now_, here_)),
         slope_(now_.flame->slopes.dot(here_.flame)),
@@ -56,13 +60,12 @@ class Moved {
 
   Eigen::MatrixXd Information() const { return MeanInformation(band_, now_, here_, columns_); }
   const Eigen::VectorXd& gradient() const { return gradient_; }
-  const JointResiduals& now() const { return now_; }
   const JointEvaluation& here() const { return here_; }
 
  private:
   const JointBand& band_;
   const Effect& effect_;
-  JointResiduals now_;
+  const JointResiduals& now_;
   JointEvaluation here_;
   JointAdjoint adjoint_;
   double slope_;
@@ -72,21 +75,18 @@ class Moved {
   Eigen::Index count_ = 0;
 };
 
-void MoveOwn(const PointLayout& layout, const Effect& effect, const SharedLoop& shared,
-             const PointLoop& point, const PointLoop& centre, Moved* moved) {
-  for (Eigen::Index i = 0; i < layout.Acoustics(); ++i) {
+void AddOwn(const PointLayout& layout, const Effect& effect, const SharedLoop& shared,
+            const PointLoop& point, Moved* moved) {
+  for (Eigen::Index i = 0; i < layout.Loop(); ++i) {
     PointLoop there = point;
-    there.acoustics[i] += kStep * (i < 2 ? 1.0 : std::abs(centre.acoustics[2]));
-    moved->Add(shared, there, {true, false, false}, kStep);
+    MoveOwn(layout, i, kStep, &there);
+    const bool delay = i >= layout.Acoustics();
+    moved->Add(shared, there, {!delay, delay, delay && effect.ModulatesDelay()}, kStep);
   }
-  if (!layout.own_delays) return;
-  PointLoop there = point;
-  there.log_delay += kStep;
-  moved->Add(shared, there, {false, true, effect.ModulatesDelay()}, kStep);
 }
 
-void MoveShared(const Effect& effect, const SharedLoop& shared, const PointLoop& point,
-                Moved* moved) {
+void AddShared(const PointLayout& layout, const Effect& effect, const SharedLoop& shared,
+               const PointLoop& point, Moved* moved) {
   SharedLoop there = shared;
   there.tau_s *= std::exp(kStep);
   moved->Add(there, point, {false, true, effect.ModulatesDelay()}, kStep);
@@ -96,69 +96,112 @@ void MoveShared(const Effect& effect, const SharedLoop& shared, const PointLoop&
     double step = DifferenceStep(p, shared.values[j]);
     if (shared.values[j] + step > p.high) step = -step;  // into the bounds
     there.values[j] += step;
-    moved->Add(there, point,
-               {effect.ChangesAcousticCut(), effect.ChangesFlameCut(),
-                effect.ChangesFlameInput() || effect.ModulatesDelay()},
-               step / ScaleOf(p, shared.values[j]));
+    moved->Add(there, point, layout.effect_moves[j], step / ScaleOf(p, shared.values[j]));
   }
 }
 
-void AddPrior(const PointLayout& layout, const PointLoop& point, const PointLoop& centre,
-              double delay_scatter, PointScore* score) {
-  const auto add = [&](Eigen::Index k, double from, double deviation) {
-    const double precision = 1.0 / (deviation * deviation);
-    score->gradient[k] -= precision * from;
-    score->information(k, k) += precision;
+// A normal prior of one of the point's own parameters.
+struct OwnPrior {
+  Eigen::Index parameter;
+  double from_mean;
+  double deviation;
+};
+
+std::vector<OwnPrior> PriorsOf(const PointLayout& layout, const JointBand& band,
+                               const PointLoop& point, const PointLoop& centre,
+                               double delay_scatter) {
+  std::vector<OwnPrior> out;
+  Eigen::Index k = 0;
+  const auto add = [&](double from_mean, double deviation) {
+    out.push_back({k++, from_mean, deviation});
   };
-  add(0, point.acoustics[0] - centre.acoustics[0], kPriorLogOmega);
-  add(1, point.acoustics[1] - centre.acoustics[1], kPriorLogXi);
-  for (Eigen::Index i = 2; i < layout.Acoustics(); ++i) {
-    add(i, (point.acoustics[i] - centre.acoustics[i]) / std::abs(centre.acoustics[2]),
-        kPriorCoefficient);
+  add(point.acoustics[0] - centre.acoustics[0], kPriorLogOmega);
+  add(point.acoustics[1] - centre.acoustics[1], kPriorLogXi);
+  for (Eigen::Index i = 2; i < layout.Base(); ++i) {
+    add((point.acoustics[i] - centre.acoustics[i]) / point.residue_scale, kPriorCoefficient);
   }
-  if (layout.own_delays) {
-    add(layout.Loop() - 1, point.log_delay, std::max(delay_scatter, kLeastScatter));
+  for (const double b : point.base_b) add(b, kPriorCoefficient);
+  for (const Eigen::Vector4d& mode : point.modes) {
+    add(mode[0] - std::log(band.record.at.cycle_frequency_hz), kPriorModeLogOmega);
+    add(mode[1] - kPriorModeMeanLogXi, kPriorLogXi);
+    add(mode[2], kPriorModeResidue);
+    add(mode[3], kPriorModeResidue);
   }
-  Eigen::Index k = layout.Loop();
+  if (layout.own_delays) add(point.log_delay, std::max(delay_scatter, kLeastScatter));
   for (std::size_t j = 0; j < point.noise.size(); ++j) {
-    for (Eigen::Index i = 0; i < point.noise[j].size(); ++i, ++k) {
-      add(k, point.noise[j][i] - (i == 0 ? centre.noise[j][0] : 0.0),
+    for (Eigen::Index i = 0; i < point.noise[j].size(); ++i) {
+      add(point.noise[j][i] - (i == 0 ? centre.noise[j][0] : 0.0),
           i == 0 ? kPriorLevel : kPriorShape);
     }
   }
+  return out;
 }
 
 }  // namespace
 
-double PointPrior(const PointLayout& layout, const PointLoop& point, const PointLoop& centre,
-                  double delay_scatter) {
-  const double scale = std::abs(centre.acoustics[2]);
-  double out = Normal(point.acoustics[0] - centre.acoustics[0], kPriorLogOmega) +
-               Normal(point.acoustics[1] - centre.acoustics[1], kPriorLogXi);
-  for (Eigen::Index i = 2; i < layout.Acoustics(); ++i) {
-    out += Normal((point.acoustics[i] - centre.acoustics[i]) / scale, kPriorCoefficient);
+PointLayout LayoutOf(const LoopStructure& structure, const BaseModel& model) {
+  PointLayout out;
+  out.modes = model.modes;
+  out.complex_residues = structure.complex_residues;
+  out.further_modes = structure.further_modes;
+  out.own_delays = structure.own_delays;
+  for (const NoiseTerm& term : structure.noise) out.noise += term.coefficients;
+  out.effect_moves = structure.EffectMoves();
+  out.effect_values = static_cast<Eigen::Index>(out.effect_moves.size());
+  return out;
+}
+
+void MoveOwn(const PointLayout& layout, Eigen::Index parameter, double step, PointLoop* point) {
+  Eigen::Index k = parameter;
+  if (k < layout.Base()) {
+    point->acoustics[k] += step * (k < 2 ? 1.0 : point->residue_scale);
+    return;
   }
-  if (layout.own_delays) out += Normal(point.log_delay, std::max(delay_scatter, kLeastScatter));
-  for (std::size_t j = 0; j < point.noise.size(); ++j) {
-    out += Normal(point.noise[j][0] - centre.noise[j][0], kPriorLevel);
-    for (Eigen::Index k = 1; k < point.noise[j].size(); ++k) {
-      out += Normal(point.noise[j][k], kPriorShape);
+  k -= layout.Base();
+  if (k < layout.BaseB()) {
+    point->base_b[k] += step;
+    return;
+  }
+  k -= layout.BaseB();
+  if (k < 4 * layout.further_modes) {
+    point->modes[static_cast<std::size_t>(k / 4)][k % 4] += step;
+    return;
+  }
+  k -= 4 * layout.further_modes;
+  if (layout.own_delays && k-- == 0) {
+    point->log_delay += step;
+    return;
+  }
+  for (Eigen::VectorXd& source : point->noise) {
+    if (k < source.size()) {
+      source[k] += step;
+      return;
     }
+    k -= source.size();
+  }
+  LOG(FATAL) << "no own parameter " << parameter;
+}
+
+double PointPrior(const PointLayout& layout, const JointBand& band, const PointLoop& point,
+                  const PointLoop& centre, double delay_scatter) {
+  double out = 0.0;
+  for (const OwnPrior& prior : PriorsOf(layout, band, point, centre, delay_scatter)) {
+    out += Normal(prior.from_mean, prior.deviation);
   }
   return out;
 }
 
 PointScore ScorePoint(const PointLayout& layout, const JointBand& band, const Effect& effect,
                       const std::vector<NoiseTerm>& noise, const SharedLoop& shared,
-                      const PointLoop& point, const PointLoop& centre) {
+                      const PointLoop& point, const PointLoop& centre, const JointResiduals& now) {
   const Eigen::Index loop = layout.Loop();
   const Eigen::Index own = layout.Own();
   const Eigen::Index common = layout.SharedLoopSize();
-  Moved moved(band, effect, noise, shared, point, loop + common);
-  MoveOwn(layout, effect, shared, point, centre, &moved);
-  if (common > 0) MoveShared(effect, shared, point, &moved);
+  Moved moved(band, effect, noise, shared, point, now, loop + common);
+  AddOwn(layout, effect, shared, point, &moved);
+  if (common > 0) AddShared(layout, effect, shared, point, &moved);
   const Eigen::MatrixXd mean = moved.Information();
-  const NoiseScore of_noise = ScoreNoise(band, noise, shared, point, moved.now(), moved.here());
+  const NoiseScore of_noise = ScoreNoise(band, noise, shared, point, now, moved.here());
   PointScore out;
   const Eigen::Index size = own + layout.Shared();
   out.gradient = Eigen::VectorXd::Zero(size);
@@ -181,7 +224,11 @@ PointScore ScorePoint(const PointLayout& layout, const JointBand& band, const Ef
       out.information(place_noise(i), place_noise(k)) = of_noise.information(i, k);
     }
   }
-  AddPrior(layout, point, centre, shared.delay_scatter, &out);
+  for (const OwnPrior& prior : PriorsOf(layout, band, point, centre, shared.delay_scatter)) {
+    const double precision = 1.0 / (prior.deviation * prior.deviation);
+    out.gradient[prior.parameter] -= precision * prior.from_mean;
+    out.information(prior.parameter, prior.parameter) += precision;
+  }
   return out;
 }
 

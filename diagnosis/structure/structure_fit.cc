@@ -54,11 +54,11 @@ class Scoring {
  public:
   Scoring(const std::vector<JointBand>& bands, StructureFit start, const StructureOptions& options)
       : bands_(bands), options_(options), at_(std::move(start)), joined_(at_.structure.Joined()) {
-    layout_.modes = bands[0].record.model.modes;
-    layout_.own_delays = at_.structure.own_delays;
+    layout_ = LayoutOf(at_.structure, bands[0].record.model);
     layout_.shared_fixed = options.shared_fixed;
-    layout_.effect_values = static_cast<Eigen::Index>(at_.shared.values.size());
-    for (const NoiseTerm& term : at_.structure.noise) layout_.noise += term.coefficients;
+    moves_.flame_input =
+        joined_->ModulatesDelay() || (joined_->ChangesFlameInput() && !options.shared_fixed);
+    residuals_.resize(bands.size());
   }
 
   StructureFit Run();
@@ -66,12 +66,13 @@ class Scoring {
  private:
   double SharedPrior() const;
   double Value(const SharedLoop& shared, std::vector<PointLoop>* points,
-               std::vector<double>* each) const;
+               std::vector<JointResiduals>* residuals, std::vector<double>* each) const;
   void Score();
   Eigen::MatrixXd SharedInformation(const std::vector<double>& damping,
                                     Eigen::VectorXd* gradient) const;
   Eigen::VectorXd TakeShared(SharedLoop* shared) const;
   void TakeOwn(const Eigen::VectorXd& shared_step, std::vector<PointLoop>* points) const;
+  double MostOwnStep(Eigen::Index k) const;
   double ScatterOfDelays() const;
   double Iterate(double value);
   double Evidence(double value);
@@ -81,6 +82,8 @@ class Scoring {
   StructureFit at_;
   EffectPointer joined_;
   PointLayout layout_;
+  Moves moves_;
+  std::vector<JointResiduals> residuals_;
   std::vector<PointScore> scores_;
   std::vector<double> damping_;
   double shared_damping_ = kFirstDamping;
@@ -92,17 +95,20 @@ double Scoring::SharedPrior() const {
   return out;
 }
 
+// `residuals` has those of any other parameters, or nothing, and becomes those of these.
 double Scoring::Value(const SharedLoop& shared, std::vector<PointLoop>* points,
-                      std::vector<double>* each) const {
+                      std::vector<JointResiduals>* residuals, std::vector<double>* each) const {
   each->assign(bands_.size(), 0.0);
   tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t e) {
     PointLoop& point = (*points)[e];
-    const JointResiduals residuals = MakeJointResiduals(bands_[e], *joined_, shared, point);
+    JointResiduals& here = (*residuals)[e];
+    here =
+        MoveJointResiduals(bands_[e], *joined_, shared, point, here.input ? moves_ : Moves(), here);
     // The sources' directions follow from the flame that was found.
-    point.flame = Evaluate(bands_[e], at_.structure.noise, shared, point, residuals).flame;
-    const JointEvaluation at = Evaluate(bands_[e], at_.structure.noise, shared, point, residuals);
-    (*each)[e] =
-        at.log_likelihood + PointPrior(layout_, point, at_.centres[e], shared.delay_scatter);
+    point.flame = Evaluate(bands_[e], at_.structure.noise, shared, point, here).flame;
+    const JointEvaluation at = Evaluate(bands_[e], at_.structure.noise, shared, point, here);
+    (*each)[e] = at.log_likelihood +
+                 PointPrior(layout_, bands_[e], point, at_.centres[e], shared.delay_scatter);
   });
   double sum = SharedPrior();
   for (const double value : *each) sum += value;
@@ -113,7 +119,7 @@ void Scoring::Score() {
   scores_.resize(bands_.size());
   tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t e) {
     scores_[e] = ScorePoint(layout_, bands_[e], *joined_, at_.structure.noise, at_.shared,
-                            at_.points[e], at_.centres[e]);
+                            at_.points[e], at_.centres[e], residuals_[e]);
   });
 }
 
@@ -174,18 +180,18 @@ void Scoring::TakeOwn(const Eigen::VectorXd& shared_step, std::vector<PointLoop>
     gradient -= score.information.topRightCorner(own, shared_step.size()) * shared_step;
     const Eigen::VectorXd step =
         Damped(score.information.topLeftCorner(own, own), damping_[e]).ldlt().solve(gradient);
-    const double scale = std::abs(at_.centres[e].acoustics[2]);
-    point.acoustics[0] += Limited(step[0], kMostLogOmega);
-    point.acoustics[1] += Limited(step[1], kMostLogXi);
-    for (Eigen::Index i = 2; i < layout_.Acoustics(); ++i) {
-      point.acoustics[i] += scale * Limited(step[i], kMostCoefficient);
-    }
-    Eigen::Index k = layout_.Acoustics();
-    if (layout_.own_delays) point.log_delay += Limited(step[k++], kMostLogDelay);
-    for (Eigen::VectorXd& source : point.noise) {
-      for (double& c : source) c += Limited(step[k++], kMostLogNoise);
+    for (Eigen::Index k = 0; k < own; ++k) {
+      MoveOwn(layout_, k, Limited(step[k], MostOwnStep(k)), &point);
     }
   }
+}
+
+double Scoring::MostOwnStep(Eigen::Index k) const {
+  if (k >= layout_.Loop()) return kMostLogNoise;
+  if (k >= layout_.Acoustics()) return kMostLogDelay;
+  const Eigen::Index beyond = k - layout_.Base() - layout_.BaseB();
+  const Eigen::Index kind = beyond >= 0 ? beyond % 4 : std::min<Eigen::Index>(k, 2);
+  return kind == 0 ? kMostLogOmega : kind == 1 ? kMostLogXi : kMostCoefficient;
 }
 
 // The scatter by its own likelihood, given each delay and its variance.
@@ -205,9 +211,10 @@ double Scoring::Iterate(double value) {
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     SharedLoop shared = at_.shared;
     std::vector<PointLoop> points = at_.points;
+    std::vector<JointResiduals> residuals = residuals_;
     std::vector<double> each;
     TakeOwn(TakeShared(&shared), &points);
-    const double next = Value(shared, &points, &each);
+    const double next = Value(shared, &points, &residuals, &each);
     for (std::size_t e = 0; e < bands_.size(); ++e) {
       const bool lost = !(each[e] >= at_.point_values[e]);
       damping_[e] = std::clamp(damping_[e] * (lost ? kRaise : kLower), kLeastDamping, kMostDamping);
@@ -219,6 +226,7 @@ double Scoring::Iterate(double value) {
     at_.shared = std::move(shared);
     at_.points = std::move(points);
     at_.point_values = std::move(each);
+    residuals_ = std::move(residuals);
     return next - value;
   }
   return 0.0;
@@ -241,7 +249,7 @@ double Scoring::Evidence(double value) {
 
 StructureFit Scoring::Run() {
   damping_.assign(bands_.size(), kFirstDamping);
-  double value = Value(at_.shared, &at_.points, &at_.point_values);
+  double value = Value(at_.shared, &at_.points, &residuals_, &at_.point_values);
   for (at_.iterations = 0; at_.iterations < options_.iterations; ++at_.iterations) {
     Score();
     const double gain = Iterate(value);

@@ -41,9 +41,12 @@ struct StructureOptions {
 std::vector<NoiseTerm> BaseNoise();
 
 // The start of a first fit: the base as the two cuts give it each by itself, with the noise of
-// their residuals.
-StructureFit StartOf(const std::vector<JointBand>& bands, const EffectFit& base,
+// their residuals. It becomes that to which the model's errors are relative.
+StructureFit StartOf(std::vector<JointBand>* bands, const EffectFit& base,
                      const std::vector<NoiseTerm>& noise);
+
+// The model's errors become relative to what this fit predicts of other records of the same points.
+void SetErrorScale(const StructureFit& fit, std::vector<JointBand>* bands);
 
 // Fits from `start`, which must have the structure's parameters and sources.
 StructureFit FitStructure(const std::vector<JointBand>& bands, StructureFit start,

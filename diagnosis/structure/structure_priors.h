@@ -14,9 +14,15 @@ namespace howl {
 inline constexpr double kPriorLogOmega = 0.3;
 inline constexpr double kPriorLogXi = 1.5;
 inline constexpr double kPriorCoefficient = 3.0;  // N and M, of N
-inline constexpr double kPriorLevel = 3.0;        // of a noise's logarithm
-inline constexpr double kPriorShape = 1.5;        // of its higher coefficients
-inline constexpr double kLargestError = 1.0;      // eps
+// A further mode may lie anywhere in the band, whose logarithm is about four wide about the
+// cycle's, and is as damped as those of ducts.
+inline constexpr double kPriorModeLogOmega = 1.1;
+inline constexpr double kPriorModeMeanLogXi = -3.0;  // xi 0.05
+inline constexpr double kPriorModeResidue = 1.0;     // a and b, of N
+inline constexpr double kPriorLevel = 3.0;           // of a noise's logarithm
+inline constexpr double kPriorShape = 1.5;           // of its higher coefficients
+inline constexpr double kLargestError =
+    10.0;  // eps; beyond the modes the base predicts next to nothing
 inline constexpr double kLeastError = 1e-4;
 inline constexpr double kLeastScatter = 1e-4;  // of log delay
 inline constexpr double kMostScatter = 0.5;

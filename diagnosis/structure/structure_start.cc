@@ -30,7 +30,28 @@ Eigen::VectorXd LogSpectrum(const JointBand& band, const Eigen::VectorXd& power,
   return out;
 }
 
+Eigen::VectorXd LeastSquaresFlame(const FlamePart& flame) {
+  return (flame.columns.adjoint() * flame.columns)
+      .real()
+      .ldlt()
+      .solve((flame.columns.adjoint() * flame.target).real());
+}
+
+void ScaleErrors(const JointResiduals& residuals, const Eigen::VectorXd& flame, JointBand* band) {
+  band->acoustic_power = SmoothPower(band->pressure - residuals.acoustic->residual);
+  band->flame_power = SmoothPower(residuals.flame->columns * flame);
+}
+
 }  // namespace
+
+void SetErrorScale(const StructureFit& fit, std::vector<JointBand>* bands) {
+  const EffectPointer joined = fit.structure.Joined();
+  for (std::size_t e = 0; e < bands->size(); ++e) {
+    JointBand& band = (*bands)[e];
+    const JointResiduals residuals = MakeJointResiduals(band, *joined, fit.shared, fit.points[e]);
+    ScaleErrors(residuals, LeastSquaresFlame(*residuals.flame), &band);
+  }
+}
 
 std::vector<NoiseTerm> BaseNoise() {
   return {{NoiseSource::kCombustion, kCombustionCoefficients},
@@ -38,7 +59,7 @@ std::vector<NoiseTerm> BaseNoise() {
           {NoiseSource::kHeatReleaseSensor, 1}};
 }
 
-StructureFit StartOf(const std::vector<JointBand>& bands, const EffectFit& base,
+StructureFit StartOf(std::vector<JointBand>* bands, const EffectFit& base,
                      const std::vector<NoiseTerm>& noise) {
   StructureFit out;
   out.structure.noise = noise;
@@ -48,16 +69,15 @@ StructureFit StartOf(const std::vector<JointBand>& bands, const EffectFit& base,
   out.shared.eps_a = kFirstError;
   out.shared.eps_b = kFirstError;
   out.shared.delay_scatter = base.delay_scatter;
-  for (std::size_t e = 0; e < bands.size(); ++e) {
-    const JointBand& band = bands[e];
+  for (std::size_t e = 0; e < bands->size(); ++e) {
+    JointBand& band = (*bands)[e];
     PointLoop point;
     point.acoustics = base.experiments[e].acoustics;
+    point.residue_scale = std::abs(point.acoustics[2]);
     point.log_delay = base.experiments[e].log_delay;
     const JointResiduals residuals = MakeJointResiduals(band, *base.effect, out.shared, point);
-    point.flame = (residuals.flame->columns.adjoint() * residuals.flame->columns)
-                      .real()
-                      .ldlt()
-                      .solve((residuals.flame->columns.adjoint() * residuals.flame->target).real());
+    point.flame = LeastSquaresFlame(*residuals.flame);
+    ScaleErrors(residuals, point.flame, &band);
     const Eigen::VectorXd flame_power =
         (residuals.flame->target - residuals.flame->columns * point.flame).cwiseAbs2();
     const Eigen::VectorXd acoustic_power = residuals.acoustic->residual.cwiseAbs2();

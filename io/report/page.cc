@@ -32,7 +32,9 @@ const std::vector<Section>& Sections() {
        {"bode_family", "bode_all", "transfer", "nyquist", "spectrum_comparison",
         "sensitivity_omega", "sensitivity_tau", "bifurcation"}},
       {"family", "What the data leave open", {"tradeoff", "bounds"}},
-      {"diagnosis", "Where and why the model falls short", {"gap_map", "effects", "remains"}},
+      {"diagnosis",
+       "Where and why the model falls short",
+       {"gap_map", "effects", "budget", "remains"}},
       {"trial", "How far to trust the diagnosis", {"confusion", "reliability", "power"}},
       {"campaign", "All rigs", {"campaign_quantities", "campaign_gaps"}}};
   return sections;

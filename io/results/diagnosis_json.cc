@@ -23,9 +23,9 @@ Json VerdictJson(const Diagnosis& diagnosis) {
       {"probability", probability}};
 }
 
-Json WhereJson(const Diagnosis& diagnosis) {
+Json WhereJson(const std::vector<Place>& places) {
   Json where = Json::array();
-  for (const Place& place : diagnosis.where) {
+  for (const Place& place : places) {
     where.push_back({{"block", LoopBlockName(place.block)},
                      {"band_hz", {place.low_hz, place.high_hz}},
                      {"experiments", place.experiments},
@@ -48,15 +48,36 @@ Json MapJson(const Diagnosis& diagnosis) {
   return map;
 }
 
-Json CandidateJson(const Candidate& candidate) {
+Json ParametersJson(const std::vector<EstimatedParameter>& all) {
   Json parameters = Json::object();
-  for (const EstimatedParameter& parameter : candidate.parameters) {
+  for (const EstimatedParameter& parameter : all) {
     parameters[parameter.name] = {{"value", NumberOrNull(parameter.value)},
                                   {"lo", NumberOrNull(parameter.low)},
                                   {"hi", NumberOrNull(parameter.high)},
                                   {"unit", parameter.unit},
                                   {"at_bound", parameter.at_bound}};
   }
+  return parameters;
+}
+
+Json BudgetJson(const Budget& budget) {
+  Json entries = Json::array();
+  for (const BudgetEntry& entry : budget.entries) {
+    entries.push_back({{"item", entry.item},
+                       {"gap_before", NumberOrNull(entry.gap_before)},
+                       {"gap_after", NumberOrNull(entry.gap_after)},
+                       {"lost_without",
+                        {{"nats", NumberOrNull(entry.lost_nats)},
+                         {"gap", NumberOrNull(entry.lost_gap)},
+                         {"halves", entry.lost_on_halves},
+                         {"experiments_better", {entry.experiments_better, budget.experiments}}}},
+                       {"class", entry.equals},
+                       {"parameters", ParametersJson(entry.parameters)}});
+  }
+  return entries;
+}
+
+Json CandidateJson(const Candidate& candidate) {
   return {{"effect", candidate.effect},
           {"gap_after", NumberOrNull(candidate.gap_after)},
           {"shrinkage", NumberOrNull(candidate.shrinkage)},
@@ -64,7 +85,7 @@ Json CandidateJson(const Candidate& candidate) {
            {NumberOrNull(candidate.shrinkage_low), NumberOrNull(candidate.shrinkage_high)}},
           {"p_value", NumberOrNull(candidate.p_value)},
           {"log_likelihood_gain", NumberOrNull(candidate.gain)},
-          {"parameters", parameters}};
+          {"parameters", ParametersJson(candidate.parameters)}};
 }
 
 }  // namespace
@@ -96,10 +117,10 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
     base_parameters[parameter.name] = {{"without", NumberOrNull(parameter.without)},
                                        {"with", NumberOrNull(parameter.with)}};
   }
-  return {
+  Json json = {
       {"schema", "howl.diagnosis/1"},
       {"verdict", VerdictJson(diagnosis)},
-      {"where", WhereJson(diagnosis)},
+      {"where", WhereJson(diagnosis.where)},
       {"gap",
        {{"before", NumberOrNull(diagnosis.gap_before)},
         {"after", NumberOrNull(diagnosis.gap_after)},
@@ -123,6 +144,16 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
          {{"before", diagnosis.slack_flame_before}, {"after", diagnosis.slack_flame_after}}}}},
       {"bootstrap", bootstrap},
       {"advice", diagnosis.advice}};
+  if (diagnosis.budget) {
+    const Budget& budget = *diagnosis.budget;
+    json["budget"] = BudgetJson(budget);
+    json["left"] = {{"gap", NumberOrNull(budget.gap_left)},
+                    {"where", WhereJson(budget.left)},
+                    {"model_error",
+                     {{"p_from_q", NumberOrNull(budget.acoustic_error)},
+                      {"q_from_p", NumberOrNull(budget.flame_error)}}}};
+  }
+  return json;
 }
 
 namespace {

@@ -30,32 +30,17 @@ Prepared Prepare(const std::vector<DiagnosisExperiment>& rig) {
   const std::vector<CutRecord> records = MakeCutRecords(rig);
   Prepared out;
   for (const CutRecord& record : records) out.bands.push_back(MakeJointBand(record));
-  out.start = StartOf(out.bands, FitBase(records), BaseNoise());
+  out.start = StartOf(&out.bands, FitBase(records), BaseNoise());
   out.start.structure.own_delays = true;
   out.start.shared.delay_scatter = 0.02;
   return out;
 }
 
 // Every number that ScorePoint has a gradient for, moved by `step`, in the same order.
-void Move(const PointLayout& layout, Eigen::Index k, double step, const PointLoop& centre,
-          SharedLoop* shared, PointLoop* point) {
-  if (k < layout.Acoustics()) {
-    point->acoustics[k] += step * (k < 2 ? 1.0 : std::abs(centre.acoustics[2]));
-    return;
-  }
-  if (k < layout.Loop()) {
-    point->log_delay += step;
-    return;
-  }
+void Move(const PointLayout& layout, Eigen::Index k, double step, SharedLoop* shared, PointLoop* point) {
   if (k < layout.Own()) {
-    k -= layout.Loop();
-    for (Eigen::VectorXd& source : point->noise) {
-      if (k < source.size()) {
-        source[k] += step;
-        return;
-      }
-      k -= source.size();
-    }
+    MoveOwn(layout, k, step, point);
+    return;
   }
   k -= layout.Own();
   if (k == 0) shared->tau_s *= std::exp(step);
@@ -74,20 +59,23 @@ TEST(JointLikelihood, ScoreIsTheLikelihoodsGradient) {
   PointLoop centre = point;
   centre.acoustics[1] += 0.1;  // so that the priors have a slope too
   const std::vector<NoiseTerm>& noise = at.start.structure.noise;
-  PointLayout layout;
-  layout.own_delays = true;
-  layout.noise = 10;
-  layout.effect_values = 1;
+  at.start.structure.effects = {effect};
+  at.start.structure.complex_residues = true;
+  at.start.structure.further_modes = 1;
+  point.base_b = Eigen::Vector2d(0.1, -0.05);
+  point.modes = {Eigen::Vector4d(std::log(370.0), std::log(0.04), 0.2, 0.1)};
+  const PointLayout layout = LayoutOf(at.start.structure, at.bands[1].record.model);
   const PointScore score =
-      ScorePoint(layout, at.bands[1], *effect, noise, at.start.shared, point, centre);
+      ScorePoint(layout, at.bands[1], *effect, noise, at.start.shared, point, centre,
+                 MakeJointResiduals(at.bands[1], *effect, at.start.shared, point));
   ASSERT_EQ(score.gradient.size(), layout.Own() + 4);
   const auto value = [&](Eigen::Index k, double step) {
     SharedLoop shared = at.start.shared;
     PointLoop moved = point;
-    Move(layout, k, step, centre, &shared, &moved);
+    Move(layout, k, step, &shared, &moved);
     const JointResiduals residuals = MakeJointResiduals(at.bands[1], *effect, shared, moved);
     return Evaluate(at.bands[1], noise, shared, moved, residuals).log_likelihood +
-           PointPrior(layout, moved, centre, shared.delay_scatter);
+           PointPrior(layout, at.bands[1], moved, centre, shared.delay_scatter);
   };
   constexpr double kStep = 1e-4;
   for (Eigen::Index k = 0; k < score.gradient.size(); ++k) {

@@ -31,6 +31,7 @@ std::optional<Figure> BifurcationFigure(const ReportInput& input);
 std::optional<Figure> GapMapFigure(const ReportInput& input);
 std::optional<Figure> EffectsFigure(const ReportInput& input);
 std::optional<Figure> RemainsFigure(const ReportInput& input);
+std::optional<Figure> BudgetFigure(const ReportInput& input);
 std::optional<Figure> ConfusionFigure(const ReportInput& input);
 std::optional<Figure> ReliabilityFigure(const ReportInput& input);
 std::optional<Figure> PowerFigure(const ReportInput& input);

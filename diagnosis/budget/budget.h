@@ -1,0 +1,68 @@
+// The budget of the gap between model and rig: what was added to the base, effect, source of noise
+// or freedom of the acoustics, one item after the other until nothing more paid; how far each took
+// the gap; and what is left.
+//
+// A freedom that each operating point has by itself comes only where nothing that all share pays.
+// An item is added where it raises the evidence of all records (structure_fit.h) most, by more than
+// the odds against any of so many items, and foretells what was left out better (held_out.h). An
+// item that no longer pays once the others are there is dropped.
+//
+// The gap is that of held_out.h; all structures are measured against the least ceiling that any of
+// them gives (prediction_gap.h).
+#ifndef HOWL_DIAGNOSIS_BUDGET_BUDGET_H_
+#define HOWL_DIAGNOSIS_BUDGET_BUDGET_H_
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/cut_record.h"
+#include "diagnosis/estimated_parameter.h"
+#include "diagnosis/fit_memory.h"
+
+namespace howl {
+
+struct BudgetEntry {
+  std::string item;  // budget_item.h
+  double gap_before = 0.0;
+  double gap_after = 0.0;
+  // What is lost when this item alone is taken away and the rest fitted anew.
+  double lost_nats = 0.0;  // of evidence
+  double lost_gap = 0.0;
+  std::array<double, 2> lost_on_halves = {};  // nats of what was left out
+  std::size_t experiments_better = 0;         // with the item, of what was left out
+  // Items that would have gained as much at this step, within odds of 50 to 1.
+  std::vector<std::string> equals;
+  std::vector<EstimatedParameter> parameters;
+};
+
+struct Budget {
+  std::vector<BudgetEntry> entries;
+  double gap_before = 0.0;
+  double gap_left = 0.0;
+  std::vector<Place> left;  // where: acoustics for p given q, flame for q given p
+  // Relative errors that the model still needs, of p given q and of q given p.
+  double acoustic_error = 0.0;
+  double flame_error = 0.0;
+  std::size_t experiments = 0;
+  bool stopped = false;  // the run was stopped before its end, and the rest is empty
+};
+
+struct BudgetOptions {
+  std::vector<std::string> withheld;
+  std::vector<EffectPointer> further;
+  FitMemory* memory = nullptr;
+  std::function<void(std::size_t done, std::size_t total)> progress;  // in items of a step
+  std::function<bool()> stopped;                                      // asked between items
+};
+
+// The budget is the same for any number of threads. model: the base; with own_delays each operating
+// point has a delay of its own, scattered about one.
+Budget FindBudget(const std::vector<DiagnosisExperiment>& experiments, const BaseModel& model,
+                  const BudgetOptions& options);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_BUDGET_BUDGET_H_

@@ -1,0 +1,138 @@
+#include "diagnosis/budget/held_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/coherent_lines.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kLeastForSets = 4;
+constexpr int kIterations = 12;
+
+DiagnosisExperiment HalfOf(const DiagnosisExperiment& whole, int half) {
+  DiagnosisExperiment out = whole;
+  for (std::vector<double>* signal : {&out.record.pressure, &out.record.heat_release}) {
+    const auto middle = signal->begin() + static_cast<std::ptrdiff_t>(signal->size() / 2);
+    if (half == 0) {
+      signal->erase(middle, signal->end());
+    } else {
+      signal->erase(signal->begin(), middle);
+    }
+  }
+  return out;
+}
+
+std::vector<JointBand> BandsOf(const std::vector<JointBand>& bands,
+                               const std::vector<std::size_t>& which) {
+  std::vector<JointBand> out;
+  for (const std::size_t e : which) out.push_back(bands[e]);
+  return out;
+}
+
+// Every second operating point in the order of the operating parameter.
+std::vector<std::vector<std::size_t>> Sets(const std::vector<JointBand>& bands) {
+  std::vector<std::size_t> order(bands.size());
+  for (std::size_t e = 0; e < order.size(); ++e) order[e] = e;
+  if (order.size() < kLeastForSets) return {order};
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t e) { return bands[e].record.at.phi_position; });
+  std::vector<std::vector<std::size_t>> sets(2);
+  for (std::size_t i = 0; i < order.size(); ++i) sets[i % 2].push_back(order[i]);
+  return sets;
+}
+
+}  // namespace
+
+StructureFit OfPoints(const StructureFit& fit, const std::vector<std::size_t>& which) {
+  StructureFit out = fit;
+  out.points.clear();
+  out.centres.clear();
+  for (const std::size_t e : which) {
+    out.points.push_back(fit.points[e]);
+    out.centres.push_back(fit.centres[e]);
+  }
+  return out;
+}
+
+BudgetRecords MakeBudgetRecords(const std::vector<DiagnosisExperiment>& experiments,
+                                const BaseModel& model) {
+  BudgetRecords out;
+  out.records = MakeCutRecords(experiments, model);
+  const std::vector<CoherentLine> lines = FindCoherentLines(out.records);
+  MaskLines(lines, &out.records);
+  for (const CutRecord& record : out.records) out.whole.push_back(MakeJointBand(record));
+  for (int half = 0; half < 2; ++half) {
+    std::vector<DiagnosisExperiment> halves;
+    for (const DiagnosisExperiment& each : experiments) halves.push_back(HalfOf(each, half));
+    std::vector<CutRecord> of_halves = MakeCutRecords(halves, model);
+    MaskLines(lines, &of_halves);
+    for (const CutRecord& record : of_halves) {
+      out.halves[static_cast<std::size_t>(half)].push_back(MakeJointBand(record));
+    }
+  }
+  return out;
+}
+
+HeldOutScore ScoreHeldOut(const BudgetRecords& records, const StructureFit& fit) {
+  HeldOutScore out;
+  out.nats.resize(records.whole.size());
+  out.errors.resize(records.whole.size());
+  const std::vector<std::vector<std::size_t>> sets = Sets(records.whole);
+  StructureOptions options;
+  options.iterations = kIterations;
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::size_t other_half = 1 - half;
+    std::vector<SharedLoop> shared;
+    for (const std::vector<std::size_t>& set : sets) {
+      shared.push_back(
+          FitStructure(BandsOf(records.halves[half], set), OfPoints(fit, set), options).shared);
+    }
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      StructureFit own = OfPoints(fit, sets[s]);
+      own.shared = shared[sets.size() - 1 - s];
+      StructureOptions own_options = options;
+      own_options.shared_fixed = true;
+      own = FitStructure(BandsOf(records.halves[half], sets[s]), own, own_options);
+      const EffectPointer joined = own.structure.Joined();
+      for (std::size_t i = 0; i < sets[s].size(); ++i) {
+        const std::size_t e = sets[s][i];
+        const JointBand& band = records.halves[other_half][e];
+        PointLoop& point = own.points[i];
+        const JointResiduals residuals = MakeJointResiduals(band, *joined, own.shared, point);
+        point.flame = Evaluate(band, own.structure.noise, own.shared, point, residuals).flame;
+        const JointEvaluation at =
+            Evaluate(band, own.structure.noise, own.shared, point, residuals);
+        out.nats[e][other_half] = at.log_likelihood;
+        out.errors[e][other_half] = PredictionErrors(band, residuals, at);
+      }
+    }
+  }
+  return out;
+}
+
+double HeldOutScore::Nats(std::size_t half) const {
+  double sum = 0.0;
+  for (const auto& point : nats) sum += point[half];
+  return sum;
+}
+
+double HeldOutScore::Gap(std::size_t half) const {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const auto& point : errors) {
+    for (const BandErrors& band : point[half]) {
+      sum += band.error / band.ceiling - 1.0;
+      count += 1.0;
+    }
+  }
+  return std::copysign(std::sqrt(std::abs(sum / count)), sum);
+}
+
+double HeldOutScore::Gap() const {
+  const double sum = std::abs(Gap(0)) * Gap(0) + std::abs(Gap(1)) * Gap(1);
+  return std::copysign(std::sqrt(0.5 * std::abs(sum)), sum);
+}
+
+}  // namespace howl

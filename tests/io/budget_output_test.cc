@@ -1,0 +1,75 @@
+// A budget as diagnosis.json and the report have it.
+#include <gtest/gtest.h>
+
+#include "io/report/figures/catalogue.h"
+#include "io/results/diagnosis_json.h"
+
+namespace howl {
+namespace {
+
+Diagnosis Example() {
+  Diagnosis diagnosis;
+  diagnosis.kind = VerdictKind::kUnknown;
+  Budget budget;
+  budget.experiments = 6;
+  budget.gap_before = 0.8;
+  budget.gap_left = 0.3;
+  BudgetEntry noise;
+  noise.item = "q_sensor_noise";
+  noise.gap_before = 0.8;
+  noise.gap_after = 0.5;
+  noise.lost_nats = 90.0;
+  noise.lost_gap = 0.25;
+  noise.lost_on_halves = {40.0, -3.0};
+  noise.experiments_better = 5;
+  BudgetEntry effect = noise;
+  effect.item = "delay_dispersion";
+  effect.gap_before = 0.5;
+  effect.gap_after = 0.3;
+  effect.equals = {"flame_lowpass"};
+  effect.parameters = {{"sigma_s", 1e-4, 0.9e-4, 1.1e-4, "s"}};
+  budget.entries = {noise, effect};
+  budget.left = {{LoopBlock::kFlame, 100.0, 240.0, {"exp2"}, 0.7}};
+  diagnosis.budget = budget;
+  return diagnosis;
+}
+
+TEST(BudgetOutput, JsonHasTheContractsKeys) {
+  const nlohmann::ordered_json json = DiagnosisJson(Example());
+  ASSERT_EQ(json["budget"].size(), 2u);
+  const auto& effect = json["budget"][1];
+  EXPECT_EQ(effect["item"], "delay_dispersion");
+  EXPECT_EQ(effect["gap_before"], 0.5);
+  EXPECT_EQ(effect["gap_after"], 0.3);
+  EXPECT_EQ(effect["lost_without"]["nats"], 90.0);
+  EXPECT_EQ(effect["lost_without"]["gap"], 0.25);
+  EXPECT_EQ(effect["lost_without"]["halves"], (nlohmann::ordered_json{40.0, -3.0}));
+  EXPECT_EQ(effect["lost_without"]["experiments_better"], (nlohmann::ordered_json{5, 6}));
+  EXPECT_EQ(effect["class"], (nlohmann::ordered_json{"flame_lowpass"}));
+  EXPECT_EQ(effect["parameters"]["sigma_s"]["lo"], 0.9e-4);
+  EXPECT_EQ(json["left"]["gap"], 0.3);
+  EXPECT_EQ(json["left"]["where"][0]["block"], "flame");
+}
+
+TEST(BudgetOutput, NoBudgetNoKeys) {
+  Diagnosis diagnosis = Example();
+  diagnosis.budget.reset();
+  const nlohmann::ordered_json json = DiagnosisJson(diagnosis);
+  EXPECT_FALSE(json.contains("budget"));
+  EXPECT_FALSE(json.contains("left"));
+}
+
+TEST(BudgetOutput, TheFigureHasARowForEachItemAndForWhatIsLeft) {
+  ReportInput input;
+  input.diagnosis = DiagnosisJson(Example());
+  const std::optional<Figure> figure = BudgetFigure(input);
+  ASSERT_TRUE(figure);
+  EXPECT_NE(figure->csv.find("taken,0.5,0.8,1,q_sensor_noise"), std::string::npos) << figure->csv;
+  EXPECT_NE(figure->csv.find("taken,0.3,0.5,2,delay_dispersion"), std::string::npos);
+  EXPECT_NE(figure->csv.find("left,0,0.3,3,left"), std::string::npos);
+  input.diagnosis.erase("budget");
+  EXPECT_FALSE(BudgetFigure(input));
+}
+
+}  // namespace
+}  // namespace howl
