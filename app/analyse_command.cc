@@ -161,6 +161,7 @@ int Run(const Options& options) {
   const AnalysisSet set = AnalyseRecords(records, analysis_options);
   const Health health = CheckRecords(config, records, set, analysis_options);
   nlohmann::ordered_json analysis = AnalysisJson(set);
+  analysis["oscillations"] = OscillationsJson(set);
   analysis["health"] = HealthJson(health);
   WriteWholeFile(options.out / kCharacteristicsCsv,
                  CharacteristicsCsv(set, config.operating_parameter));
@@ -199,12 +200,11 @@ Command AnalyseCommand() {
       "turn records into characteristics with their uncertainty",
       "Reads the records that the config names and estimates, for each: the limit cycle's\n"
       "frequency, q-to-p phase and gain, delay, flame curve and loop gain; all significant\n"
-      "spectral lines; each of several oscillations; whether the record is stationary; and the "
-      "q-to-p transfer wherever the\n"
-      "two are coherent. Writes characteristics.csv, lines.csv, oscillations.csv, transfer.csv,\n"
-      "flame_curve.csv and analysis.json. What is printed after a ± is half of a 95 % interval; "
-      "the files'\n"
-      "columns _std are standard deviations, that half width over 1.96.",
+      "spectral lines; each of several oscillations; whether the record is stationary; and the\n"
+      "q-to-p transfer wherever the two are coherent. Writes characteristics.csv, lines.csv,\n"
+      "oscillations.csv, transfer.csv, flame_curve.csv and analysis.json. What is printed after\n"
+      "a ± is half of a 95 % interval; the files' columns _std are standard deviations, that\n"
+      "half width over 1.96.",
       {},
       Run};
 }

@@ -34,7 +34,8 @@ struct SimulatedRig {
 SimulatedRig MakeRig(const Config& config, const Experiment& experiment, const LoopModel& model,
                      const std::optional<FlameShapeFit>& measured, const SimulationTimes& times);
 
-// The config's effects, relative to the cycles that the rigs have without them.
+// The config's effects and sources of noise, relative to the cycles that the rigs have without
+// them.
 void AddEffects(const Config& config, const std::vector<Experiment>& experiments, double duration_s,
                 std::vector<SimulatedRig>* rigs);
 

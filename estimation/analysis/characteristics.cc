@@ -250,7 +250,14 @@ Characteristics CharacteristicsAt(const Record& record, const CrossSpectrum& spe
   }
   if (!q.empty()) {
     q_blocks = Demodulate(q, record.sampling_hz, frequency, result.block_samples);
-    EstimateRatio(p_blocks.amplitude, q_blocks.amplitude, &result);
+    const int apart =
+        static_cast<int>(std::min(options.least_ratio_block_s, longest_s) * record.sampling_hz);
+    if (apart > result.block_samples) {
+      EstimateRatio(Demodulate(p, record.sampling_hz, frequency, apart).amplitude,
+                    Demodulate(q, record.sampling_hz, frequency, apart).amplitude, &result);
+    } else {
+      EstimateRatio(p_blocks.amplitude, q_blocks.amplitude, &result);
+    }
     result.q_amplitude = std::sqrt(MeanSquare(q_blocks.amplitude));
   }
   if (phase.reliable) {
@@ -266,6 +273,11 @@ Characteristics CharacteristicsAt(const Record& record, const CrossSpectrum& spe
     ImprovePhase(others, phase.phase_rad);
   }
   line = EstimateLineFrequency(p_blocks.amplitude, phase, p_blocks.hop_s);
+  if (slow != nullptr) {
+    const Blocks straight = WithoutPhaseSwing(p, record.sampling_hz, frequency, p_blocks, *slow);
+    line =
+        EstimateLineFrequency(straight.amplitude, UnwrapPhase(straight.amplitude), straight.hop_s);
+  }
   result.frequency_hz = {frequency + line.offset_hz.value, line.offset_hz.std};
   result.frequency_drift_hz_per_s = line.drift_hz_per_s;
   result.line_width_hz = line.diffusion_rad2_per_s / kRadPerSPerHz;

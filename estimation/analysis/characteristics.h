@@ -44,6 +44,8 @@ struct CharacteristicsOptions {
   double intermittent_fluctuation = 0.25;
   double no_cycle_fluctuation = 0.5707963267948966;
   int block_passes = 3;  // in which the blocks' length comes to the phase's coherence
+  // Blocks for phase and gain are at least this long, so that no neighbour lies in their main lobe.
+  double least_ratio_block_s = 0.0;
 };
 
 enum class CycleState { kLimitCycle, kIntermittent, kNoLimitCycle };

@@ -13,8 +13,9 @@ namespace {
 // side lobes of a hundredth let it.
 constexpr double kLeastRemovedShare = 0.001;
 constexpr double kFarBelowCycle = 0.25;
-constexpr double kSidebandShare = 0.1;  // of the carrier's spectrum
-constexpr double kSidebandReach = 3.5;  // slow frequencies on either side hold most of the power
+constexpr double kSidebandShare = 0.1;   // of the carrier's spectrum
+constexpr double kSidebandReach = 3.5;   // slow frequencies on either side hold most of the power
+constexpr double kMainLobeWidths = 2.0;  // of a Hann block, from its peak to the first null
 constexpr int kBlockPasses = 8;
 
 double Duration(const Record& record) {
@@ -78,6 +79,15 @@ std::vector<Notch> NotchesBeside(std::span<const OscillationLine> lines, double 
   return notches;
 }
 
+// Blocks in which every notched oscillation lies beyond the main lobe.
+double BlockApart(std::span<const Notch> notches, double cycle_hz) {
+  double longest = 0.0;
+  for (const Notch& notch : notches) {
+    longest = std::max(longest, kMainLobeWidths / std::abs(notch.frequency_hz - cycle_hz));
+  }
+  return longest;
+}
+
 Record PressureForHeatRelease(const Record& record) {
   return {record.sampling_hz, record.heat_release, record.pressure};
 }
@@ -113,8 +123,10 @@ Characteristics CharacteristicsOf(const OscillationLine& line, std::span<const O
   for (const OscillationLine& other : all) {
     if (other.frequency_hz != line.frequency_hz) others.push_back(other);
   }
-  const Record cleaned =
-      WithoutOscillations(record, NotchesBeside(others, line.frequency_hz, 0.0, Duration(record)));
+  const std::vector<Notch> notches =
+      NotchesBeside(others, line.frequency_hz, 0.0, Duration(record));
+  const Record cleaned = WithoutOscillations(record, notches);
+  options.least_ratio_block_s = BlockApart(notches, line.frequency_hz);
   options.method = CharacteristicsMethod::kLocal;
   options.block_passes = kBlockPasses;
   const CrossSpectrum& own = by_q ? PressureForHeatRelease(spectrum) : spectrum;
@@ -143,6 +155,7 @@ std::optional<CycleBesideOthers> ReadCycleBesideOthers(const Record& record,
       NotchesBeside(lines, peak.frequency_hz, slow ? slow->frequency_hz : 0.0, duration_s);
   CharacteristicsOptions patient = options;
   patient.block_passes = kBlockPasses;
+  patient.least_ratio_block_s = BlockApart(notches, peak.frequency_hz);
   CycleBesideOthers beside;
   beside.characteristics = CharacteristicsAt(WithoutOscillations(record, notches), spectrum, peak,
                                              patient, slow ? &*slow : nullptr);

@@ -7,9 +7,15 @@
 // gives M_b, the periodic part. Its variance over its squared mean, free of what the same
 // regression finds in a rest that has nothing to do with theta, is the modulation's share F_M. A
 // cycle that a slow oscillation modulates stays a cycle, whatever F_M.
+//
+// The same regression of the phase's steps from block to block, each weighted by its power, gives
+// the part of the phase that swings with theta. It is taken out before the frequency is estimated:
+// where amplitude and phase swing together, the mean frequency that power weighs is not the
+// cycle's.
 #ifndef HOWL_ESTIMATION_ANALYSIS_SLOW_MODULATION_H_
 #define HOWL_ESTIMATION_ANALYSIS_SLOW_MODULATION_H_
 
+#include <span>
 #include <vector>
 
 #include "estimation/analysis/spectrum.h"
@@ -29,6 +35,11 @@ inline bool Follows(double block_s, const SlowOscillation& slow) {
 
 // F_M of the blocks' power; zero where the blocks do not follow it.
 double PeriodicFluctuation(const Blocks& cycle, const SlowOscillation& slow, double sampling_hz);
+
+// The cycle's blocks with the samples turned back by what their phase swings with the slow one; the
+// blocks as they are where they do not follow it.
+Blocks WithoutPhaseSwing(std::span<const double> samples, double sampling_hz, double frequency_hz,
+                         const Blocks& cycle, const SlowOscillation& slow);
 
 }  // namespace howl
 

@@ -140,6 +140,7 @@ void ReadSimulation(const ConfigCursor& root, Config& config) {
   simulation->Read("combustion_noise_corner_hz", spec.combustion_noise_corner_hz);
   simulation->Read("sensor_noise_relative", spec.sensor_noise_relative);
   simulation->Read("loop_gain_min", spec.loop_gain_min);
+  spec.noise = ReadNoiseSources(*simulation);
   ReadStart(*simulation, spec);
   if (const auto sweep = simulation->Find("sweep")) spec.sweep = ReadSweep(*sweep, config);
   if (const auto effects = simulation->Find("effects")) {

@@ -14,6 +14,7 @@
 #include "estimation/analysis/experiment.h"
 #include "model/effects/effect.h"
 #include "model/flame_shapes.h"
+#include "model/noise_source.h"
 #include "model/sweep.h"
 
 namespace howl {
@@ -25,6 +26,15 @@ struct SimulatedEffect {
   int line = 0;
   std::string key;  // of the config
 };
+
+// A source of noise beyond the combustion and sensor noise that every simulation has.
+struct SimulatedNoise {
+  NoisePlace place = NoisePlace::kCombustion;
+  // Over the flame's saturation in the loop, over the cycle's amplitude in a recorded channel.
+  double rms_relative = 0.0;
+  NoiseSpectrum spectrum;
+};
+inline constexpr double kDefaultNoiseDamping = 0.1;  // of a resonance
 
 // The state in which a simulation starts.
 enum class SimulationStart : std::uint8_t { kObservedCycle, kUpperCycle, kRest };
@@ -64,6 +74,7 @@ struct SimulationSpec {
   int start_line = 0;
   std::optional<SweepSpec> sweep;
   std::vector<SimulatedEffect> effects;
+  std::vector<SimulatedNoise> noise;
 };
 
 // Times that the config does not state follow the cycle (model/cycle_scale.h): the number of

@@ -116,10 +116,6 @@ Json OneJson(const Analysis& analysis) {
                {"has_heat_release", analysis.has_heat_release},
                {"cycle", CycleJson(analysis.characteristics)},
                {"lines", lines}};
-  json["oscillations"] = Json::array();
-  for (const Oscillation& one : analysis.oscillations) {
-    json["oscillations"].push_back(OscillationJson(one));
-  }
   json["tau"] = analysis.tau_s ? EstimateJson(*analysis.tau_s, "s") : Json(nullptr);
   json["flame"] = analysis.flame_curve ? FlameJson(*analysis.flame_curve) : Json(nullptr);
   json["low_loop_gain"] =
@@ -138,6 +134,16 @@ Json OneJson(const Analysis& analysis) {
 }
 
 }  // namespace
+
+Json OscillationsJson(const AnalysisSet& set) {
+  Json json = Json::array();
+  for (const Analysis& analysis : set.analyses) {
+    Json each = Json::array();
+    for (const Oscillation& one : analysis.oscillations) each.push_back(OscillationJson(one));
+    json.push_back({{"name", analysis.name}, {"oscillations", std::move(each)}});
+  }
+  return json;
+}
 
 std::string CharacteristicsCsv(const AnalysisSet& set, std::string_view operating_parameter) {
   const OwnNameColumn own(operating_parameter);

@@ -28,6 +28,7 @@ std::string LinesCsv(const AnalysisSet& set, std::string_view operating_paramete
 std::string OscillationsCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
 std::string TransferCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
 std::string FlameCurveCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
+nlohmann::ordered_json OscillationsJson(const AnalysisSet& set);
 nlohmann::ordered_json AnalysisJson(const AnalysisSet& set);
 
 }  // namespace howl
