@@ -146,7 +146,7 @@ Blocks WithoutPhaseSwing(std::span<const double> samples, double sampling_hz, do
     const int length = static_cast<int>(std::lround(cycle.length_s * sampling_hz));
     Blocks next = turned;
     next.amplitude = Demodulate(straight, sampling_hz, frequency_hz, length).amplitude;
-    if (Scatter(next) > kLeastImprovement * Scatter(turned)) break;
+    if (Scatter(next) > (pass == 0 ? kLeastImprovement : 1.0) * Scatter(turned)) break;
     turned = std::move(next);
   }
   return turned;

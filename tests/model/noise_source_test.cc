@@ -124,7 +124,8 @@ TEST(NoiseSource, CombustionIsShownByQ) {
   SimulationCase one = Paper(6);
   AddNoiseSource({NoisePlace::kCombustion, kResonance, 0.0, 1e-5}, &one.rig);
   const SimulatedRecord record = Simulate(one, Long());
-  for (const double f : {90.0, 120.0, 150.0, 220.0}) {
+  // Away from the loop's own resonance near 216 Hz, which segments of 5 Hz do not resolve.
+  for (const double f : {90.0, 120.0, 150.0, 320.0}) {
     const double source = 1e-10 * kResonance.DensityPerSquare(f, 20000.0);
     const NoiseTransfer transfer = NoiseTransferAt(one.rig.model, f);
     EXPECT_NEAR(Density(record.heat_release, 20000.0, f, 4000) /
