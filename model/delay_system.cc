@@ -21,14 +21,15 @@ DelayTrajectory::DelayTrajectory(const DelaySystem& system, const Eigen::VectorX
   const auto past = static_cast<std::size_t>(std::ceil(system.LongestDelay() / step)) + 1;
   first_time_ = -step * static_cast<double>(past);
   states_.assign(past + 1, state);
-  rates_.assign(past + 1, Eigen::VectorXd::Zero(system.dimension));
+  rates_before_.assign(past + 1, Eigen::VectorXd::Zero(system.dimension));
+  rates_after_ = rates_before_;
 }
 
 void DelayTrajectory::Between(std::size_t i, double part, Eigen::VectorXd* x) const {
   const double rest = 1.0 - part;
   *x = (rest * rest * (1.0 + 2.0 * part)) * states_[i] +
        (part * part * (3.0 - 2.0 * part)) * states_[i + 1] +
-       (step_ * part * rest) * (rest * rates_[i] - part * rates_[i + 1]);
+       (step_ * part * rest) * (rest * rates_after_[i] - part * rates_before_[i + 1]);
 }
 
 Eigen::VectorXd DelayTrajectory::At(double time) const {
@@ -43,9 +44,10 @@ Eigen::VectorXd DelayTrajectory::At(double time) const {
 void DelayTrajectory::Continue(const DelaySystem& system, double parameter, double duration) {
   const auto steps = static_cast<std::size_t>(std::llround(duration / step_));
   states_.reserve(states_.size() + steps);
-  rates_.reserve(rates_.size() + steps);
+  rates_before_.reserve(states_.size() + steps);
+  rates_after_.reserve(states_.size() + steps);
   std::vector<Eigen::VectorXd> delayed(system.delays.size());
-  Eigen::VectorXd k2, k3, k4, x;
+  Eigen::VectorXd k2, k3, k4, x, k1_next;
   // `part` of a step after the last state.
   const auto rate = [&](double part, const Eigen::VectorXd& at, Eigen::VectorXd* out) {
     for (std::size_t k = 0; k < delayed.size(); ++k) {
@@ -61,12 +63,11 @@ void DelayTrajectory::Continue(const DelaySystem& system, double parameter, doub
     out->resize(system.dimension);
     system.rate(parameter, at, delayed, out);
   };
-  // The rate at the start is the system's own from here on, where the past had another parameter.
   rate(0.0, states_.back(), &x);
-  rates_.back() = x;
+  rates_after_.back() = x;
   for (std::size_t i = 0; i < steps; ++i) {
     const Eigen::VectorXd& start = states_.back();
-    const Eigen::VectorXd k1 = rates_.back();
+    const Eigen::VectorXd k1 = rates_after_.back();
     x = start + 0.5 * step_ * k1;
     rate(0.5, x, &k2);
     x = start + 0.5 * step_ * k2;
@@ -75,9 +76,10 @@ void DelayTrajectory::Continue(const DelaySystem& system, double parameter, doub
     rate(1.0, x, &k4);
     x = start + step_ / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
     states_.push_back(x);
-    rates_.push_back(k4);  // stands in for the rate at the new state, which needs the state's past
-    rate(0.0, states_.back(), &x);
-    rates_.back() = x;
+    rates_before_.push_back(k4);  // stands in until the state has its past
+    rate(0.0, states_.back(), &k1_next);
+    rates_before_.back() = k1_next;
+    rates_after_.push_back(k1_next);
   }
 }
 

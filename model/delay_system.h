@@ -61,7 +61,9 @@ class DelayTrajectory {
   double step_;
   double first_time_;
   std::vector<Eigen::VectorXd> states_;
-  std::vector<Eigen::VectorXd> rates_;
+  // The rate jumps where the parameter does, and at time zero.
+  std::vector<Eigen::VectorXd> rates_before_;
+  std::vector<Eigen::VectorXd> rates_after_;
 };
 
 }  // namespace howl

@@ -86,23 +86,23 @@ TEST(HopfPoint, OfTheNeuronDemo) {
   EXPECT_NEAR(hopf->omega, 0.781965, 1e-6);
 }
 
-// The cycle beyond the Hopf point has its frequency there, and its amplitude grows out of nothing
-// as the root of the distance.
+// The cycle beyond the Hopf point begins at its frequency, with an amplitude that grows out of
+// nothing: A^2 is in proportion to the distance, to first order.
 TEST(HopfPoint, TheNeuronsCycleGrowsOutOfIt) {
   const Eigen::VectorXd first = Eigen::Vector2d(1.0, 0.0);
-  double previous = 0.0;
-  for (const double beyond : {0.02, 0.005}) {
-    DelayTrajectory x(Neurons(), Eigen::Vector2d(0.1, -0.1), 0.05);
-    x.Continue(Neurons(), 0.807123 + beyond, 6000.0);
+  const auto hopf = FindHopf(Neurons(), 0.5, 1.2, Eigen::VectorXd::Zero(2));
+  ASSERT_TRUE(hopf);
+  std::vector<double> squares;
+  for (const double beyond : {0.002, 0.001}) {
+    DelayTrajectory x(Neurons(), Eigen::Vector2d(0.05, -0.05), 0.1);
+    const double e_folding = 1.0 / (hopf->crossing_rate * beyond);
+    x.Continue(Neurons(), hopf->parameter + beyond, 12.0 * e_folding);
     const auto period = x.Period(first, 10);
     ASSERT_TRUE(period);
-    EXPECT_NEAR(2.0 * std::numbers::pi / *period, 0.781965, 0.02);
-    const double amplitude = x.Amplitude(first, 20.0);
-    if (previous > 0.0) {
-      EXPECT_NEAR(previous / amplitude, 2.0, 0.1);
-    }
-    previous = amplitude;
+    EXPECT_NEAR(2.0 * std::numbers::pi / *period, hopf->omega, 0.002);
+    squares.push_back(std::pow(x.Amplitude(first, 100.0), 2));
   }
+  EXPECT_NEAR(squares[0] / squares[1], 2.0, 0.1);
 }
 
 // The delayed Rijke tube with King's law of github.com/csskene/phase-reduction_Rijke-tube (C. S.
@@ -168,11 +168,17 @@ TEST_F(RijkeCycle, HasThePublishedPeriod) {
 // Subcritical: below the Hopf point rest attracts, and so does the cycle, down to a fold.
 TEST_F(RijkeCycle, OutlivesTheHopfPointDownToAFold) {
   const Eigen::VectorXd u = HeaterVelocity(10);
+  // Rest: small motions decay at the rate of the rightmost root.
+  const double decay =
+      CharacteristicRoots(RijkeTube(10), 0.60, Eigen::VectorXd::Zero(20)).front().real();
+  EXPECT_LT(decay, 0.0);
   Eigen::VectorXd small = Eigen::VectorXd::Zero(20);
-  small(0) = 0.01;
+  small(0) = 1e-4;
   DelayTrajectory rest(RijkeTube(10), small, 0.01);
-  rest.Continue(RijkeTube(10), 0.60, 300.0);
-  EXPECT_LT(rest.Amplitude(u, 10.0), 0.5 * small(0) * u(0));
+  rest.Continue(RijkeTube(10), 0.60, 200.0);
+  const double before = rest.Amplitude(u, 10.0);
+  rest.Continue(RijkeTube(10), 0.60, 400.0);
+  EXPECT_NEAR(std::log(rest.Amplitude(u, 10.0) / before) / 400.0, decay, 0.02 * std::abs(decay));
   DelayTrajectory x = OnCycle(0.72, 0.01);
   for (const double k : {0.66, 0.60, 0.56, 0.54, 0.53, 0.52}) {
     x.Continue(RijkeTube(10), k, 150.0);
