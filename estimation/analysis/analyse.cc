@@ -36,6 +36,14 @@ void FindCycle(const Record& record, const CrossSpectrum& spectrum, const Analys
     }
   }
   const Estimate& f = analysis->characteristics.frequency_hz;
+  if (cycle_hz && (f.value < cycle_hz->low_hz || f.value > cycle_hz->high_hz)) {
+    // The skirt of an oscillation outside the range.
+    PeakTest peak = analysis->characteristics.peak;
+    peak.frequency_hz = f.value;
+    analysis->characteristics = {};
+    analysis->characteristics.peak = peak;
+    analysis->slow_notches.clear();
+  }
   analysis->lines =
       FindLines(record, spectrum, HasCycle(*analysis) && std::isfinite(f.value) ? f.value : 0.0,
                 options.lines);

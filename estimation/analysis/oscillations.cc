@@ -79,6 +79,18 @@ std::vector<Notch> NotchesBeside(std::span<const OscillationLine> lines, double 
   return notches;
 }
 
+// Notches for the lines outside a range, each as wide as leaves the range's middle alone.
+std::vector<Notch> NotchesOutside(std::span<const OscillationLine> lines, double low_hz,
+                                  double high_hz, double duration_s) {
+  std::vector<Notch> notches;
+  for (const OscillationLine& line : lines) {
+    if (line.frequency_hz >= low_hz && line.frequency_hz <= high_hz) continue;
+    const auto notch = NotchBeside(line.frequency_hz, 0.5 * (low_hz + high_hz), duration_s);
+    if (notch) notches.push_back(*notch);
+  }
+  return notches;
+}
+
 // Blocks in which every notched oscillation lies beyond the main lobe.
 double BlockApart(std::span<const Notch> notches, double cycle_hz) {
   double longest = 0.0;
@@ -146,10 +158,19 @@ std::optional<CycleBesideOthers> ReadCycleBesideOthers(const Record& record,
   const double lowest_hz = options.min_frequency_hz > 0.0
                                ? options.min_frequency_hz
                                : LowestSearched(record.sampling_hz, duration_s);
-  SpectralPeak peak = PeakAtAnyResolution(RemoveMean(record.pressure), options.max_frequency_hz,
-                                          lowest_hz, record.sampling_hz);
-  if (!peak.significant || duration_s * peak.frequency_hz < kFewestPeriods) return std::nullopt;
   const std::vector<OscillationLine> lines = StrongLines(record, spectrum, kLeastRemovedShare);
+  // What lies outside a range that the config picks is not asked for: its skirt may be higher than
+  // the peak inside.
+  std::vector<double> searched = record.pressure;
+  if (options.min_frequency_hz > 0.0 && options.max_frequency_hz > 0.0) {
+    searched = WithoutOscillations({record.sampling_hz, record.pressure, {}},
+                                   NotchesOutside(lines, options.min_frequency_hz,
+                                                  options.max_frequency_hz, duration_s))
+                   .pressure;
+  }
+  SpectralPeak peak = PeakAtAnyResolution(RemoveMean(searched), options.max_frequency_hz, lowest_hz,
+                                          record.sampling_hz);
+  if (!peak.significant || duration_s * peak.frequency_hz < kFewestPeriods) return std::nullopt;
   const std::optional<SlowOscillation> slow = ModulationOf(record, spectrum, lines, &peak);
   const std::vector<Notch> notches =
       NotchesBeside(lines, peak.frequency_hz, slow ? slow->frequency_hz : 0.0, duration_s);

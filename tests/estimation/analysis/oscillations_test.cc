@@ -164,6 +164,17 @@ TEST(TwoOscillations, TheRangePicksEither) {
   EXPECT_EQ(Near(second, 305.0, 1.0)->is_cycle, true);
 }
 
+// In a range without an oscillation the skirt of a stronger neighbour is highest: that is no cycle.
+TEST(TwoOscillations, ASkirtIsNoCycle) {
+  const TwoOscillations o{.diffusion_rad2_per_s = 10.0};
+  const Record record = testing::Synthesise(o, 10);
+  const Analysis analysis = AnalyseRecord(record, {}, CycleBand{256.0, 300.0});
+  EXPECT_EQ(analysis.characteristics.state, CycleState::kNoLimitCycle);
+  ASSERT_EQ(analysis.oscillations.size(), 1U);
+  EXPECT_FALSE(analysis.oscillations[0].is_cycle);
+  EXPECT_NEAR(analysis.oscillations[0].characteristics.frequency_hz.value, 250.0, 1.5);
+}
+
 // Sidebands of a modulation are the cycle's, no oscillations of their own.
 TEST(TwoOscillations, SidebandsAreNone) {
   const TwoOscillations o{.slow_hz = 15.0, .slow_in_q = 5.0, .amplitude_modulation = 0.9};
