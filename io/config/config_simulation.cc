@@ -130,7 +130,7 @@ void ReadSimulation(const ConfigCursor& root, Config& config) {
   simulation->Read("sampling_hz", spec.sampling_hz);
   simulation->Read("settle_s", spec.settle_s);
   if (const auto shape = simulation->Find("flame_shape")) {
-    for (const FlameShape each : kFlameShapes) {
+    for (const FlameShape each : kStatedFlameShapes) {
       if (shape->Node().text == FlameShapeName(each)) spec.flame_shape = each;
     }
   }
