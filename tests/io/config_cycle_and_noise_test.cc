@@ -21,8 +21,17 @@ std::string TwoRecords(const std::string& top, const std::string& own) {
          "  - {name: b, phi: 0.53, record: {file: b.csv, sampling_hz: 5000}}\n";
 }
 
+// A config with both records beside it, which need not hold anything to be named.
+class WithRecords : public ConfigFile {
+ public:
+  WithRecords(const std::string& top, const std::string& own) : ConfigFile(TwoRecords(top, own)) {
+    Write("a.csv", "");
+    Write("b.csv", "");
+  }
+};
+
 TEST(ConfigCycleBand, AnExperimentsOwnGoesBeforeTheCommonOne) {
-  const ConfigFile file(TwoRecords("cycle_hz: [200, 400]\n", ", cycle_hz: [90, 130.5]"));
+  const WithRecords file("cycle_hz: [200, 400]\n", ", cycle_hz: [90, 130.5]");
   const Config config = LoadConfig(file.Path());
   ASSERT_TRUE(config.experiments[0].cycle_hz && config.experiments[1].cycle_hz);
   EXPECT_EQ(config.experiments[0].cycle_hz->low_hz, 90.0);
@@ -32,16 +41,16 @@ TEST(ConfigCycleBand, AnExperimentsOwnGoesBeforeTheCommonOne) {
 }
 
 TEST(ConfigCycleBand, NoneIsNone) {
-  const Config config = LoadConfig(ConfigFile(TwoRecords("", "")).Path());
+  const Config config = LoadConfig(WithRecords("", "").Path());
   EXPECT_FALSE(config.experiments[0].cycle_hz);
 }
 
 TEST(ConfigCycleBand, Mistakes) {
-  EXPECT_THAT(ConfigFile(TwoRecords("cycle_hz: [400, 200]\n", "")).Mistake(),
+  EXPECT_THAT(WithRecords("cycle_hz: [400, 200]\n", "").Mistake(),
               AllOf(HasSubstr(":1: cycle_hz"), HasSubstr("expected [low, high] in Hz")));
-  EXPECT_THAT(ConfigFile(TwoRecords("", ", cycle_hz: [90, 90]")).Mistake(),
+  EXPECT_THAT(WithRecords("", ", cycle_hz: [90, 90]").Mistake(),
               AllOf(HasSubstr(":2: "), HasSubstr("cycle_hz"), HasSubstr("not above the first")));
-  EXPECT_THAT(ConfigFile(TwoRecords("", ", cycle_hz: 90")).Mistake(), HasSubstr("cycle_hz"));
+  EXPECT_THAT(WithRecords("", ", cycle_hz: 90").Mistake(), HasSubstr("cycle_hz"));
   EXPECT_THAT(ConfigFile("experiments:\n"
                          "  - {name: a, phi: 0.56, frequency_hz: 219.9, phase_deg: -5.74, gain: "
                          "12.14, cycle_hz: [200, 240]}\n")
