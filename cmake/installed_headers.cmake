@@ -36,10 +36,10 @@ set(howl_included_headers
     estimation/analysis/growth.h
     estimation/analysis/lines.h
     estimation/analysis/loop_gain_reason.h
-    estimation/analysis/notch.h
-    estimation/analysis/oscillations.h
+    estimation/analysis/oscillations/notch.h
+    estimation/analysis/oscillations/oscillations.h
     estimation/analysis/record.h
-    estimation/analysis/slow_modulation.h
+    estimation/analysis/oscillations/slow_modulation.h
     estimation/analysis/spectral_peak.h
     estimation/analysis/spectrum.h
     estimation/analysis/statistics.h

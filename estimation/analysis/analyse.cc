@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/analysis/oscillations/cycle_beside_others.h"
 #include "estimation/analysis/second_crossing.h"
 #include "estimation/parallel.h"
 

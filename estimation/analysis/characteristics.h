@@ -25,8 +25,8 @@
 #include <string_view>
 #include <vector>
 
+#include "estimation/analysis/oscillations/slow_modulation.h"
 #include "estimation/analysis/record.h"
-#include "estimation/analysis/slow_modulation.h"
 #include "estimation/analysis/spectral_peak.h"
 #include "estimation/analysis/spectrum.h"
 #include "estimation/analysis/statistics.h"

@@ -1,6 +1,6 @@
 // Records with two oscillations at once, whose truth is their closed form
 // (two_oscillation_record.h): what is found of each, and how often the 95 % intervals hold.
-#include "estimation/analysis/oscillations.h"
+#include "estimation/analysis/oscillations/oscillations.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "estimation/analysis/analyse.h"
+#include "estimation/analysis/oscillations/notch.h"
 #include "model/units.h"
 #include "tests/estimation/analysis/coverage_rows.h"
 #include "tests/estimation/analysis/two_oscillation_record.h"

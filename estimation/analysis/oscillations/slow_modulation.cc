@@ -1,4 +1,4 @@
-#include "estimation/analysis/slow_modulation.h"
+#include "estimation/analysis/oscillations/slow_modulation.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

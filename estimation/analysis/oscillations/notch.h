@@ -7,8 +7,8 @@
 // far as the blocks follow. At a distance d from f_o the channel is left at 1 - H(d)^2 of itself, H
 // the response of a Hann block: at three block widths 1/L, or more, within 1e-3, whatever was
 // there. Both channels lose the same share, so that their ratio at the cycle is what it was.
-#ifndef HOWL_ESTIMATION_ANALYSIS_NOTCH_H_
-#define HOWL_ESTIMATION_ANALYSIS_NOTCH_H_
+#ifndef HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_NOTCH_H_
+#define HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_NOTCH_H_
 
 #include <optional>
 #include <span>
@@ -36,4 +36,4 @@ Record WithoutOscillations(const Record& record, std::span<const Notch> notches)
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_ANALYSIS_NOTCH_H_
+#endif  // HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_NOTCH_H_

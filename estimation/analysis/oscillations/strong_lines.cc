@@ -1,4 +1,4 @@
-#include "estimation/analysis/oscillation_lines.h"
+#include "estimation/analysis/oscillations/strong_lines.h"
 
 #include <algorithm>
 #include <bit>

@@ -7,16 +7,12 @@
 // An oscillation is a significant line (lines.h) that carries at least kLeastOscillationShare of
 // the mean square of p or of q, and that no multiple, sum or difference of stronger ones explains:
 // |a| f_1 + |b| f_2 with small whole numbers, such as the sidebands f +- k f_slow of a modulation.
-#ifndef HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_H_
-#define HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_H_
+#ifndef HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_OSCILLATIONS_H_
+#define HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_OSCILLATIONS_H_
 
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "estimation/analysis/characteristics.h"
-#include "estimation/analysis/lines.h"
-#include "estimation/analysis/notch.h"
 #include "estimation/analysis/record.h"
 
 namespace howl {
@@ -29,18 +25,6 @@ struct Oscillation {
   bool is_cycle = false;                // the one that the characteristics of the record are of
 };
 
-// A cycle read beside the record's other oscillations.
-struct CycleBesideOthers {
-  Characteristics characteristics;
-  std::vector<Notch> slow;  // the others far below the cycle, which no flame of the cycle makes
-};
-
-// Reads the cycle in the range of `options` with the other oscillations taken out. None where no
-// peak of p stands out at any resolution, or the record has too few of its periods.
-std::optional<CycleBesideOthers> ReadCycleBesideOthers(const Record& record,
-                                                       const CrossSpectrum& spectrum,
-                                                       const CharacteristicsOptions& options);
-
 // All oscillations, the strongest in its channel first. `cycle`: the record's, or one without.
 std::vector<Oscillation> ListOscillations(const Record& record, const CrossSpectrum& spectrum,
                                           const Characteristics& cycle,
@@ -48,4 +32,4 @@ std::vector<Oscillation> ListOscillations(const Record& record, const CrossSpect
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_H_
+#endif  // HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_OSCILLATIONS_H_

@@ -1,14 +1,14 @@
 // The lines of a record that may be oscillations of their own (oscillations.h).
-#ifndef HOWL_ESTIMATION_ANALYSIS_OSCILLATION_LINES_H_
-#define HOWL_ESTIMATION_ANALYSIS_OSCILLATION_LINES_H_
+#ifndef HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_STRONG_LINES_H_
+#define HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_STRONG_LINES_H_
 
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "estimation/analysis/lines.h"
+#include "estimation/analysis/oscillations/slow_modulation.h"
 #include "estimation/analysis/record.h"
-#include "estimation/analysis/slow_modulation.h"
 #include "estimation/analysis/spectrum.h"
 
 namespace howl {
@@ -38,4 +38,4 @@ std::optional<SlowOscillation> SlowBeside(const Record& record,
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_ANALYSIS_OSCILLATION_LINES_H_
+#endif  // HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_STRONG_LINES_H_

@@ -1,4 +1,4 @@
-#include "estimation/analysis/notch.h"
+#include "estimation/analysis/oscillations/notch.h"
 
 #include <algorithm>
 #include <cmath>

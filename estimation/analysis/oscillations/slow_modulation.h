@@ -12,8 +12,8 @@
 // the part of the phase that swings with theta. It is taken out before the frequency is estimated:
 // where amplitude and phase swing together, the mean frequency that power weighs is not the
 // cycle's.
-#ifndef HOWL_ESTIMATION_ANALYSIS_SLOW_MODULATION_H_
-#define HOWL_ESTIMATION_ANALYSIS_SLOW_MODULATION_H_
+#ifndef HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_SLOW_MODULATION_H_
+#define HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_SLOW_MODULATION_H_
 
 #include <span>
 #include <vector>
@@ -43,4 +43,4 @@ Blocks WithoutPhaseSwing(std::span<const double> samples, double sampling_hz, do
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_ANALYSIS_SLOW_MODULATION_H_
+#endif  // HOWL_ESTIMATION_ANALYSIS_OSCILLATIONS_SLOW_MODULATION_H_
