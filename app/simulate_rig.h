@@ -19,6 +19,7 @@ namespace howl {
 struct SimulatedRig {
   RigParameters parameters;
   Flame<double> flame;           // as it runs, without effects
+  bool has_flame_table = false;  // in the flame's place; `flame` is the shape nearest to it
   double flame_slope = 0.0;      // at rest
   double loop_gain = 0.0;        // at rest, as it runs
   double model_loop_gain = 0.0;  // with the measured slope

@@ -135,6 +135,10 @@ void ReadSimulation(const ConfigCursor& root, Config& config) {
     }
   }
   simulation->Read("saturation", spec.saturation);
+  simulation->Read("flame_table", spec.flame_table);
+  if (spec.flame_table && (simulation->Find("flame_shape") || simulation->Find("saturation"))) {
+    simulation->FailAt("flame_table", "is given with flame_shape or saturation, expected only one");
+  }
   spec.flame_is_given = simulation->Find("flame_shape") || simulation->Find("saturation");
   simulation->Read("combustion_noise_relative", spec.combustion_noise_relative);
   simulation->Read("combustion_noise_corner_hz", spec.combustion_noise_corner_hz);

@@ -63,6 +63,7 @@ struct SimulationSpec {
   FlameShape flame_shape = FlameShape::kTanh;
   double saturation = 1.0;                  // of the heat release, in units of q
   bool flame_is_given = false;              // by the config: shape or saturation
+  bool flame_table = false;                 // the measured curve itself, point by point
   double combustion_noise_relative = 0.01;  // rms over saturation
   std::optional<double> combustion_noise_corner_hz;
   double sensor_noise_relative = 0.001;  // rms over the cycle's amplitude, in each channel

@@ -63,6 +63,7 @@ Defaults StructDefaults() {
       {"family.test.second_crossing_gain_min", Dump(config.family.test.second_crossing_gain_min)},
       {"family.draw", Dump(config.family.draw == MemberDraw::kSpread ? "spread" : "uniform")},
       {"simulate.flame_shape", Dump(std::string(FlameShapeName(config.simulation.flame_shape)))},
+      {"simulate.flame_table", Dump(config.simulation.flame_table)},
       {"simulate.saturation", Dump(config.simulation.saturation)},
       {"simulate.start", Dump(std::string(SimulationStartName(config.simulation.start)))},
       {"simulate.noise[].damping", Dump(kDefaultNoiseDamping)},
