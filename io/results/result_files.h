@@ -26,8 +26,9 @@ inline constexpr const char* kCampaignCsv = "campaign.csv";
 inline constexpr const char* kCampaignPointsCsv = "campaign_points.csv";
 
 inline constexpr std::array<std::string_view, 13> kResultTables = {
-    kCharacteristicsCsv, kLinesCsv, kOscillationsCsv, kTransferCsv, kFlameCurveCsv, kFamilyCsv,   kTradeoffCsv,
-    kProfileCsv,         kSweepCsv, kTrialCsv,    kPredictionCsv, kCampaignCsv, kCampaignPointsCsv};
+    kCharacteristicsCsv, kLinesCsv,    kOscillationsCsv,  kTransferCsv, kFlameCurveCsv,
+    kFamilyCsv,          kTradeoffCsv, kProfileCsv,       kSweepCsv,    kTrialCsv,
+    kPredictionCsv,      kCampaignCsv, kCampaignPointsCsv};
 
 // An experiment's NAME.csv would overwrite a table of results, as the name "family" would.
 inline bool IsResultsName(std::string_view name) {
