@@ -64,6 +64,31 @@ void PrintCharacteristics(const AnalysisSet& set, const std::string& operating_p
   std::printf("%s:\n%s", kPlusMinusLegend, table.Text().c_str());
 }
 
+// Of records that have an oscillation beside the cycle, or none that is a cycle but several.
+void PrintOscillations(const AnalysisSet& set) {
+  TextTable table(
+      {"experiment", "cycle", "state", "f Hz", "phase deg", "gain", "% of p", "% of q"});
+  bool any = false;
+  for (const Analysis& analysis : set.analyses) {
+    if (analysis.oscillations.size() < 2) continue;
+    any = true;
+    for (const Oscillation& one : analysis.oscillations) {
+      const Characteristics& c = one.characteristics;
+      table.AddRow({analysis.name, one.is_cycle ? "yes" : "no",
+                    std::string(CycleStateName(c.state)), WithInterval(c.frequency_hz, 2),
+                    WithInterval(c.phase_deg, 2), WithInterval(c.gain, 3),
+                    Fixed(kPerCent * one.p_share, 0),
+                    analysis.has_heat_release ? Fixed(kPerCent * one.q_share, 0) : "-"});
+    }
+  }
+  if (!any) return;
+  std::printf(
+      "\nrecords with several oscillations (`cycle_hz: [low, high]` picks another; shares of the "
+      "mean "
+      "square;\n%s):\n%s",
+      kPlusMinusLegend, table.Text().c_str());
+}
+
 void PrintLines(const AnalysisSet& set) {
   TextTable table(
       {"experiment", "line Hz", "harmonic", "p", "q", "width Hz", "coherence", "loop deg"});
@@ -136,15 +161,18 @@ int Run(const Options& options) {
   const AnalysisSet set = AnalyseRecords(records, analysis_options);
   const Health health = CheckRecords(config, records, set, analysis_options);
   nlohmann::ordered_json analysis = AnalysisJson(set);
+  analysis["oscillations"] = OscillationsJson(set);
   analysis["health"] = HealthJson(health);
   WriteWholeFile(options.out / kCharacteristicsCsv,
                  CharacteristicsCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / kLinesCsv, LinesCsv(set, config.operating_parameter));
+  WriteWholeFile(options.out / kOscillationsCsv, OscillationsCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / kTransferCsv, TransferCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / kFlameCurveCsv, FlameCurveCsv(set, config.operating_parameter));
   WriteWholeFile(options.out / "analysis.json", analysis.dump(2) + "\n");
   if (options.quiet) return kDone;
   PrintCharacteristics(set, config.operating_parameter);
+  PrintOscillations(set);
   PrintLines(set);
   PrintTransfers(set, config.model);
   PrintGrowth(set);
@@ -156,8 +184,8 @@ int Run(const Options& options) {
   std::printf("%s", DelayText(set.delay).c_str());
   std::printf("%s", VanishingText(set.vanishing_phi, config.operating_parameter).c_str());
   const std::string written =
-      "written: characteristics.csv, lines.csv, transfer.csv, flame_curve.csv and analysis.json "
-      "in " +
+      "written: characteristics.csv, lines.csv, oscillations.csv, transfer.csv, flame_curve.csv "
+      "and analysis.json in " +
       options.out.string();
   std::printf("%s\n", Wrapped(written, 2).c_str());
   std::printf("%s", HealthText(health, kSound, "analysis.json").c_str());
@@ -167,16 +195,18 @@ int Run(const Options& options) {
 }  // namespace
 
 Command AnalyseCommand() {
-  return {"analyse",
-          "turn records into characteristics with their uncertainty",
-          "Reads the records that the config names and estimates, for each: the limit cycle's\n"
-          "frequency, q-to-p phase and gain, delay, flame curve and loop gain; all significant\n"
-          "spectral lines; whether the record is stationary; and the q-to-p transfer wherever the\n"
-          "two are coherent. Writes characteristics.csv, lines.csv, transfer.csv, flame_curve.csv\n"
-          "and analysis.json. What is printed after a ± is half of a 95 % interval; the files'\n"
-          "columns _std are standard deviations, that half width over 1.96.",
-          {},
-          Run};
+  return {
+      "analyse",
+      "turn records into characteristics with their uncertainty",
+      "Reads the records that the config names and estimates, for each: the limit cycle's\n"
+      "frequency, q-to-p phase and gain, delay, flame curve and loop gain; all significant\n"
+      "spectral lines; each of several oscillations; whether the record is stationary; and the\n"
+      "q-to-p transfer wherever the two are coherent. Writes characteristics.csv, lines.csv,\n"
+      "oscillations.csv, transfer.csv, flame_curve.csv and analysis.json. What is printed after\n"
+      "a ± is half of a 95 % interval; the files' columns _std are standard deviations, that\n"
+      "half width over 1.96.",
+      {},
+      Run};
 }
 
 }  // namespace howl

@@ -24,7 +24,8 @@ std::vector<NamedRecord> TakeRecords(Config& config, CheckReport& report) {
       std::ranges::move(reading.faults, std::back_inserter(report.errors));
       if (!reading.record) continue;
       Append(CheckRecordedSamples(each, config, *reading.record), report.warnings);
-      records.push_back({each.experiment.name, each.experiment.phi, *std::move(reading.record)});
+      records.push_back(
+          {each.experiment.name, each.experiment.phi, *std::move(reading.record), each.cycle_hz});
     }
     good.push_back(std::move(each));
   }

@@ -4,6 +4,7 @@
 
 #include "app/config_fit.h"
 #include "app/diagnose_input.h"
+#include "app/flame_table_rig.h"
 #include "app/measured_flame.h"
 #include "app/problem_input.h"
 #include "app/simulate_cases.h"
@@ -30,6 +31,9 @@ std::vector<DiagnosisExperiment> SimulatedExperiments(const Config& config,
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     rigs.push_back(
         MakeRig(config, experiments[i], models[i], MeasuredFlame(input, experiments[i]), times));
+    if (config.simulation.flame_table) {
+      UseFlameTable(config, input, experiments[i], &rigs.back());
+    }
   }
   const std::vector<SimulatedRecord> simulated = SimulateCases(
       CasesOf(config, times, experiments, rigs, options.seed), times, options.threads);

@@ -28,7 +28,8 @@ std::vector<NamedRecord> LoadRecords(const Config& config) {
   for (const ExperimentConfig& each : config.experiments) {
     if (!each.record) continue;
     records.push_back({each.experiment.name, each.experiment.phi,
-                       LoadRecord(*each.record, config.source.string(), each.record_line)});
+                       LoadRecord(*each.record, config.source.string(), each.record_line),
+                       each.cycle_hz});
   }
   return records;
 }

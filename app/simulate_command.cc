@@ -6,6 +6,7 @@
 
 #include "app/command.h"
 #include "app/config_fit.h"
+#include "app/flame_table_rig.h"
 #include "app/measured_flame.h"
 #include "app/problem_input.h"
 #include "app/simulate_cases.h"
@@ -80,10 +81,10 @@ void Print(const std::vector<Experiment>& experiments, const std::vector<Simulat
   bool any_raised = false;
   for (std::size_t i = 0; i < rigs.size(); ++i) {
     any_raised = any_raised || rigs[i].slope_raised;
-    table.AddRow({experiments[i].name,
-                  Fixed(rigs[i].loop_gain, 3) + (rigs[i].slope_raised ? " *" : ""),
-                  std::string(FlameShapeName(rigs[i].flame.shape)), rigs[i].origin,
-                  experiments[i].name + ".csv"});
+    table.AddRow(
+        {experiments[i].name, Fixed(rigs[i].loop_gain, 3) + (rigs[i].slope_raised ? " *" : ""),
+         rigs[i].has_flame_table ? "table" : std::string(FlameShapeName(rigs[i].flame.shape)),
+         rigs[i].origin, experiments[i].name + ".csv"});
   }
   std::printf("%s", table.Text().c_str());
   if (any_raised) {
@@ -104,6 +105,9 @@ int Run(const Options& options) {
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     rigs.push_back(
         MakeRig(config, experiments[i], models[i], MeasuredFlame(input, experiments[i]), times));
+    if (config.simulation.flame_table) {
+      UseFlameTable(config, input, experiments[i], &rigs.back());
+    }
   }
   AddEffects(config, experiments, times.duration_s, &rigs);
   const std::vector<SimulationCase> cases = CasesOf(config, times, experiments, rigs, options.seed);

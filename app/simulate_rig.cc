@@ -24,6 +24,27 @@ double Rate(const SimulatedRig& rig, const Experiment& experiment) {
   return kRadPerSPerHz * experiment.frequency_hz * rig.pressure_amplitude;
 }
 
+// In the loop, or on the record: the latter come before what digitises, and the former after the
+// effects, whose random streams no source of noise moves.
+void AddNoise(const std::vector<SimulatedNoise>& sources, bool in_loop, SimulatedRig* rig) {
+  for (const SimulatedNoise& one : sources) {
+    const bool enters_loop = one.place == NoisePlace::kCombustion || one.place == NoisePlace::kDuct;
+    if (enters_loop != in_loop) continue;
+    NoiseSource source{one.place, one.spectrum};
+    if (in_loop) {
+      source.heat_release_std = one.rms_relative * rig->flame.saturation;
+    } else {
+      if (one.place != NoisePlace::kHeatReleaseSensor) {
+        source.pressure_std = one.rms_relative * rig->pressure_amplitude;
+      }
+      if (one.place != NoisePlace::kPressureSensor) {
+        source.heat_release_std = one.rms_relative * rig->heat_release_amplitude;
+      }
+    }
+    AddNoiseSource(source, &rig->parameters);
+  }
+}
+
 }  // namespace
 
 SimulatedRig MakeRig(const Config& config, const Experiment& experiment, const LoopModel& model,
@@ -97,11 +118,13 @@ void AddEffects(const Config& config, const std::vector<Experiment>& experiments
     scale.mean_pressure_amplitude = pressure;
     scale.mean_rate_amplitude = rate;
     scale.duration_s = duration_s;
+    AddNoise(config.simulation.noise, false, &rig);
     for (const SimulatedEffect& one : config.simulation.effects) {
       const std::string fault = one.effect->SimulationFault(rig.parameters, one.values);
       if (!fault.empty()) throw UserError(config.source.string(), one.line, one.key, fault);
       CHECK(one.effect->AddTo(scale, one.values, &rig.parameters)) << one.effect->id();
     }
+    AddNoise(config.simulation.noise, true, &rig);
   }
 }
 

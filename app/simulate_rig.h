@@ -19,6 +19,7 @@ namespace howl {
 struct SimulatedRig {
   RigParameters parameters;
   Flame<double> flame;           // as it runs, without effects
+  bool has_flame_table = false;  // in the flame's place; `flame` is the shape nearest to it
   double flame_slope = 0.0;      // at rest
   double loop_gain = 0.0;        // at rest, as it runs
   double model_loop_gain = 0.0;  // with the measured slope
@@ -34,7 +35,8 @@ struct SimulatedRig {
 SimulatedRig MakeRig(const Config& config, const Experiment& experiment, const LoopModel& model,
                      const std::optional<FlameShapeFit>& measured, const SimulationTimes& times);
 
-// The config's effects, relative to the cycles that the rigs have without them.
+// The config's effects and sources of noise, relative to the cycles that the rigs have without
+// them.
 void AddEffects(const Config& config, const std::vector<Experiment>& experiments, double duration_s,
                 std::vector<SimulatedRig>* rigs);
 

@@ -4,8 +4,10 @@
 set(howl_front_headers
     model/continuation.h
     model/crossings.h
+    model/duct_flame.h
     model/floquet.h
     model/harmonic_balance.h
+    model/hopf_point.h
     model/poles.h
     model/simulate.h
     estimation/analysis/analyse.h
@@ -16,6 +18,7 @@ set(howl_included_headers
     model/acoustics.h
     model/complex.h
     model/delay.h
+    model/delay_system.h
     model/flame.h
     model/formula.h
     model/instrument.h
@@ -26,13 +29,18 @@ set(howl_included_headers
     model/random_stream.h
     model/units.h
     estimation/analysis/characteristics.h
+    estimation/analysis/cycle_band.h
     estimation/analysis/delay.h
     estimation/analysis/experiment.h
     estimation/analysis/flame_curve.h
     estimation/analysis/growth.h
     estimation/analysis/lines.h
     estimation/analysis/loop_gain_reason.h
+    estimation/analysis/oscillations/notch.h
+    estimation/analysis/oscillations/oscillations.h
     estimation/analysis/record.h
+    estimation/analysis/oscillations/slow_modulation.h
+    estimation/analysis/spectral_peak.h
     estimation/analysis/spectrum.h
     estimation/analysis/statistics.h
     estimation/analysis/transfer.h

@@ -3,6 +3,11 @@
 //
 //   Phi(v) = Q sigma(k (v - v0) / Q),     sigma(0) = 0, sigma'(0) = 1, |sigma| <= 1
 //
+// King's law of a hot wire in a stream that may turn round (L. V. King, Phil. Trans. R. Soc. A
+// 214:373, 1914; with |u| by M. A. Heckl, Acustica 72:63, 1990) is not bounded but grows as the
+// root: sigma = 2 (sqrt|1 + x| - 1), least at x = -1 where the stream stands still. There its slope
+// has no bound. K (sqrt|1/3 + u| - sqrt(1/3)) is this with k = K sqrt(3) / 2 and Q = k / 3.
+//
 // slope k < 0 in (units of q) / (units of p / s): with no offset Phi'(0) = k; saturation Q > 0 in
 // units of q; offset v0 in (units of p) / s. A constant in q does not reach p, since G(0) = 0.
 //
@@ -26,6 +31,7 @@ enum class FlameShape : std::uint8_t {
   kCubic,            // x - 4 x^3 / 27 up to |x| = 3/2, then constant: smooth slope
   kPiecewiseLinear,  // clipped at +-1
   kAlgebraic,        // x / sqrt(1 + x^2)
+  kSquareRoot,       // 2 (sqrt|1 + x| - 1), King's law: neither odd nor bounded
   kLinear            // does not saturate: for linear studies
 };
 
@@ -45,6 +51,9 @@ T NormalisedFlame(const T& x) {
     return x > T(1.0) ? T(1.0) : (x < T(-1.0) ? T(-1.0) : x);
   } else if constexpr (kShape == FlameShape::kAlgebraic) {
     return x / sqrt(T(1.0) + x * x);
+  } else if constexpr (kShape == FlameShape::kSquareRoot) {
+    using std::abs;
+    return T(2.0) * (sqrt(abs(T(1.0) + x)) - T(1.0));
   } else {
     return x;
   }
@@ -67,6 +76,12 @@ T NormalisedFlameSlope(const T& x) {
   } else if constexpr (kShape == FlameShape::kAlgebraic) {
     const T square = T(1.0) + x * x;
     return T(1.0) / (square * sqrt(square));
+  } else if constexpr (kShape == FlameShape::kSquareRoot) {
+    const T stream = T(1.0) + x;
+    const T size = stream < T(0.0) ? -stream : stream;
+    // Bounded, so that a sum over a cycle that passes through the cusp stays finite.
+    const T slope = T(1.0) / sqrt(size > T(1e-12) ? size : T(1e-12));
+    return stream < T(0.0) ? -slope : slope;
   } else {
     return T(1.0);
   }
@@ -94,6 +109,8 @@ decltype(auto) VisitFlameShape(FlameShape shape, F&& f) {
       return f.template operator()<FlameShape::kPiecewiseLinear>();
     case FlameShape::kAlgebraic:
       return f.template operator()<FlameShape::kAlgebraic>();
+    case FlameShape::kSquareRoot:
+      return f.template operator()<FlameShape::kSquareRoot>();
     case FlameShape::kLinear:
       break;
   }

@@ -101,6 +101,8 @@ HOWL_INLINE void ApplyFlameLanes(const LaneBlock<W>& block, int count, double* v
       return ApplyShape<W, FlameShape::kPiecewiseLinear>(block, count, v);
     case FlameShape::kAlgebraic:
       return ApplyShape<W, FlameShape::kAlgebraic>(block, count, v);
+    case FlameShape::kSquareRoot:
+      return ApplyShape<W, FlameShape::kSquareRoot>(block, count, v);
     case FlameShape::kLinear:
       return ApplyShape<W, FlameShape::kLinear>(block, count, v);
   }

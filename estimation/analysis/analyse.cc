@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/analysis/oscillations/cycle_beside_others.h"
 #include "estimation/analysis/second_crossing.h"
 #include "estimation/parallel.h"
 
@@ -19,9 +20,41 @@ bool HasPhase(const Analysis& analysis) {
          c.frequency_hz.value > 0.0;
 }
 
+// The cycle, the other oscillations and the lines.
+void FindCycle(const Record& record, const CrossSpectrum& spectrum, const AnalysisOptions& options,
+               const std::optional<CycleBand>& cycle_hz, Analysis* analysis) {
+  CharacteristicsOptions search = options.characteristics;
+  if (cycle_hz) {
+    search.min_frequency_hz = cycle_hz->low_hz;
+    search.max_frequency_hz = cycle_hz->high_hz;
+  }
+  analysis->characteristics = EstimateCharacteristics(record, spectrum, search);
+  if ((cycle_hz || !HasCycle(*analysis)) && search.method == CharacteristicsMethod::kLocal) {
+    std::optional<CycleBesideOthers> beside = ReadCycleBesideOthers(record, spectrum, search);
+    if (beside && beside->characteristics.state != CycleState::kNoLimitCycle) {
+      analysis->characteristics = std::move(beside->characteristics);
+      analysis->slow_notches = std::move(beside->slow);
+    }
+  }
+  const Estimate& f = analysis->characteristics.frequency_hz;
+  if (cycle_hz && (f.value < cycle_hz->low_hz || f.value > cycle_hz->high_hz)) {
+    // The skirt of an oscillation outside the range.
+    PeakTest peak = analysis->characteristics.peak;
+    peak.frequency_hz = f.value;
+    analysis->characteristics = {};
+    analysis->characteristics.peak = peak;
+    analysis->slow_notches.clear();
+  }
+  analysis->lines =
+      FindLines(record, spectrum, HasCycle(*analysis) && std::isfinite(f.value) ? f.value : 0.0,
+                options.lines);
+  analysis->oscillations = ListOscillations(record, spectrum, analysis->characteristics, search);
+}
+
 }  // namespace
 
-Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
+Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options,
+                       const std::optional<CycleBand>& cycle_hz) {
   Analysis analysis;
   analysis.sampling_hz = record.sampling_hz;
   analysis.duration_s = static_cast<double>(record.pressure.size()) / record.sampling_hz;
@@ -29,11 +62,8 @@ Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
   const std::vector<double> p = RemoveMean(record.pressure);
   const std::vector<double> q = RemoveMean(record.heat_release);
   const CrossSpectrum spectrum = WelchSpectrum(p, q, record.sampling_hz);
-  analysis.characteristics = EstimateCharacteristics(record, spectrum, options.characteristics);
+  FindCycle(record, spectrum, options, cycle_hz, &analysis);
   const Estimate& f = analysis.characteristics.frequency_hz;
-  analysis.lines =
-      FindLines(record, spectrum, HasCycle(analysis) && std::isfinite(f.value) ? f.value : 0.0,
-                options.lines);
   if (analysis.has_heat_release) {
     TransferOptions transfer_options = options.transfer;
     if (transfer_options.min_frequency_hz <= 0.0) {
@@ -59,10 +89,14 @@ Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options) {
   return analysis;
 }
 
-void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions& options,
+void AddFlame(const Record& recorded, const Estimate& tau_s, const AnalysisOptions& options,
               Analysis* analysis) {
   const Characteristics& c = analysis->characteristics;
   analysis->tau_s = tau_s;
+  const bool as_recorded = analysis->slow_notches.empty();
+  const Record without_slow =
+      as_recorded ? Record{} : WithoutOscillations(recorded, analysis->slow_notches);
+  const Record& record = as_recorded ? recorded : without_slow;
   const CrossSpectrum spectrum = WelchSpectrum(RemoveMean(record.pressure),
                                                RemoveMean(record.heat_release), record.sampling_hz);
   FlameCurve curve = EstimateFlameCurve(record, spectrum, c, tau_s.value, options.flame_curve);
@@ -77,7 +111,7 @@ AnalysisSet AnalyseRecords(std::span<const NamedRecord> records, const AnalysisO
   AnalysisSet set;
   set.analyses.resize(records.size());
   RunUnits(records.size(), options.threads, [&](std::size_t i) {
-    set.analyses[i] = AnalyseRecord(records[i].record, options);
+    set.analyses[i] = AnalyseRecord(records[i].record, options, records[i].cycle_hz);
     set.analyses[i].name = records[i].name;
     set.analyses[i].phi = records[i].phi;
   });

@@ -11,12 +11,15 @@
 #include <vector>
 
 #include "estimation/analysis/characteristics.h"
+#include "estimation/analysis/cycle_band.h"
 #include "estimation/analysis/delay.h"
 #include "estimation/analysis/experiment.h"
 #include "estimation/analysis/flame_curve.h"
 #include "estimation/analysis/growth.h"
 #include "estimation/analysis/lines.h"
 #include "estimation/analysis/loop_gain_reason.h"
+#include "estimation/analysis/oscillations/notch.h"
+#include "estimation/analysis/oscillations/oscillations.h"
 #include "estimation/analysis/record.h"
 #include "estimation/analysis/transfer.h"
 #include "estimation/analysis/vanishing_phi.h"
@@ -46,6 +49,8 @@ struct Analysis {
   double sampling_hz = 0.0, duration_s = 0.0;
   Characteristics characteristics;
   std::vector<SpectralLine> lines;
+  std::vector<Oscillation> oscillations;  // the cycle and those beside it, the strongest first
+  std::vector<Notch> slow_notches;        // slow oscillations that the flame curve is read without
   std::optional<Estimate> tau_s;
   std::optional<FlameCurve> flame_curve;
   std::optional<Estimate> loop_gain;
@@ -66,11 +71,15 @@ struct NamedRecord {
   std::string name;
   double phi = 0.0;
   Record record;
+  std::optional<CycleBand> cycle_hz;  // where its cycle is; absent: the strongest peak is taken
 };
 
 // Analyses what one record gives by itself: everything but delay, flame curve and loop gain, which
-// need the delay's branch.
-Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options = {});
+// need the delay's branch. The cycle is the strongest peak of p in the search range. Where that is
+// no limit cycle by itself, or `cycle_hz` picks one of several oscillations, it is read beside the
+// others (oscillations.h).
+Analysis AnalyseRecord(const Record& record, const AnalysisOptions& options = {},
+                       const std::optional<CycleBand>& cycle_hz = std::nullopt);
 
 // Adds the delay and what follows from it.
 void AddFlame(const Record& record, const Estimate& tau_s, const AnalysisOptions& options,

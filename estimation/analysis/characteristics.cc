@@ -5,7 +5,6 @@
 #include <complex>
 
 #include "estimation/analysis/line_phase.h"
-#include "estimation/analysis/lines.h"
 #include "model/units.h"
 
 namespace howl {
@@ -17,47 +16,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMinBlockPeriods = kFewestPeriods;
 constexpr double kBlocksPerRecord = 24.0;
 constexpr double kLeastDiffusion = 5e-12;  // rad^2 a period: a steadier phase counts as this steady
-
-struct Peak {
-  double frequency_hz = 0.0;
-  double noise_psd = 0.0;  // floor beside it
-  double power = 0.0;      // mean square
-  bool significant = false;
-  PeakTest test;
-};
-
-// The largest peak of p's spectrum in the search range, refined by the main lobe's centroid.
-Peak FindPeak(const CrossSpectrum& spectrum, const CharacteristicsOptions& options,
-              double lowest_hz, double sampling_hz) {
-  const double top = options.max_frequency_hz > 0 ? options.max_frequency_hz : 0.4 * sampling_hz;
-  const int first = std::max(static_cast<int>(std::ceil(lowest_hz / spectrum.bin_hz)), 2);
-  const int last =
-      std::min(static_cast<int>(top / spectrum.bin_hz), static_cast<int>(spectrum.pp.size()) - 3);
-  Peak peak;
-  peak.test.low_hz = lowest_hz;
-  peak.test.high_hz = std::min(top, last * spectrum.bin_hz);
-  if (first >= last) {
-    peak.test.high_hz = std::min(peak.test.high_hz, peak.test.low_hz);
-    return peak;
-  }
-  const auto begin = spectrum.pp.begin();
-  const int bin = static_cast<int>(std::max_element(begin + first, begin + last + 1) - begin);
-  double sum = 0.0, moment = 0.0;
-  for (int k = std::max(bin - 2, 1); k <= bin + 2; ++k) {
-    sum += spectrum.pp[static_cast<std::size_t>(k)];
-    moment += k * spectrum.pp[static_cast<std::size_t>(k)];
-  }
-  peak.frequency_hz = moment / sum * spectrum.bin_hz;
-  peak.power = sum * spectrum.bin_hz;
-  const std::vector<double> floor = NoiseFloor(spectrum.pp, spectrum.degrees_of_freedom);
-  peak.noise_psd = floor[static_cast<std::size_t>(bin)];
-  const double threshold = PeakThreshold(spectrum.degrees_of_freedom, last - first + 1, 0.01);
-  peak.significant = spectrum.pp[static_cast<std::size_t>(bin)] > threshold * peak.noise_psd;
-  peak.test.frequency_hz = peak.frequency_hz;
-  peak.test.over_floor = spectrum.pp[static_cast<std::size_t>(bin)] / peak.noise_psd;
-  peak.test.threshold = threshold;
-  return peak;
-}
 
 // The incoherent share of the floor next to the peak: the median incoherent power of p over its
 // median power, over the bins of the floor's running median outside the peak's main lobe. With nu
@@ -254,16 +212,13 @@ Characteristics PaperCharacteristics(std::span<const double> p, std::span<const 
   return result;
 }
 
-Characteristics EstimateCharacteristics(const Record& record, const CrossSpectrum& spectrum,
-                                        const CharacteristicsOptions& options) {
+Characteristics CharacteristicsAt(const Record& record, const CrossSpectrum& spectrum,
+                                  const SpectralPeak& peak, const CharacteristicsOptions& options,
+                                  const SlowOscillation* slow) {
   Characteristics result;
   const std::vector<double> p = RemoveMean(record.pressure);
   const std::vector<double> q = RemoveMean(record.heat_release);
   const double duration_s = static_cast<double>(p.size()) / record.sampling_hz;
-  const double lowest_hz = options.min_frequency_hz > 0.0
-                               ? options.min_frequency_hz
-                               : LowestSearched(record.sampling_hz, duration_s);
-  const Peak peak = FindPeak(spectrum, options, lowest_hz, record.sampling_hz);
   result.peak = peak.test;
   if (!peak.significant || duration_s * peak.frequency_hz < kMinBlockPeriods) return result;
 
@@ -272,18 +227,20 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
   double frequency = peak.frequency_hz;
   const double longest_s = duration_s / 8.0;
   const double for_noise_s = 10.0 * 1.5 * peak.noise_psd / std::max(peak.power, 1e-300);
-  double length_s = std::clamp(duration_s / kBlocksPerRecord,
-                               std::min(kMinBlockPeriods / frequency, longest_s), longest_s);
+  const bool follows_slow = slow != nullptr && Follows(kMinBlockPeriods / frequency, *slow);
+  const double planned_s = follows_slow ? 0.0 : duration_s / kBlocksPerRecord;
+  double length_s =
+      std::clamp(planned_s, std::min(kMinBlockPeriods / frequency, longest_s), longest_s);
   length_s = std::min(std::max(length_s, for_noise_s), longest_s);
   Blocks p_blocks, q_blocks;
   PhaseSeries phase;
   LineFrequency line;
-  for (int pass = 0; pass < 3; ++pass) {
+  for (int pass = 0; pass < options.block_passes; ++pass) {
     const int length = static_cast<int>(length_s * record.sampling_hz);
     p_blocks = Demodulate(p, record.sampling_hz, frequency, length);
     result.block_samples = length;
     phase = UnwrapPhase(p_blocks.amplitude);
-    if (pass == 2) break;
+    if (pass == options.block_passes - 1) break;
     line = EstimateLineFrequency(p_blocks.amplitude, phase, p_blocks.hop_s);
     if (std::isfinite(line.offset_hz.value)) frequency += line.offset_hz.value;
     const double coherent_s =
@@ -293,7 +250,14 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
   }
   if (!q.empty()) {
     q_blocks = Demodulate(q, record.sampling_hz, frequency, result.block_samples);
-    EstimateRatio(p_blocks.amplitude, q_blocks.amplitude, &result);
+    const int apart =
+        static_cast<int>(std::min(options.least_ratio_block_s, longest_s) * record.sampling_hz);
+    if (apart > result.block_samples) {
+      EstimateRatio(Demodulate(p, record.sampling_hz, frequency, apart).amplitude,
+                    Demodulate(q, record.sampling_hz, frequency, apart).amplitude, &result);
+    } else {
+      EstimateRatio(p_blocks.amplitude, q_blocks.amplitude, &result);
+    }
     result.q_amplitude = std::sqrt(MeanSquare(q_blocks.amplitude));
   }
   if (phase.reliable) {
@@ -309,23 +273,46 @@ Characteristics EstimateCharacteristics(const Record& record, const CrossSpectru
     ImprovePhase(others, phase.phase_rad);
   }
   line = EstimateLineFrequency(p_blocks.amplitude, phase, p_blocks.hop_s);
+  if (slow != nullptr) {
+    const Blocks straight = WithoutPhaseSwing(p, record.sampling_hz, frequency, p_blocks, *slow);
+    line =
+        EstimateLineFrequency(straight.amplitude, UnwrapPhase(straight.amplitude), straight.hop_s);
+  }
   result.frequency_hz = {frequency + line.offset_hz.value, line.offset_hz.std};
   result.frequency_drift_hz_per_s = line.drift_hz_per_s;
   result.line_width_hz = line.diffusion_rad2_per_s / kRadPerSPerHz;
   result.block_noise_power = 3.0 * peak.noise_psd / p_blocks.length_s;
   result.floor_incoherent_share = IncoherentShare(spectrum, peak.frequency_hz);
   EstimateEnvelope(p_blocks.amplitude, p_blocks.hop_s, &result);
+  if (slow != nullptr) {
+    result.slow_modulation = PeriodicFluctuation(p_blocks, *slow, record.sampling_hz);
+    // A^2 = M R, M periodic and R independent of it with mean one: 1 + F = (1 + F_M) (1 + F_R).
+    result.power_fluctuation.value = std::max(
+        (1.0 + result.power_fluctuation.value) / (1.0 + result.slow_modulation) - 1.0, 0.0);
+  }
   Classify(options, duration_s, &result);
 
   if (options.method == CharacteristicsMethod::kPaper && !q.empty()) {
     const double top =
         options.max_frequency_hz > 0 ? options.max_frequency_hz : 0.4 * record.sampling_hz;
-    const Characteristics paper = PaperCharacteristics(p, q, record.sampling_hz, lowest_hz, top);
+    const Characteristics paper =
+        PaperCharacteristics(p, q, record.sampling_hz, peak.test.low_hz, top);
     result.frequency_hz = {paper.frequency_hz.value, kNan};
     result.phase_deg = {paper.phase_deg.value, kNan};
     result.gain = {paper.gain.value, kNan};
   }
   return result;
+}
+
+Characteristics EstimateCharacteristics(const Record& record, const CrossSpectrum& spectrum,
+                                        const CharacteristicsOptions& options) {
+  const double duration_s = static_cast<double>(record.pressure.size()) / record.sampling_hz;
+  const double lowest_hz = options.min_frequency_hz > 0.0
+                               ? options.min_frequency_hz
+                               : LowestSearched(record.sampling_hz, duration_s);
+  return CharacteristicsAt(
+      record, spectrum, FindPeak(spectrum, options.max_frequency_hz, lowest_hz, record.sampling_hz),
+      options);
 }
 
 }  // namespace howl

@@ -25,7 +25,9 @@
 #include <string_view>
 #include <vector>
 
+#include "estimation/analysis/oscillations/slow_modulation.h"
 #include "estimation/analysis/record.h"
+#include "estimation/analysis/spectral_peak.h"
 #include "estimation/analysis/spectrum.h"
 #include "estimation/analysis/statistics.h"
 
@@ -41,19 +43,13 @@ struct CharacteristicsOptions {
   // a resonance that noise excites, and pi/2 - 1 where a Van der Pol loop in noise is neutral.
   double intermittent_fluctuation = 0.25;
   double no_cycle_fluctuation = 0.5707963267948966;
+  int block_passes = 3;  // in which the blocks' length comes to the phase's coherence
+  // Blocks for phase and gain are at least this long, so that no neighbour lies in their main lobe.
+  double least_ratio_block_s = 0.0;
 };
 
 enum class CycleState { kLimitCycle, kIntermittent, kNoLimitCycle };
 std::string_view CycleStateName(CycleState state);  // as in files
-
-// The highest peak of p's spectrum in the search range, and the threshold that a cycle's must
-// exceed.
-struct PeakTest {
-  double low_hz = 0.0, high_hz = 0.0;  // the range; empty where low_hz >= high_hz
-  double frequency_hz = 0.0;
-  double over_floor = 0.0;  // the spectrum there over the noise beside it
-  double threshold = 0.0;   // of over_floor
-};
 
 inline constexpr double kFewestPeriods = 8.0;  // of the cycle, in a record
 // Relative drifts of amplitude and frequency over a record, beyond which it is not stationary.
@@ -76,7 +72,10 @@ struct Characteristics {
   double line_width_hz = 0.0;    // full width at half maximum by phase diffusion: D / (2 pi)
   double coherence = 0.0;        // of p and q over the blocks at f
   double gain_bias_bound = 0.0;  // relative: how far q's own noise can have moved the gain
-  Estimate power_fluctuation;    // variance of A^2 over its squared mean, free of the noise floor
+  // The variance of A^2 over its squared mean, free of the noise floor and of slow_modulation,
+  // which is the part that goes with another, slow oscillation of the record.
+  Estimate power_fluctuation;
+  double slow_modulation = 0.0;
 
   // Stationarity over the record.
   Estimate frequency_drift_hz_per_s;
@@ -101,6 +100,11 @@ double LowestSearched(double sampling_hz, double duration_s);
 // kNoLimitCycle with the fields it could estimate. `spectrum` is the record's WelchSpectrum.
 Characteristics EstimateCharacteristics(const Record& record, const CrossSpectrum& spectrum,
                                         const CharacteristicsOptions& options = {});
+
+// The same at a peak that is known. `slow`: an oscillation beside the cycle that may modulate it.
+Characteristics CharacteristicsAt(const Record& record, const CrossSpectrum& spectrum,
+                                  const SpectralPeak& peak, const CharacteristicsOptions& options,
+                                  const SlowOscillation* slow = nullptr);
 
 // The paper's procedure on mean-free samples; standard deviations are not part of it.
 Characteristics PaperCharacteristics(std::span<const double> p, std::span<const double> q,

@@ -142,7 +142,11 @@ CrossSpectrum WelchSpectrum(std::span<const double> p, std::span<const double> q
   return spectrum;
 }
 
-Blocks Demodulate(std::span<const double> x, double sampling_hz, double frequency_hz, int length) {
+namespace {
+
+template <typename T>
+Blocks DemodulateSamples(std::span<const T> x, double sampling_hz, double frequency_hz,
+                         int length) {
   length = std::max(length - length % 2, 4);
   const int n = static_cast<int>(x.size());
   CHECK_LE(length, n);
@@ -166,6 +170,17 @@ Blocks Demodulate(std::span<const double> x, double sampling_hz, double frequenc
     blocks.amplitude.push_back(sum * (4.0 / length));  // sum of Hann weights: length / 2
   }
   return blocks;
+}
+
+}  // namespace
+
+Blocks Demodulate(std::span<const double> x, double sampling_hz, double frequency_hz, int length) {
+  return DemodulateSamples(x, sampling_hz, frequency_hz, length);
+}
+
+Blocks Demodulate(std::span<const std::complex<double>> x, double sampling_hz, double frequency_hz,
+                  int length) {
+  return DemodulateSamples(x, sampling_hz, frequency_hz, length);
 }
 
 }  // namespace howl

@@ -51,6 +51,8 @@ struct Blocks {
 
 // Half-overlapping Hann blocks of `length` samples (made even) at frequency_hz.
 Blocks Demodulate(std::span<const double> x, double sampling_hz, double frequency_hz, int length);
+Blocks Demodulate(std::span<const std::complex<double>> x, double sampling_hz, double frequency_hz,
+                  int length);
 
 // The whole record's discrete Fourier transform, bins 0 .. n/2.
 std::vector<std::complex<double>> RealFft(std::span<const double> x);

@@ -24,6 +24,13 @@ Finding Peakless(const Analysis& analysis) {
     finding.limit = peak.low_hz;
     finding.text = name + "between " + NumberWord(peak.low_hz) + " and " +
                    NumberWord(peak.high_hz) + " Hz there is nowhere to look for one";
+  } else if (peak.frequency_hz < peak.low_hz || peak.frequency_hz > peak.high_hz) {
+    finding.subject = "search_range";
+    finding.value = peak.frequency_hz;
+    finding.limit = peak.frequency_hz < peak.low_hz ? peak.low_hz : peak.high_hz;
+    finding.text = name + "what is highest between " + NumberWord(peak.low_hz) + " and " +
+                   NumberWord(peak.high_hz) + " Hz is the skirt of an oscillation at " +
+                   NumberWord(peak.frequency_hz, 4) + " Hz";
   } else if (peak.over_floor <= peak.threshold) {
     finding.subject = "peak_over_floor";
     finding.value = peak.over_floor;

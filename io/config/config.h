@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "estimation/analysis/analysis_spec.h"
+#include "estimation/analysis/cycle_band.h"
 #include "estimation/analysis/experiment.h"
 #include "estimation/family/problem/family_spec.h"
 #include "estimation/fit/solver_spec.h"
@@ -24,10 +25,11 @@
 namespace howl {
 
 struct ExperimentConfig {
-  Experiment experiment;             // where a record is given: name, phi and reliable alone
-  std::optional<RecordSpec> record;  // to be analysed first
-  int line = 0;                      // of the experiment in the config
-  int record_line = 0;               // of record.file; 0 without a record
+  Experiment experiment;              // where a record is given: name, phi and reliable alone
+  std::optional<RecordSpec> record;   // to be analysed first
+  std::optional<CycleBand> cycle_hz;  // of the record: its own, or the config's
+  int line = 0;                       // of the experiment in the config
+  int record_line = 0;                // of record.file; 0 without a record
 };
 
 struct Config {

@@ -67,9 +67,21 @@ void CheckName(const ConfigCursor& cursor, const std::string& name) {
   }
 }
 
+std::optional<CycleBand> ReadCycleBand(const ConfigCursor& cursor) {
+  const auto band = cursor.Find("cycle_hz");
+  if (!band) return std::nullopt;
+  const std::vector<ConfigCursor> ends = band->Items();
+  const CycleBand read{ends[0].Node().number, ends[1].Node().number};
+  if (!(read.low_hz < read.high_hz)) {
+    ends[1].Fail("is not above the first, expected [low, high] in Hz");
+  }
+  return read;
+}
+
 using LinesOfNames = std::map<std::string, int>;
 
-void ReadExperiment(const ConfigCursor& cursor, LinesOfNames& lines_of_names, Config& config) {
+void ReadExperiment(const ConfigCursor& cursor, const std::optional<CycleBand>& common_hz,
+                    LinesOfNames& lines_of_names, Config& config) {
   ExperimentConfig& read = config.experiments.back();
   read.line = cursor.Line();
   cursor.Read("name", read.experiment.name);
@@ -86,7 +98,14 @@ void ReadExperiment(const ConfigCursor& cursor, LinesOfNames& lines_of_names, Co
     CheckRecordAlone(cursor);
     read.record = ReadRecordSpec(*record, config.source);
     read.record_line = record->Find("file")->Line();
+    const std::optional<CycleBand> own_hz = ReadCycleBand(cursor);
+    read.cycle_hz = own_hz ? own_hz : common_hz;
   } else {
+    if (cursor.Find("cycle_hz")) {
+      cursor.FailAt("cycle_hz",
+                    "picks an oscillation of a record, expected a record, or no cycle_hz beside "
+                    "published numbers");
+    }
     CheckNumbersComplete(cursor);
     ReadNumbers(cursor, read.experiment);
   }
@@ -102,6 +121,13 @@ void ReadNameAlone(const ConfigCursor& cursor, Experiment& experiment) {
 
 void ReadExperiments(const ConfigCursor& root, Config& config, ExperimentMistakes* mistakes) {
   LinesOfNames lines_of_names;
+  std::optional<CycleBand> common_hz;
+  try {
+    common_hz = ReadCycleBand(root);
+  } catch (const UserError& error) {
+    if (mistakes == nullptr) throw;
+    mistakes->found.push_back(error);
+  }
   for (const ConfigCursor& cursor : root.Find("experiments")->Items()) {
     const std::size_t index = config.experiments.size();
     config.experiments.emplace_back();
@@ -110,7 +136,7 @@ void ReadExperiments(const ConfigCursor& root, Config& config, ExperimentMistake
       continue;
     }
     try {
-      ReadExperiment(cursor, lines_of_names, config);
+      ReadExperiment(cursor, common_hz, lines_of_names, config);
     } catch (const UserError& error) {
       if (mistakes == nullptr) throw;
       mistakes->found.push_back(error);

@@ -31,6 +31,7 @@ void ReadFamily(const ConfigCursor& root, Config& config);
 void ReadSolver(const ConfigCursor& root, Config& config);
 void ReadAnalysis(const ConfigCursor& root, Config& config);
 void ReadSimulation(const ConfigCursor& root, Config& config);
+std::vector<SimulatedNoise> ReadNoiseSources(const ConfigCursor& simulation);
 void ReadEffects(const ConfigCursor& root, Config& config);
 
 RecordSpec ReadRecordSpec(const ConfigCursor& record, const std::filesystem::path& config_file);

@@ -130,16 +130,21 @@ void ReadSimulation(const ConfigCursor& root, Config& config) {
   simulation->Read("sampling_hz", spec.sampling_hz);
   simulation->Read("settle_s", spec.settle_s);
   if (const auto shape = simulation->Find("flame_shape")) {
-    for (const FlameShape each : kFlameShapes) {
+    for (const FlameShape each : kStatedFlameShapes) {
       if (shape->Node().text == FlameShapeName(each)) spec.flame_shape = each;
     }
   }
   simulation->Read("saturation", spec.saturation);
+  simulation->Read("flame_table", spec.flame_table);
+  if (spec.flame_table && (simulation->Find("flame_shape") || simulation->Find("saturation"))) {
+    simulation->FailAt("flame_table", "is given with flame_shape or saturation, expected only one");
+  }
   spec.flame_is_given = simulation->Find("flame_shape") || simulation->Find("saturation");
   simulation->Read("combustion_noise_relative", spec.combustion_noise_relative);
   simulation->Read("combustion_noise_corner_hz", spec.combustion_noise_corner_hz);
   simulation->Read("sensor_noise_relative", spec.sensor_noise_relative);
   simulation->Read("loop_gain_min", spec.loop_gain_min);
+  spec.noise = ReadNoiseSources(*simulation);
   ReadStart(*simulation, spec);
   if (const auto sweep = simulation->Find("sweep")) spec.sweep = ReadSweep(*sweep, config);
   if (const auto effects = simulation->Find("effects")) {

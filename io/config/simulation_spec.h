@@ -14,6 +14,7 @@
 #include "estimation/analysis/experiment.h"
 #include "model/effects/effect.h"
 #include "model/flame_shapes.h"
+#include "model/noise_source.h"
 #include "model/sweep.h"
 
 namespace howl {
@@ -25,6 +26,15 @@ struct SimulatedEffect {
   int line = 0;
   std::string key;  // of the config
 };
+
+// A source of noise beyond the combustion and sensor noise that every simulation has.
+struct SimulatedNoise {
+  NoisePlace place = NoisePlace::kCombustion;
+  // Over the flame's saturation in the loop, over the cycle's amplitude in a recorded channel.
+  double rms_relative = 0.0;
+  NoiseSpectrum spectrum;
+};
+inline constexpr double kDefaultNoiseDamping = 0.1;  // of a resonance
 
 // The state in which a simulation starts.
 enum class SimulationStart : std::uint8_t { kObservedCycle, kUpperCycle, kRest };
@@ -53,6 +63,7 @@ struct SimulationSpec {
   FlameShape flame_shape = FlameShape::kTanh;
   double saturation = 1.0;                  // of the heat release, in units of q
   bool flame_is_given = false;              // by the config: shape or saturation
+  bool flame_table = false;                 // the measured curve itself, point by point
   double combustion_noise_relative = 0.01;  // rms over saturation
   std::optional<double> combustion_noise_corner_hz;
   double sensor_noise_relative = 0.001;  // rms over the cycle's amplitude, in each channel
@@ -64,6 +75,7 @@ struct SimulationSpec {
   int start_line = 0;
   std::optional<SweepSpec> sweep;
   std::vector<SimulatedEffect> effects;
+  std::vector<SimulatedNoise> noise;
 };
 
 // Times that the config does not state follow the cycle (model/cycle_scale.h): the number of

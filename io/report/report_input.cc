@@ -129,7 +129,8 @@ void ReadRecords(ReportInput& input, const Config& config, std::vector<NamedReco
     if (!each.record) continue;
     try {
       records.push_back({each.experiment.name, each.experiment.phi,
-                         LoadRecord(*each.record, config.source.string(), each.record_line)});
+                         LoadRecord(*each.record, config.source.string(), each.record_line),
+                         each.cycle_hz});
     } catch (const std::exception& error) {
       if (++faults == 1) first_fault = error.what();
     }

@@ -91,6 +91,21 @@ Json CycleJson(const Characteristics& cycle) {
           {"stationary", cycle.stationary}};
 }
 
+Json OscillationJson(const Oscillation& one) {
+  const Characteristics& c = one.characteristics;
+  return {{"state", CycleStateName(c.state)},
+          {"is_cycle", one.is_cycle},
+          {"frequency", EstimateJson(c.frequency_hz, "Hz")},
+          {"phase", EstimateJson(c.phase_deg, "deg")},
+          {"gain", EstimateJson(c.gain, "p/q")},
+          {"p_amplitude", NumberOrNull(c.p_amplitude)},
+          {"q_amplitude", NumberOrNull(c.q_amplitude)},
+          {"p_share", NumberOrNull(one.p_share)},
+          {"q_share", NumberOrNull(one.q_share)},
+          {"power_fluctuation", EstimateJson(c.power_fluctuation, "1")},
+          {"slow_modulation", NumberOrNull(c.slow_modulation)}};
+}
+
 Json OneJson(const Analysis& analysis) {
   Json lines = Json::array();
   for (const SpectralLine& line : analysis.lines) lines.push_back(LineJson(line));
@@ -120,6 +135,16 @@ Json OneJson(const Analysis& analysis) {
 
 }  // namespace
 
+Json OscillationsJson(const AnalysisSet& set) {
+  Json json = Json::array();
+  for (const Analysis& analysis : set.analyses) {
+    Json each = Json::array();
+    for (const Oscillation& one : analysis.oscillations) each.push_back(OscillationJson(one));
+    json.push_back({{"name", analysis.name}, {"oscillations", std::move(each)}});
+  }
+  return json;
+}
+
 std::string CharacteristicsCsv(const AnalysisSet& set, std::string_view operating_parameter) {
   const OwnNameColumn own(operating_parameter);
   CsvWriter csv(
@@ -137,6 +162,29 @@ std::string CharacteristicsCsv(const AnalysisSet& set, std::string_view operatin
     csv.Cell(OrUnknown(analysis.tau_s).value).Cell(slope.value).Cell(slope.std);
     csv.Cell(OrUnknown(analysis.loop_gain).value).Cell(cycle.stationary ? "true" : "false");
     own.Add(csv, analysis.phi).EndRow();
+  }
+  return csv.Text();
+}
+
+std::string OscillationsCsv(const AnalysisSet& set, std::string_view operating_parameter) {
+  const OwnNameColumn own(operating_parameter);
+  CsvWriter csv(
+      "name,phi,is_cycle,state,frequency_hz,frequency_std_hz,phase_deg,phase_std_deg,gain,gain_std,"
+      "p_amplitude,q_amplitude,p_share,q_share,power_fluctuation,power_fluctuation_std,"
+      "slow_modulation" +
+      own.Header());
+  for (const Analysis& analysis : set.analyses) {
+    for (const Oscillation& one : analysis.oscillations) {
+      const Characteristics& c = one.characteristics;
+      csv.Cell(analysis.name).Cell(analysis.phi).Cell(one.is_cycle ? "true" : "false");
+      csv.Cell(CycleStateName(c.state));
+      for (const Estimate& estimate : {c.frequency_hz, c.phase_deg, c.gain}) {
+        csv.Cell(estimate.value).Cell(estimate.std);
+      }
+      csv.Cell(c.p_amplitude).Cell(c.q_amplitude).Cell(one.p_share).Cell(one.q_share);
+      csv.Cell(c.power_fluctuation.value).Cell(c.power_fluctuation.std).Cell(c.slow_modulation);
+      own.Add(csv, analysis.phi).EndRow();
+    }
   }
   return csv.Text();
 }

@@ -4,6 +4,7 @@
 //   name,phi,frequency_hz,frequency_std_hz,phase_deg,phase_std_deg,gain,gain_std,
 //                        tau_s,flame_slope,flame_slope_std,loop_gain,stationary
 //   lines.csv            every significant spectral line (figure 10)
+//   oscillations.csv     the oscillations of each record, the cycle among them
 //   transfer.csv         the coherent q-to-p transfer, and the fitted acoustics at each point
 //   flame_curve.csv      q against the delayed derivative of p, in bins (figures 5 and 6)
 //   analysis.json        all of it but the curves, schema howl.analysis/1
@@ -24,8 +25,10 @@ namespace howl {
 std::string CharacteristicsCsv(const AnalysisSet& set,
                                std::string_view operating_parameter = "phi");
 std::string LinesCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
+std::string OscillationsCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
 std::string TransferCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
 std::string FlameCurveCsv(const AnalysisSet& set, std::string_view operating_parameter = "phi");
+nlohmann::ordered_json OscillationsJson(const AnalysisSet& set);
 nlohmann::ordered_json AnalysisJson(const AnalysisSet& set);
 
 }  // namespace howl

@@ -12,6 +12,7 @@ namespace howl {
 
 inline constexpr const char* kCharacteristicsCsv = "characteristics.csv";
 inline constexpr const char* kLinesCsv = "lines.csv";
+inline constexpr const char* kOscillationsCsv = "oscillations.csv";
 inline constexpr const char* kTransferCsv = "transfer.csv";
 inline constexpr const char* kFlameCurveCsv = "flame_curve.csv";
 inline constexpr const char* kFamilyCsv = "family.csv";
@@ -24,9 +25,10 @@ inline constexpr const char* kPredictionCsv = "prediction.csv";
 inline constexpr const char* kCampaignCsv = "campaign.csv";
 inline constexpr const char* kCampaignPointsCsv = "campaign_points.csv";
 
-inline constexpr std::array<std::string_view, 12> kResultTables = {
-    kCharacteristicsCsv, kLinesCsv, kTransferCsv, kFlameCurveCsv, kFamilyCsv,   kTradeoffCsv,
-    kProfileCsv,         kSweepCsv, kTrialCsv,    kPredictionCsv, kCampaignCsv, kCampaignPointsCsv};
+inline constexpr std::array<std::string_view, 13> kResultTables = {
+    kCharacteristicsCsv, kLinesCsv,    kOscillationsCsv,  kTransferCsv, kFlameCurveCsv,
+    kFamilyCsv,          kTradeoffCsv, kProfileCsv,       kSweepCsv,    kTrialCsv,
+    kPredictionCsv,      kCampaignCsv, kCampaignPointsCsv};
 
 // An experiment's NAME.csv would overwrite a table of results, as the name "family" would.
 inline bool IsResultsName(std::string_view name) {

@@ -22,19 +22,21 @@ class Analysis(Result):
 
     `characteristics` has a row for each experiment: limit-cycle frequency, phase from q to p, gain,
     delay `tau_s`, the flame's slope at rest (q per p/s), loop gain, and their standard deviations.
-    `lines` are the significant spectral lines, `transfer` the q-to-p transfer where both are
-    coherent, `flame_curve` the flame's curve.
+    `lines` are the significant spectral lines, `oscillations` the cycle and those beside it,
+    `transfer` the q-to-p transfer where both are coherent, `flame_curve` the flame's curve.
     """
 
     main_file = "analysis.json"
     characteristics: pd.DataFrame
     lines: pd.DataFrame
+    oscillations: pd.DataFrame
     transfer: pd.DataFrame
     flame_curve: pd.DataFrame
 
     def _load(self) -> None:
         self.characteristics = self._csv("characteristics.csv").set_index("name")
         self.lines = self._csv("lines.csv")
+        self.oscillations = self._csv("oscillations.csv")
         self.transfer = self._csv("transfer.csv")
         self.flame_curve = self._csv("flame_curve.csv")
 

@@ -28,6 +28,7 @@ def test_arrays_are_analysed_as_the_files_they_come_from(analysis, command_line)
 def test_a_path_is_analysed_as_by_the_command_line(command_line):
     found = howl.analyse(CONFIGS / "first_rig.yaml", threads=1)
     assert same_cells(found.lines, command_line / "lines.csv")
+    assert same_cells(found.oscillations, command_line / "oscillations.csv")
 
 
 def test_a_matrix_experiments_and_a_dict_are_the_same_problem(first_rig, analysis):

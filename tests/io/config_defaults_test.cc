@@ -63,8 +63,10 @@ Defaults StructDefaults() {
       {"family.test.second_crossing_gain_min", Dump(config.family.test.second_crossing_gain_min)},
       {"family.draw", Dump(config.family.draw == MemberDraw::kSpread ? "spread" : "uniform")},
       {"simulate.flame_shape", Dump(std::string(FlameShapeName(config.simulation.flame_shape)))},
+      {"simulate.flame_table", Dump(config.simulation.flame_table)},
       {"simulate.saturation", Dump(config.simulation.saturation)},
       {"simulate.start", Dump(std::string(SimulationStartName(config.simulation.start)))},
+      {"simulate.noise[].damping", Dump(kDefaultNoiseDamping)},
       {"simulate.sweep.one_way_s", Dump(SweepSpec().one_way_s)},
       {"simulate.sweep.steps", Dump(SweepSpec().steps)},
       {"simulate.combustion_noise_relative", Dump(config.simulation.combustion_noise_relative)},
@@ -152,7 +154,7 @@ TEST(ConfigSchema, EveryKeyIsDocumented) { CheckDocumented(ConfigSchema(), ""); 
 
 TEST(ConfigSchema, FlameShapesAreThoseOfTheModel) {
   Json shapes = Json::array();
-  for (const FlameShape shape : kFlameShapes) shapes.push_back(FlameShapeName(shape));
+  for (const FlameShape shape : kStatedFlameShapes) shapes.push_back(FlameShapeName(shape));
   EXPECT_EQ(ConfigSchema()["properties"]["simulate"]["properties"]["flame_shape"]["enum"], shapes);
 }
 

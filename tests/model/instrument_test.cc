@@ -15,6 +15,7 @@
 #include "model/prediction.h"
 #include "model/ramp.h"
 #include "model/simulate.h"
+#include "tests/model/density.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {
@@ -100,24 +101,6 @@ TEST(Decimator, TakesItsDelayOut) {
   for (std::size_t k = 0; k < output.size(); ++k) {
     EXPECT_NEAR(output[k], signal(static_cast<double>(k) * 4.0 + filter.half_length()), 2e-4);
   }
-}
-
-// One-sided power spectral density at f, averaged over Hann-windowed segments.
-double Density(const std::vector<double>& x, double rate_hz, double f, std::size_t segment = 1000) {
-  double sum = 0.0;
-  int segments = 0;
-  for (std::size_t begin = 0; begin + segment <= x.size(); begin += segment) {
-    Complex64 z = 0.0;
-    for (std::size_t i = 0; i < segment; ++i) {
-      const double hann =
-          std::sin(std::numbers::pi * static_cast<double>(i) / static_cast<double>(segment));
-      z += x[begin + i] * hann * hann *
-           std::polar(1.0, -kTwoPi * f * static_cast<double>(i) / rate_hz);
-    }
-    sum += std::norm(z);
-    ++segments;
-  }
-  return sum / segments * 2.0 / (rate_hz * 0.375 * static_cast<double>(segment));
 }
 
 // With a flame that does nothing q is the noise alone, and p is G's answer to it.

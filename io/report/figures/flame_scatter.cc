@@ -22,7 +22,7 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
   const auto shown = ReferenceRecord(input);
   if (!shown || shown->record->record.heat_release.empty()) return std::nullopt;
   const Record& record = shown->record->record;
-  Analysis analysis = AnalyseRecord(record);
+  Analysis analysis = AnalyseRecord(record, {}, shown->record->cycle_hz);
   if (analysis.characteristics.state == CycleState::kNoLimitCycle) return std::nullopt;
   const MeasuredPoint* point = input.Measured(shown->record->name);
   Estimate tau = point != nullptr ? point->tau_s : Estimate{};

@@ -113,6 +113,27 @@ TEST_F(TurbulentCombustor, NonHarmonicLine) {
   }
 }
 
+// The line at 1.21 to 1.26 times the fundamental, "8 to 20 dB below it", is an oscillation of its
+// own, and a range picks it as the cycle.
+TEST_F(TurbulentCombustor, TheSecondOscillationCanBePicked) {
+  const auto folder = testing::DataFolder("HOWL_DATA");
+  for (int point : {14, 15, 17, 19}) {
+    const Characteristics& first = At(point).characteristics;
+    const double f = first.frequency_hz.value;
+    const Analysis analysis =
+        AnalyseRecord(testing::CombustorRecord(*folder, point), {}, CycleBand{1.12 * f, 1.35 * f});
+    const Characteristics& c = analysis.characteristics;
+    EXPECT_NE(c.state, CycleState::kNoLimitCycle) << point;
+    EXPECT_NEAR(c.frequency_hz.value / f, 1.235, 0.04) << point;
+    const double below_db = 20.0 * std::log10(first.p_amplitude / c.p_amplitude);
+    EXPECT_NEAR(below_db, 14.0, 7.0) << point;
+    // The stronger one is found beside it, where it was.
+    ASSERT_GE(analysis.oscillations.size(), 2U) << point;
+    EXPECT_FALSE(analysis.oscillations[0].is_cycle) << point;
+    EXPECT_NEAR(analysis.oscillations[0].characteristics.frequency_hz.value, f, 0.5) << point;
+  }
+}
+
 // "q has a strong second harmonic (-11 to -17 dB), p a weak one (-24 to -43 dB)."
 TEST_F(TurbulentCombustor, SecondHarmonic) {
   for (int point : {19, 21, 22, 24}) {
