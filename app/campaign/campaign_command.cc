@@ -165,7 +165,8 @@ Command CampaignCommand() {
           Run,
           false,
           "CAMPAIGN",
-          Sharding{InputsOf, Adopt, kTableOption}};
+          Sharding{InputsOf, Adopt, kTableOption},
+          true};
 }
 
 }  // namespace howl
