@@ -79,6 +79,15 @@ std::string NoMemory() {
   return running + "there is not enough memory, expected fewer or shorter records";
 }
 
+std::string Fault(const std::exception& error) {
+  const std::string what = error.what();
+  // Of a library that starts threads.
+  if (what.find("pthread_create") != std::string::npos) {
+    return "no more threads can be started, expected fewer (--threads 1) or more memory";
+  }
+  return "fails: " + what;
+}
+
 int Run(const std::vector<std::string>& words) {
   CommandLine line(words);
   std::optional<std::string> word = line.NextWord();
@@ -112,6 +121,7 @@ int Run(const std::vector<std::string>& words) {
   const Options options = line.Finish(operands);
   running = options.config.string() + ": " + command.name + ": ";
   LogAsAsked();
+  AllowThreads(options.threads);
   ProgressLine progress(command.name, options.quiet);
   ObserveUnits([&](std::size_t done, std::size_t total) { progress.Show(done, total); });
   const std::unique_ptr<OutputClaim> claim =
@@ -150,7 +160,7 @@ int main(int argc, char** argv) {
   } catch (const std::length_error&) {
     std::fprintf(stderr, "%s\n", howl::NoMemory().c_str());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%sfails: %s\n", howl::running.c_str(), error.what());
+    std::fprintf(stderr, "%s%s\n", howl::running.c_str(), howl::Fault(error).c_str());
   }
   return howl::kBadInput;
 }

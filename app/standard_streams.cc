@@ -31,6 +31,9 @@ void SecureStandardStreams() {
   action.sa_handler = OnBrokenPipe;
   action.sa_flags = SA_RESTART;
   sigaction(SIGPIPE, &action, nullptr);
+  // A write beyond the limit of a file's size fails then, as on a full disk, instead of ending the
+  // program.
+  signal(SIGXFSZ, SIG_IGN);
 }
 
 void FlushOutput() {

@@ -6,8 +6,9 @@
 namespace howl {
 
 // To be called first. A stream that is closed is opened so that every use of it fails: else the
-// next file that is opened would take its place, and what is printed would go into that file. A
-// reader that has gone does not end the program, which has files to finish.
+// next file that is opened would take its place, and what is printed would go into that file.
+// Neither a reader that has gone nor a file that may grow no more ends the program, which has files
+// to finish.
 void SecureStandardStreams();
 
 // A full disk behind standard output must not pass for an answer that was given: throws UserError.

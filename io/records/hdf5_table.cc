@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/records/array_columns.h"
 #include "io/records/hdf5_lock.h"
+#include "io/records/packed_size.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -52,6 +54,18 @@ std::string Problem(hid_t dataset, int rank) {
       return "not numeric";
   }
   return rank == 1 || rank == 2 ? "" : std::to_string(rank) + " dimensions";
+}
+
+// A chunk is unpacked as a whole; 0 without any.
+double ChunkBytes(hid_t dataset) {
+  const Handle plist(H5Dget_create_plist(dataset), H5Pclose);
+  if (!plist.ok() || H5Pget_layout(plist.get()) != H5D_CHUNKED) return 0.0;
+  std::array<hsize_t, H5S_MAX_RANK> sizes{};
+  const int rank = H5Pget_chunk(plist.get(), H5S_MAX_RANK, sizes.data());
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  auto bytes = static_cast<double>(H5Tget_size(type.get()));
+  for (int i = 0; i < rank; ++i) bytes *= static_cast<double>(sizes[static_cast<std::size_t>(i)]);
+  return bytes;
 }
 
 herr_t AddDataset(hid_t root, const char* name, const H5O_info_t* info, void* arrays) {
@@ -97,6 +111,9 @@ class Hdf5Table final : public TableSource {
     if (column.empty()) return column;
     const Handle dataset(H5Dopen2(root_.get(), array.name.c_str(), H5P_DEFAULT), H5Dclose);
     const Handle space(H5Dget_space(dataset.get()), H5Sclose);
+    if (IsBomb(static_cast<double>(std::filesystem::file_size(file_)), ChunkBytes(dataset.get()))) {
+      throw UserError(file_, 0, array.name, kBombWords);
+    }
     if (array.channels() > 1) {
       std::array<hsize_t, 2> start = {0, channel};
       std::array<hsize_t, 2> count = {array.rows, 1};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/number_range.h"
+#include "io/records/file_state.h"
 #include "io/records/known_instruments.h"
 #include "io/records/number_text.h"
 #include "io/records/table_source.h"
@@ -172,6 +173,7 @@ void Loader::Take(std::vector<double>& column, const ColumnName& name, Part part
 
 Record Loader::Load() {
   CheckSpec();
+  const FileState before(spec_.file);
   table_ = OpenTable(spec_.file, spec_.dialect);
   std::vector<ColumnName> names = {spec_.pressure};
   if (spec_.heat_release) names.push_back(*spec_.heat_release);
@@ -182,6 +184,11 @@ Record Loader::Load() {
   } catch (const std::bad_alloc&) {
     throw UserError(spec_.file.string(), 0, "",
                     "does not fit into the memory, expected a shorter record");
+  }
+  // Cut short or growing, its last row may be a part of one, and its end the record's.
+  if (FileState(spec_.file) != before) {
+    throw UserError(spec_.file.string(), 0, "",
+                    "was written to while it was read, expected a record that is complete");
   }
 
   const std::size_t rows = columns.front().size();
