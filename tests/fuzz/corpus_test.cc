@@ -35,7 +35,7 @@ TEST_P(Corpus, IsReadOrRefusedWithinASecond) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, Corpus, testing::ValuesIn(AllTargets()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace howl
