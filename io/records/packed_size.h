@@ -10,7 +10,7 @@ namespace howl {
 // shrinks a single byte that repeats itself to a thousandth.
 inline constexpr double kMostExpansion = 200.0;
 // Below this size in bytes nothing is refused.
-inline constexpr double kHarmlessBytes = 128.0 * 1024.0 * 1024.0;
+inline constexpr double kHarmlessBytes = 64.0 * 1024.0 * 1024.0;
 
 inline constexpr const char* kBombWords =
     "unpacks to more than 200 times its size, expected a record of samples";
