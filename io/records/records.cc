@@ -237,6 +237,10 @@ Record Loader::Load() {
     record.heat_release = std::move(columns[1]);
   }
   TakeOutInstruments(spec_, config_file_, record);
+  if (record.pressure.size() < kFewestSamples) {
+    FailConfig("pressure_response",
+               "leaves " + std::to_string(record.pressure.size()) + kFewSamples);
+  }
   return record;
 }
 
