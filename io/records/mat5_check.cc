@@ -27,6 +27,9 @@ constexpr std::uint32_t kCompressed = 15;
 constexpr std::size_t kStart = 4096;  // of a variable, that has its class, dimensions and name
 constexpr std::size_t kTag = kMat5Tag;
 
+constexpr const char* kDamagedHead =
+    "a variable that does not begin as one does, expected a MATLAB file: damaged";
+
 std::optional<Element> ElementAt(Mat5Bytes bytes, std::size_t at, const Words& words) {
   return Mat5ElementAt(bytes, at, words);
 }
@@ -107,12 +110,15 @@ void CheckMat5(const std::filesystem::path& file) {
     std::size_t stated = length;
     if (type == kCompressed) {
       start = Inflated(start, kStart);
-      if (start.size() < kTag || words.At(start, 0) != kMatrix) continue;
+      if (start.size() < kTag || words.At(start, 0) != kMatrix) {
+        throw UserError(file.string(), 0, "", kDamagedHead);
+      }
       stated = words.At(start, 4);
       start.erase(start.begin(), start.begin() + kTag);
     } else if (type != kMatrix) {
       continue;
     }
+    if (!HasHead(start, words)) throw UserError(file.string(), 0, "", kDamagedHead);
     std::string name;
     std::string fault = Fault(start, words, &name);
     if (fault.empty() && HoldsOthers(start, words)) {

@@ -10,11 +10,12 @@
 
 namespace howl {
 
-// Whether a variable's class holds other variables.
+// Whether a variable, without its own tag, begins as every variable does.
+bool HasHead(Mat5Bytes variable, const Mat5Words& words);
+// Whether its class holds other variables.
 bool HoldsOthers(Mat5Bytes variable, const Mat5Words& words);
 
-// The fault of a variable, without its own tag, that needs more than it has; empty if there is
-// none.
+// The fault of a variable that needs more than it has; empty if there is none.
 std::string FindNestedFault(Mat5Bytes variable, const Mat5Words& words);
 
 }  // namespace howl

@@ -106,6 +106,7 @@ class MatTable final : public TableSource {
   // A struct has its fields in its place: rec.p, and of a struct within it rec.run.p.
   void AddArrays(matvar_t& variable, const std::string& name) {
     if (IsSingleStruct(variable)) {
+      if (variable.data == nullptr) return;  // a damaged one, which matio would look into
       const unsigned count = Mat_VarGetNumberOfFields(&variable);
       char* const* const fields = Mat_VarGetStructFieldnames(&variable);
       for (unsigned i = 0; i < count; ++i) {
