@@ -23,14 +23,16 @@ class Limits : public Faults {
 };
 
 TEST_F(Limits, FewDescriptors) {
+  // What runs the test may have others open, which count.
+  const std::string kCloseOthers = "exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-; ";
   int refused = 0;
   for (const int count : {4, 5, 6, 8, 10, 12, 16, 24}) {
     for (const auto& [config, command] : {std::pair("rig.yaml", "fit"),
                                           {"records/records.yaml", "analyse"},
                                           {"campaign.yaml", "campaign"}}) {
-      const ProgramResult run =
-          RunShell("ulimit -n " + std::to_string(count) + "; exec " + On(config, command, "out"));
-      if (run.status == 0) continue;
+      const ProgramResult run = RunShell(kCloseOthers + "ulimit -n " + std::to_string(count) +
+                                         "; exec " + On(config, command, "out"));
+      if (run.status == 0 || run.status == 127) continue;  // 127: its libraries did not open
       ++refused;
       SCOPED_TRACE(std::string(command) + " with " + std::to_string(count));
       // A campaign has the fault of one rig in that rig's row.

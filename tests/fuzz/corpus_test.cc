@@ -2,8 +2,7 @@
 // to be wrong once, and those that reach most of the reader's branches.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -25,10 +24,10 @@ TEST_P(Corpus, IsReadOrRefusedWithinASecond) {
     std::ifstream file(entry.path(), std::ios::binary);
     std::stringstream input;
     input << file.rdbuf();
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();  // the machine may have other work
     GetParam().run(input.str());
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(seconds.count(), 1.0 * HOWL_TEST_SLOWNESS);
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    EXPECT_LT(seconds, 1.0 * HOWL_TEST_SLOWNESS);
     ++count;
   }
   EXPECT_GE(count, 1U);
