@@ -14,6 +14,7 @@
 #include "io/records/array_columns.h"
 #include "io/records/hdf5_lock.h"
 #include "io/records/packed_size.h"
+#include "io/records/survival.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -95,6 +96,15 @@ class Hdf5Table final : public TableSource {
 
   Columns Read(const std::vector<ColumnName>& names) override {
     const Hdf5Lock lock;
+    RequireSurvival(file_, [&] { ReadColumns(names); });
+    return ReadColumns(names);
+  }
+
+  std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
+  std::string Format() const override { return "an HDF5 file"; }
+
+ private:
+  Columns ReadColumns(const std::vector<ColumnName>& names) const {
     Columns columns;
     for (const ArrayChannel& channel : FindChannels(file_, arrays_, names)) {
       columns.push_back(ReadChannel(arrays_[channel.array], channel.channel));
@@ -102,10 +112,6 @@ class Hdf5Table final : public TableSource {
     return columns;
   }
 
-  std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
-  std::string Format() const override { return "an HDF5 file"; }
-
- private:
   std::vector<double> ReadChannel(const ArrayInfo& array, std::size_t channel) const {
     std::vector<double> column(array.samples());
     if (column.empty()) return column;
@@ -163,6 +169,7 @@ Hdf5Lock::Hdf5Lock() : lock_(Hdf5Mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, n
 
 std::unique_ptr<TableSource> OpenHdf5Table(const std::filesystem::path& file) {
   const Hdf5Lock lock;
+  RequireSurvival(file.string(), [&] { const Hdf5Table table(file); });
   return std::make_unique<LockedHdf5Table>(file);
 }
 

@@ -10,7 +10,7 @@ namespace howl {
 
 std::vector<FuzzTarget> ConfigTargets() {
   const auto reading = [](auto read) {
-    return [read](std::string_view input) { Answered([&] { (void)read(MemoryFile(input)); }); };
+    return [read](std::string_view input) { Answered([&] { (void)read(InputFile(input)); }); };
   };
   return {{"config", reading(LoadConfig)},
           {"campaign", reading(LoadCampaign)},

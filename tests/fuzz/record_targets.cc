@@ -28,7 +28,7 @@ void Load(const RecordSpec& spec) {
 
 // As howl init looks at it, and as configs name its columns.
 void ReadRecord(std::string_view input) {
-  const std::filesystem::path file = MemoryFile(input);
+  const std::filesystem::path file = InputFile(input);
   TextDialect dialect;
   Answered([&] {
     const RecordLook look = LookAtRecord(file);

@@ -1,5 +1,4 @@
 #include <glog/logging.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -22,14 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kFileMark = "#file ";
 
-// In memory where the system has such a place.
-const fs::path& Folder() {
-  static const fs::path folder = [] {
-    const fs::path parent = fs::exists("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
-    std::string form = (parent / "howl_fuzz_XXXXXX").string();
-    CHECK(mkdtemp(form.data()) != nullptr);
-    return fs::path(form);
-  }();
+fs::path Folder() {
+  const fs::path folder = ScratchFolder() / "results";
+  fs::create_directories(folder);
   return folder;
 }
 
@@ -67,7 +61,7 @@ void Report(std::string_view input, bool with_figures) {
 }
 
 void Reference(std::string_view input) {
-  const fs::path path = MemoryFile(input);
+  const fs::path path = InputFile(input);
   Answered([&] {
     const nlohmann::ordered_json stored = ReadReference(path);
     CHECK(CompareReference(path, stored, stored, 1e-6).empty());
@@ -76,7 +70,7 @@ void Reference(std::string_view input) {
 }
 
 void Csv(std::string_view input) {
-  const fs::path path = MemoryFile(input);
+  const fs::path path = InputFile(input);
   try {
     const CsvTable table = ReadCsvTable(path);
     for (std::size_t row = 0; row < table.rows.size(); ++row) {

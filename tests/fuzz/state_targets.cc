@@ -26,12 +26,7 @@ constexpr const char* kTable =
 
 // A folder with one file, whose text is the input.
 fs::path FolderWith(const char* file, std::string_view input) {
-  static const fs::path folder = [] {
-    const fs::path parent = fs::exists("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
-    std::string form = (parent / "howl_fuzz_XXXXXX").string();
-    CHECK(mkdtemp(form.data()) != nullptr);
-    return fs::path(form);
-  }();
+  const fs::path folder = ScratchFolder() / "jobs";
   fs::remove_all(folder / "shards");
   fs::create_directories(folder / "shards");
   std::ofstream(folder / "shards" / file, std::ios::binary) << input;
@@ -50,11 +45,11 @@ void Job(std::string_view input) {
 }
 
 void Store(std::string_view input) {
-  const StoredUnits stored = ReadUnits(MemoryFile(input));
+  const StoredUnits stored = ReadUnits(InputFile(input));
   CHECK_LE(stored.end, input.size());
   // What was believed is written and read as it was.
   if (stored.header.empty()) return;
-  const StoredUnits again = ReadUnits(MemoryFile(StoreText(stored.header, stored.units)));
+  const StoredUnits again = ReadUnits(InputFile(StoreText(stored.header, stored.units)));
   CHECK(again.header == stored.header && again.units == stored.units && again.damaged == 0);
 }
 
@@ -66,7 +61,7 @@ void Log(std::string_view input) {
 // The state of a search for bounds: whatever it says, no bound lies inside out.
 void Bounds(std::string_view input) {
   static const FamilyProblem problem = [] {
-    const Config config = LoadConfig(MemoryFile(kTable));
+    const Config config = LoadConfig(InputFile(kTable));
     std::vector<Experiment> experiments;
     for (const ExperimentConfig& each : config.experiments) experiments.push_back(each.experiment);
     return MakeFamilyProblem(config, experiments);

@@ -1,15 +1,18 @@
 #include "tests/fuzz/target.h"
 
 #include <glog/logging.h>
-#include <sys/mman.h>
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <fstream>
 #include <new>
+#include <system_error>
 
 #include "io/user_error.h"
 
 namespace howl {
+
+namespace fs = std::filesystem;
 
 std::vector<FuzzTarget> AllTargets() {
   std::vector<FuzzTarget> all;
@@ -19,12 +22,31 @@ std::vector<FuzzTarget> AllTargets() {
   return all;
 }
 
-std::filesystem::path MemoryFile(std::string_view bytes) {
-  thread_local const int descriptor = memfd_create("input", MFD_CLOEXEC);
-  CHECK_GE(descriptor, 0);
-  CHECK_EQ(ftruncate(descriptor, 0), 0);
-  CHECK_EQ(pwrite(descriptor, bytes.data(), bytes.size(), 0), static_cast<ssize_t>(bytes.size()));
-  return "/proc/self/fd/" + std::to_string(descriptor);
+const std::filesystem::path& ScratchFolder() {
+  struct Folder {
+    Folder() {
+      const fs::path parent = fs::exists("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
+      std::string form = (parent / "howl_fuzz_XXXXXX").string();
+      CHECK(mkdtemp(form.data()) != nullptr);
+      path = form;
+    }
+    ~Folder() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+    fs::path path;
+  };
+  static const Folder folder;
+  return folder.path;
+}
+
+// Not memfd_create(), whose files have no name that the HDF5 library takes.
+std::filesystem::path InputFile(std::string_view bytes) {
+  const fs::path path = ScratchFolder() / "input";
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  CHECK(file.flush().good());
+  return path;
 }
 
 void Answered(const std::function<void()>& read) {

@@ -29,8 +29,10 @@ std::vector<FuzzTarget> StateTargets();
 
 std::vector<FuzzTarget> AllTargets();
 
-// The path of a file in memory that has these bytes, until the next call from this thread.
-std::filesystem::path MemoryFile(std::string_view bytes);
+// A folder of this process, in memory where the system has such a place; removed with the process.
+const std::filesystem::path& ScratchFolder();
+// The path of a file in it that has these bytes, until the next call.
+std::filesystem::path InputFile(std::string_view bytes);
 
 // Runs `read`. A UserError is an answer: it must be one line of text, and not too long.
 void Answered(const std::function<void()>& read);
