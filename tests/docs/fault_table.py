@@ -157,6 +157,8 @@ FAULTS = [
     ("a MATLAB record is cut", lambda p: p.record("r.mat", p.corpus("mat5/plain")[:600])),
     ("a MATLAB record's dimensions are not its numbers'", mat_dimensions),
     ("an HDF5 record is cut", lambda p: p.record("r.h5", p.corpus("hdf5/plain")[:1500])),
+    ("an HDF5 record divides the library by zero",
+     lambda p: p.record("r.h5", p.corpus("hdf5/chunk_of_no_size"))),
 ]
 HOSTILE = [
     ("a name that is a path", lambda p: p.rig(name='"../up"')),
