@@ -1,10 +1,9 @@
 #include "app/child_process.h"
 
 #include <fcntl.h>
-#include <glog/logging.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,9 +19,15 @@ namespace {
 
 constexpr int kLookMs = 200;
 
+[[noreturn]] void FailToStart(const std::string& program, int error) {
+  throw UserError(program, 0, "", std::string("cannot be started: ") + std::strerror(error));
+}
+
 class Pipe {
  public:
-  Pipe() { CHECK_EQ(pipe2(ends_.data(), O_CLOEXEC), 0) << std::strerror(errno); }
+  explicit Pipe(const std::string& program) {
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) FailToStart(program, errno);
+  }
   ~Pipe() {
     Close(0);
     Close(1);
@@ -55,28 +60,46 @@ int Wait(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+// What the child does between fork and exec, with nothing that takes a lock: other threads may have
+// held it. The child ends with this program, even where that is killed: it would write where the
+// next run does. Writes why it failed to `fault`, which closes where it did not.
+[[noreturn]] void BecomeChild(pid_t parent, const std::array<int, 3>& streams, char** arguments,
+                              int fault) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // it has ended already
+  for (int stream = 0; stream < 3; ++stream) {
+    dup2(streams[static_cast<std::size_t>(stream)], stream);
+  }
+  execv(arguments[0], arguments);
+  const int error = errno;
+  [[maybe_unused]] const ssize_t written = write(fault, &error, sizeof error);
+  _exit(1);
+}
+
 }  // namespace
 
 ChildResult RunChild(const std::vector<std::string>& words, const std::string& input) {
-  // A program that ends before it has read its input must not end this one.
-  signal(SIGPIPE, SIG_IGN);
-  Pipe in;
-  Pipe out;
-  Pipe err;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
+  Pipe in(words[0]);
+  Pipe out(words[0]);
+  Pipe err(words[0]);
+  Pipe fault(words[0]);
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  pid_t child = -1;
-  const int failed =
-      posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) {
-    throw UserError(words[0], 0, "", std::string("cannot be started: ") + std::strerror(failed));
+  const pid_t self = getpid();
+  const pid_t child = fork();
+  if (child < 0) FailToStart(words[0], errno);
+  if (child == 0) {
+    BecomeChild(self, {in[0], out[1], err[1]}, arguments.data(), fault[1]);
+  }
+  fault.Close(1);
+  int failed = 0;
+  ssize_t got = -1;
+  while ((got = read(fault[0], &failed, sizeof failed)) < 0 && errno == EINTR) {
+  }
+  if (got == sizeof failed) {
+    Wait(child);
+    FailToStart(words[0], failed);
   }
   in.Close(0);
   out.Close(1);

@@ -14,8 +14,9 @@ struct ChildResult {
   std::string err;
 };
 
-// `input` is the program's standard input. An interruption (interruption.h) ends the program too.
-// May be called from several threads. Throws UserError where the program cannot be started.
+// `input` is the program's standard input. An interruption (interruption.h) ends the program too,
+// and so does the end of this one, however it ends. May be called from several threads. Throws
+// UserError where the program cannot be started.
 ChildResult RunChild(const std::vector<std::string>& words, const std::string& input);
 
 std::filesystem::path ThisProgram();

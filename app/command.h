@@ -37,6 +37,8 @@ struct Command {
   // The arguments after the command. "FILE..." is one file or more, which are Options::files.
   std::string operands = "CONFIG";
   std::optional<Sharding> sharding = std::nullopt;
+  // Whether it writes to the output folder at all, which then nobody else may meanwhile.
+  bool writes_output = writes_results;
 
   bool TakesSeveral() const { return operands.ends_with("..."); }
 };

@@ -2,14 +2,17 @@
 
 #include <signal.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <string_view>
 
 namespace howl {
 namespace {
 
 std::atomic<bool> interrupted{false};
 std::atomic<long long> first_ns{0};
+std::atomic<void (*)()> last_act{nullptr};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<long long>::is_always_lock_free,
               "a signal handler may touch them");
 
@@ -30,9 +33,16 @@ void OnSignal(int signal) {
   }
 }
 
-void Watch(int signal) {
+void EndOnSignal(int /*signal*/) {
+  if (void (*const act)() = last_act.load()) act();
+  constexpr std::string_view kSaid = "howl: interrupted\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kSaid.data(), kSaid.size());
+  _exit(kInterrupted);
+}
+
+void Watch(int signal, void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = OnSignal;
+  action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
   sigaction(signal, &action, nullptr);
 }
@@ -40,8 +50,18 @@ void Watch(int signal) {
 }  // namespace
 
 void WatchForInterruption() {
-  Watch(SIGINT);
-  Watch(SIGTERM);
+  Watch(SIGINT, OnSignal);
+  Watch(SIGTERM, OnSignal);
+}
+
+void EndWhenInterrupted(void (*act)()) {
+  last_act = act;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction now {};
+    // A shell gives what it runs in the background no Ctrl-C.
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;
+    Watch(signal, EndOnSignal);
+  }
 }
 
 bool IsInterrupted() { return interrupted; }

@@ -10,6 +10,10 @@ namespace howl {
 // The exit status with which a shell reports a program that Ctrl-C ended.
 inline constexpr int kInterrupted = 130;
 
+// Until WatchForInterruption(), SIGINT and SIGTERM end the program with one line on standard error
+// and kInterrupted. `last_act` is done first, and may do what a signal handler may.
+void EndWhenInterrupted(void (*last_act)());
+
 // Catches SIGINT and SIGTERM from now on; a second one, half a second later or more, ends the
 // program at once.
 void WatchForInterruption();

@@ -1,9 +1,8 @@
 #include <glog/logging.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -15,7 +14,9 @@
 #include "app/help_topics.h"
 #include "app/interruption.h"
 #include "app/negative_answer.h"
+#include "app/output_claim.h"
 #include "app/progress_line.h"
+#include "app/standard_streams.h"
 #include "estimation/parallel.h"
 #include "io/report/run_file.h"
 #include "io/user_error.h"
@@ -78,12 +79,13 @@ std::string NoMemory() {
   return running + "there is not enough memory, expected fewer or shorter records";
 }
 
-// A full disk behind standard output must not pass for an answer that was given.
-void FlushOutput() {
-  errno = 0;
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  const std::string why = errno != 0 ? std::strerror(errno) : "a part of it is lost";
-  throw UserError("standard output", 0, "", "cannot be written: " + why);
+std::string Fault(const std::exception& error) {
+  const std::string what = error.what();
+  // Of a library that starts threads.
+  if (what.find("pthread_create") != std::string::npos) {
+    return "no more threads can be started, expected fewer (--threads 1) or more memory";
+  }
+  return "fails: " + what;
 }
 
 int Run(const std::vector<std::string>& words) {
@@ -119,8 +121,13 @@ int Run(const std::vector<std::string>& words) {
   const Options options = line.Finish(operands);
   running = options.config.string() + ": " + command.name + ": ";
   LogAsAsked();
+  AllowThreads(options.threads);
   ProgressLine progress(command.name, options.quiet);
   ObserveUnits([&](std::size_t done, std::size_t total) { progress.Show(done, total); });
+  const std::unique_ptr<OutputClaim> claim =
+      command.writes_output
+          ? std::make_unique<OutputClaim>(options.out, command.name, ShardOf(options))
+          : nullptr;
   const int status = command.run(options);
   if (command.writes_results) NoteRun(options.out, options.config, command.name, options.seed);
   return status;
@@ -130,8 +137,10 @@ int Run(const std::vector<std::string>& words) {
 }  // namespace howl
 
 int main(int argc, char** argv) {
+  howl::SecureStandardStreams();
   google::InitGoogleLogging(argv[0]);
   FLAGS_logtostderr = true;
+  howl::EndWhenInterrupted(howl::OutputLock::RemoveAll);
   try {
     const int status = howl::Run({argv + 1, argv + argc});
     howl::FlushOutput();
@@ -151,7 +160,7 @@ int main(int argc, char** argv) {
   } catch (const std::length_error&) {
     std::fprintf(stderr, "%s\n", howl::NoMemory().c_str());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%sfails: %s\n", howl::running.c_str(), error.what());
+    std::fprintf(stderr, "%s%s\n", howl::running.c_str(), howl::Fault(error).c_str());
   }
   return howl::kBadInput;
 }

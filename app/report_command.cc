@@ -4,6 +4,7 @@
 
 #include "app/command.h"
 #include "app/interruption.h"
+#include "app/output_lock.h"
 #include "app/text_table.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/page.h"
@@ -35,6 +36,10 @@ int Run(const Options& options) {
   ReportInput input = ReadReportInput(folder, options.threads);
   const std::vector<Figure> figures = AllFigures(input, options.threads, input.missing);
   StopIfAsked();
+  // Not the folder's own lock: a page may be made of what is there while a long run adds to it.
+  const OutputLock lock(folder / "figures", ".howl.lock", OutputLock::Kind::kAlone, "howl report");
+  RemoveUnpublished(folder, "report.html");
+  RemoveUnpublished(folder / "figures");
   const auto svgs = RenderFigures(figures, folder / "figures", render, input.missing);
   StopIfAsked();
   WriteWholeFile(folder / "report.html", ReportPage(input, figures, svgs));

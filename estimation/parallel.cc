@@ -1,9 +1,12 @@
 #include "estimation/parallel.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <memory>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 namespace howl {
@@ -18,6 +21,15 @@ UnitObserver& Observer() {
 thread_local bool is_inside = false;
 
 }  // namespace
+
+void AllowThreads(int threads) {
+  using Control = tbb::global_control;
+  static std::unique_ptr<Control> control;
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+  if (threads > cores) {
+    control = std::make_unique<Control>(Control::max_allowed_parallelism, threads);
+  }
+}
 
 void ObserveUnits(UnitObserver observer) { Observer() = std::move(observer); }
 

@@ -11,6 +11,10 @@ namespace howl {
 // threads = 0: all cores.
 void RunUnits(std::size_t count, int threads, const std::function<void(std::size_t)>& unit);
 
+// To be called once, before any unit runs: without it no more threads are used than there are
+// cores, whatever RunUnits is asked for.
+void AllowThreads(int threads);
+
 // Called after every unit of an outermost RunUnits, by one thread at a time: for a progress
 // display. Set it before any unit runs; empty (the default) for none.
 using UnitObserver = std::function<void(std::size_t done, std::size_t total)>;

@@ -9,13 +9,27 @@
 #include <cstdio>
 #include <cstring>
 #include <system_error>
+#include <vector>
 
 #include "io/user_error.h"
 
 namespace howl {
+namespace {
 
-NewFile::NewFile(const std::filesystem::path& path)
-    : path_(path), temporary_(path.string() + ".XXXXXX") {
+// report.html is .report.html.howl-XXXXXX until it is published: hidden, and a name that no user
+// gives.
+constexpr std::string_view kMark = ".howl-";
+constexpr std::string_view kRandom = "XXXXXX";
+
+std::string TemporaryName(const std::filesystem::path& path) {
+  const std::string name =
+      "." + path.filename().string() + std::string(kMark) + std::string(kRandom);
+  return (path.parent_path() / name).string();
+}
+
+}  // namespace
+
+NewFile::NewFile(const std::filesystem::path& path) : path_(path), temporary_(TemporaryName(path)) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   if (error) {
@@ -72,6 +86,21 @@ void WriteWholeFile(const std::filesystem::path& path, std::string_view content)
   NewFile file(path);
   file.Write(content.data(), content.size());
   file.Publish();
+}
+
+void RemoveUnpublished(const std::filesystem::path& folder, std::string_view prefix) {
+  std::error_code error;
+  std::vector<std::filesystem::path> found;
+  for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    const bool is_ours =
+        name.starts_with("." + std::string(prefix)) &&
+        name.size() > kMark.size() + kRandom.size() &&
+        name.compare(name.size() - kRandom.size() - kMark.size(), kMark.size(), kMark) == 0;
+    if (is_ours) found.push_back(at->path());
+  }
+  for (const std::filesystem::path& path : found) unlink(path.c_str());
 }
 
 }  // namespace howl

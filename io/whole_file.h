@@ -32,6 +32,10 @@ class NewFile {
 
 void WriteWholeFile(const std::filesystem::path& path, std::string_view content);
 
+// Removes what runs that were killed left of files in `folder` that they had not published, of
+// those alone whose names begin with `prefix`. Nobody else may be writing these.
+void RemoveUnpublished(const std::filesystem::path& folder, std::string_view prefix = "");
+
 }  // namespace howl
 
 #endif  // HOWL_IO_WHOLE_FILE_H_

@@ -15,6 +15,7 @@
 #include "app/interruption.h"
 #include "app/jobs/shard.h"
 #include "app/jobs/unit_store.h"
+#include "app/json_fields.h"
 #include "estimation/parallel.h"
 #include "io/config/config.h"
 #include "io/results/result_files.h"
@@ -45,7 +46,11 @@ std::string CampaignSha256(const CampaignSpec& spec) {
 
 bool IsOf(const std::string& row, const CampaignSpec& spec, const CampaignRig& rig) {
   const auto json = nlohmann::json::parse(row, nullptr, false);
-  return json.is_object() && json.value("inputs_sha256", "") == RigInputsSha256(spec, rig);
+  return json.is_object() && TextAt(json, "inputs_sha256") == RigInputsSha256(spec, rig);
+}
+
+bool HasError(const std::string& row) {
+  return !TextAt(nlohmann::json::parse(row, nullptr, false), "error").empty();
 }
 
 // A key that a config has not, a value that it cannot have: said before the first rig is run.
@@ -109,6 +114,8 @@ Units RowsOf(const CampaignSpec& spec, const CampaignRigs& all, const Options& o
   const bool is_ours = stored.header == StateHeader() && !stored.repeats_a_key;
   Units rows = ValidRows(spec, all, is_ours ? stored.units : Units());
   if (options.Has(kTableOption)) return rows;
+  // What failed may have failed for want of memory or of room on the disk.
+  std::erase_if(rows, [](const auto& row) { return HasError(row.second); });
   if (!rows.empty() && !options.quiet) {
     std::fprintf(stderr, "going on from %s: %zu of %zu rigs are done\n", StatePath(options).c_str(),
                  rows.size(), all.rigs.size());
@@ -165,7 +172,8 @@ Command CampaignCommand() {
           Run,
           false,
           "CAMPAIGN",
-          Sharding{InputsOf, Adopt, kTableOption}};
+          Sharding{InputsOf, Adopt, kTableOption},
+          true};
 }
 
 }  // namespace howl

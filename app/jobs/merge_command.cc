@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -8,6 +10,7 @@
 #include "app/jobs/shard_set.h"
 #include "app/jobs/unit_store.h"
 #include "app/negative_answer.h"
+#include "app/output_claim.h"
 #include "io/report/run_file.h"
 #include "io/user_error.h"
 
@@ -63,6 +66,10 @@ int MergeOne(ShardSet set) {
 int Run(const Options& merge) {
   Options at = merge;
   if (!at.out_is_given) at.out = merge.config;
+  // Of a folder that is not there ReadShards says so.
+  std::optional<OutputClaim> claim;
+  if (std::filesystem::is_directory(ShardFolder(at.out)))
+    claim.emplace(at.out, "merge", std::nullopt);
   int status = kDone;
   for (ShardSet& set : ReadShards(at)) status = std::max(status, MergeOne(std::move(set)));
   return status;

@@ -10,8 +10,6 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kMostShards = 100'000;
-
 std::optional<std::size_t> Whole(std::string_view text) {
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

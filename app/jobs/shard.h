@@ -34,6 +34,8 @@ struct Shard {
 // unit's end is not taken for a whole one.
 inline constexpr const char* kCountKey = "#units";
 
+inline constexpr std::size_t kMostShards = 100'000;
+
 // The option that every sharded command has.
 inline constexpr const char* kShardOption = "--shard";
 OptionHelp ShardOption();

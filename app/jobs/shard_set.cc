@@ -36,7 +36,10 @@ Json ParseHeader(const fs::path& path, const std::string& header) {
       parsed.contains("inputs_sha256") && parsed["inputs_sha256"].is_string() &&
       parsed.contains("shards") && parsed["shards"].is_number_unsigned() &&
       parsed.contains("shard") && parsed["shard"].is_number_unsigned();
-  if (!is_shard) throw UserError(path.string(), 1, "", "no shard, expected one of howl.shard/1");
+  const auto is_text = [](const Json& value) { return value.is_string(); };
+  const bool is_whole = is_shard && std::ranges::all_of(parsed["options"], is_text) &&
+                        parsed["shards"] <= kMostShards;
+  if (!is_whole) throw UserError(path.string(), 1, "", "no shard, expected one of howl.shard/1");
   return parsed;
 }
 

@@ -9,6 +9,7 @@
 #include "app/digest.h"
 #include "app/interruption.h"
 #include "app/jobs/shard.h"
+#include "app/json_fields.h"
 #include "app/trial/trial_run.h"
 #include "app/trial/trial_shards.h"
 #include "io/results/trial_sheet.h"
@@ -59,7 +60,7 @@ std::optional<std::string> SealAndDiagnose(const TrialFolder& folder, const Tria
   if (!log.Find("sealed")) {
     MakeCases(folder, request, options.threads, ShowProgress(options, "cases made"), log);
     if (!options.quiet) {
-      std::printf("sealed: %s\n", log.Find("sealed")->value("seal_sha256", "").c_str());
+      std::printf("sealed: %s\n", TextAt(*log.Find("sealed"), "seal_sha256").c_str());
       std::fflush(stdout);
     }
   }

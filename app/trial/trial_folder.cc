@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/digest.h"
+#include "app/json_fields.h"
 
 namespace howl {
 namespace {
@@ -49,15 +50,15 @@ void CompareSealed(const TrialFolder& folder, const TrialLog& log, Changes& chan
     changes.Add(folder.Log(), "has no entry of the sealing");
     return;
   }
-  changes.Compare(folder.Seal(), sealed->value("seal_sha256", ""), "the sealing");
+  changes.Compare(folder.Seal(), TextAt(*sealed, "seal_sha256"), "the sealing");
   const nlohmann::json seal =
       nlohmann::json::parse(ReadWholeFile(folder.Seal()).value_or(""), nullptr, false);
   if (!seal.is_object()) return;
-  changes.Compare(folder.SealedKey(), seal.value("sealed_key_sha256", ""), "the sealing");
+  changes.Compare(folder.SealedKey(), TextAt(seal, "sealed_key_sha256"), "the sealing");
   if (fs::exists(folder.OpenKey())) {
-    changes.Compare(folder.OpenKey(), seal.value("key_sha256", ""), "the sealing");
+    changes.Compare(folder.OpenKey(), TextAt(seal, "key_sha256"), "the sealing");
   }
-  const nlohmann::json cases = seal.value("cases", nlohmann::json::object());
+  const nlohmann::json cases = ObjectAt(seal, "cases");
   for (const auto& [name, hash] : cases.items()) {
     if (Sha256OfFolder(folder.CaseFolder(name)) != hash) {
       changes.Add(folder.CaseFolder(name), "has changed since the sealing");
@@ -69,18 +70,18 @@ void CompareDiagnoses(const TrialFolder& folder, const TrialLog& log, Changes& c
   double opened_at = 0.0;
   std::set<std::string> seen;
   for (const nlohmann::json& entry : log.entries()) {
-    const std::string event = entry.value("event", "");
+    const std::string event = TextAt(entry, "event");
     if (event == "opened") {
       if (opened_at > 0.0) changes.Add(folder.OpenKey(), "was opened twice");
-      opened_at = entry.value("unix_s", 0.0);
+      opened_at = NumberAt(entry, "unix_s", 0.0);
     }
     if (event != "diagnosed") continue;
-    const std::string name = entry.value("case", "");
+    const std::string name = TextAt(entry, "case");
     const fs::path path = folder.Diagnosis(name);
     if (opened_at > 0.0) changes.Add(path, "was made after the key was opened");
     if (!seen.insert(name).second) changes.Add(path, "was made twice");
-    if (entry.value("status", -1) == 0) {
-      changes.Compare(path, entry.value("sha256", ""), "it was logged");
+    if (NumberAt(entry, "status", -1.0) == 0) {
+      changes.Compare(path, TextAt(entry, "sha256"), "it was logged");
     } else if (fs::exists(path)) {
       changes.Add(path, "is there, but the logged diagnosis failed");
     }
@@ -117,9 +118,10 @@ std::vector<std::string> FindChanges(const TrialFolder& folder, const TrialLog& 
   CompareSealed(folder, log, changes);
   CompareDiagnoses(folder, log, changes);
   if (const auto scored = log.Find("scored")) {
-    const nlohmann::json files = scored->value("files", nlohmann::json::object());
+    const nlohmann::json files = ObjectAt(*scored, "files");
     for (const auto& [file, hash] : files.items()) {
-      changes.Compare(folder.root / file, hash.get<std::string>(), "the scoring");
+      changes.Compare(folder.root / file, hash.is_string() ? hash.get<std::string>() : "",
+                      "the scoring");
     }
   }
   return std::move(changes).lines();

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "app/digest.h"
+#include "app/json_fields.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -43,7 +44,7 @@ std::size_t TrialLog::Read(const std::string& text) {
     const std::string line = text.substr(from, to - from);
     from = to + 1;
     nlohmann::json entry = nlohmann::json::parse(line, nullptr, false);
-    const bool holds = entry.is_object() && entry.value("previous", "") == last_hash_;
+    const bool holds = entry.is_object() && TextAt(entry, "previous") == last_hash_;
     if (!holds && broken_line_ == 0) broken_line_ = entries_.size() + 1;
     last_hash_ = Sha256(line);
     entries_.push_back(entry.is_object() ? std::move(entry) : nlohmann::json::object());
@@ -68,7 +69,7 @@ void TrialLog::Append(nlohmann::ordered_json entry) {
 
 std::optional<nlohmann::json> TrialLog::Find(const std::string& event) const {
   for (const nlohmann::json& entry : entries_) {
-    if (entry.value("event", "") == event) return entry;
+    if (TextAt(entry, "event") == event) return entry;
   }
   return std::nullopt;
 }

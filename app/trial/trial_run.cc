@@ -10,6 +10,7 @@
 #include "app/child_process.h"
 #include "app/digest.h"
 #include "app/interruption.h"
+#include "app/json_fields.h"
 #include "app/trial/trial_seal.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
@@ -92,7 +93,7 @@ void MakeCases(const TrialFolder& folder, const TrialRequest& request, int threa
 void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progress, TrialLog& log) {
   std::set<std::string> done;
   for (const nlohmann::json& entry : log.entries()) {
-    if (entry.value("event", "") == "diagnosed") done.insert(entry.value("case", ""));
+    if (TextAt(entry, "event") == "diagnosed") done.insert(TextAt(entry, "case"));
   }
   const nlohmann::json seal = nlohmann::json::parse(ReadWholeFile(folder.Seal()).value_or(""));
   std::vector<std::string> left;
@@ -101,7 +102,7 @@ void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progre
   }
   if (left.empty()) return;
   // Half of the cases by one program and half by another would be no trial of either.
-  if (Sha256OfFile(ThisProgram()).value_or("") != seal.value("howl_sha256", "")) {
+  if (Sha256OfFile(ThisProgram()).value_or("") != TextAt(seal, "howl_sha256")) {
     throw UserError(ThisProgram().string(), 0, "",
                     "has changed since the trial was sealed, expected the program that sealed it");
   }
@@ -117,6 +118,12 @@ void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progre
     // A terminal's Ctrl-C reaches the child as well, and may end it before this program notices.
     if (result.status < 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));
     if (IsInterrupted()) return;
+    // That is no answer of the diagnosis: the system ended it, mostly for want of memory.
+    if (result.status < 0) {
+      throw UserError(out.string(), 0, "",
+                      "its diagnosis was ended by a signal, expected the same command again, which "
+                      "goes on from here");
+    }
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     Json entry = {{"event", "diagnosed"},
                   {"case", name},

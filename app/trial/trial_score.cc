@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "app/digest.h"
+#include "app/json_fields.h"
 #include "app/trial/trial_run.h"
 #include "io/results/result_files.h"
 #include "io/results/trial_json.h"
@@ -39,8 +40,8 @@ ScoredTrial ScoreTrial(const TrialFolder& folder, const TrialLog& log) {
   trial.effects = ReadEffects(trial.key);
   std::map<std::string, double> seconds;
   for (const nlohmann::json& entry : log.entries()) {
-    if (entry.value("event", "") == "diagnosed") {
-      seconds[entry.at("case").get<std::string>()] = entry.at("seconds").get<double>();
+    if (TextAt(entry, "event") == "diagnosed") {
+      seconds[TextAt(entry, "case")] = NumberAt(entry, "seconds", std::nan(""));
     }
   }
   for (const auto& [name, rig] : trial.key.at("cases").items()) {
@@ -58,7 +59,7 @@ ScoredTrial ScoreTrial(const TrialFolder& folder, const TrialLog& log) {
 }
 
 void WriteScores(const TrialFolder& folder, const ScoredTrial& trial, TrialLog& log) {
-  const std::string seal = log.Find("sealed")->value("seal_sha256", "");
+  const std::string seal = TextAt(*log.Find("sealed"), "seal_sha256");
   const auto command = trial.key.at("command").get<std::string>();
   const Json about = {{"command", command}, {"seed", trial.key.at("seed")}, {"seal_sha256", seal}};
   const std::map<std::string, std::string> files = {

@@ -7,6 +7,7 @@
 
 #include "app/child_process.h"
 #include "app/digest.h"
+#include "app/json_fields.h"
 #include "app/trial/trial_seal.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
@@ -49,7 +50,7 @@ void AddCases(const TrialRequest& request, const std::string& name, const Units&
   const std::string seal_text = Required(units, KeyOf(kSeal, name), folder);
   const Json seal = Json::parse(seal_text, nullptr, false);
   const std::optional<std::string> key = OpenText(sealed_key, request.Passphrase());
-  if (!key || !seal.is_object() || seal.value("key_sha256", "") != Sha256(*key)) {
+  if (!key || !seal.is_object() || TextAt(seal, "key_sha256") != Sha256(*key)) {
     throw UserError(folder.string(), 0, KeyOf(kKey, name),
                     "is not the key that its shard sealed: remove the shard and run it again");
   }
@@ -65,13 +66,13 @@ std::vector<Json> DiagnosedEntries(const std::vector<TrialLog>& logs) {
   std::vector<Json> entries;
   for (const TrialLog& log : logs) {
     for (Json entry : log.entries()) {
-      if (entry.value("event", "") != "diagnosed") continue;
+      if (TextAt(entry, "event") != "diagnosed") continue;
       entry.erase("previous");
       entries.push_back(std::move(entry));
     }
   }
   std::ranges::stable_sort(entries, {}, [](const Json& entry) {
-    return std::pair(entry.value("at", ""), entry.value("case", ""));
+    return std::pair(TextAt(entry, "at"), TextAt(entry, "case"));
   });
   return entries;
 }
@@ -93,8 +94,8 @@ Units UnitsOfShard(const TrialFolder& folder, const Shard& shard, const TrialLog
   units[KeyOf(kKey, shard.Name())] = ReadWholeFile(folder.SealedKey()).value_or("");
   units[KeyOf(kLog, shard.Name())] = ReadWholeFile(folder.Log()).value_or("");
   for (const Json& entry : log.entries()) {
-    if (entry.value("event", "") != "diagnosed" || entry.value("status", -1) != 0) continue;
-    const std::string name = entry.value("case", "");
+    if (TextAt(entry, "event") != "diagnosed" || NumberAt(entry, "status", -1.0) != 0) continue;
+    const std::string name = TextAt(entry, "case");
     units[KeyOf(kDiagnosis, name)] = ReadWholeFile(folder.Diagnosis(name)).value_or("");
   }
   return units;
@@ -117,8 +118,8 @@ void AdoptTrialShards(const Options& options, const Units& units) {
                       "is broken, expected its shard's log: remove the shard and run it again");
     }
     seals.push_back({{"shard", name},
-                     {"at", sealed->value("at", "")},
-                     {"seal_sha256", sealed->value("seal_sha256", "")}});
+                     {"at", TextAt(*sealed, "at")},
+                     {"seal_sha256", TextAt(*sealed, "seal_sha256")}});
   }
   for (const auto& [key, bytes] : units) {
     if (!key.starts_with(kDiagnosis)) continue;

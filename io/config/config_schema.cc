@@ -87,8 +87,8 @@ const nlohmann::json& ResolveRef(const nlohmann::json& root, const nlohmann::jso
 const nlohmann::json* FindMemberSchema(const nlohmann::json& root, const nlohmann::json& schema,
                                        const std::string& key) {
   const auto properties = schema.find("properties");
-  if (properties == schema.end()) return nullptr;
-  if (properties->contains(key)) return &ResolveRef(root, properties->at(key));
+  if (properties != schema.end() && properties->contains(key))
+    return &ResolveRef(root, properties->at(key));
   const auto any = schema.find("additionalProperties");
   return any != schema.end() && any->is_object() ? &ResolveRef(root, *any) : nullptr;
 }

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -98,11 +100,14 @@ std::string ReadConfigText(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(status)) {
     throw UserError(file, 0, "", "this is a folder, expected a config (YAML) file in it");
   }
+  errno = 0;
   std::ifstream stream(path, std::ios::binary);
   std::string text(kMaxConfigBytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad() || (stream.fail() && !stream.eof())) {
-    throw UserError(file, 0, "", "the file cannot be read, expected a readable config (YAML)");
+    throw UserError(file, 0, "",
+                    "cannot be read" + (errno != 0 ? ": " + std::string(strerror(errno)) : "") +
+                        ", expected a readable config (YAML)");
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));
   // This is checked before the size and the bytes, which are wrong in such a file as well.

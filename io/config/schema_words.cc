@@ -106,7 +106,9 @@ std::string Join(const std::vector<std::string>& words) {
 
 std::vector<std::string> KeysOf(const Json& schema) {
   auto keys = schema.value("required", std::vector<std::string>());
-  for (const auto& [name, part] : schema.at("properties").items()) {
+  const auto properties = schema.find("properties");
+  if (properties == schema.end()) return keys;
+  for (const auto& [name, part] : properties->items()) {
     if (std::find(keys.begin(), keys.end(), name) == keys.end()) keys.push_back(name);
   }
   return keys;

@@ -1,12 +1,23 @@
 #include "io/records/array_columns.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "io/memory.h"
+#include "io/records/packed_size.h"
 #include "io/user_error.h"
 
 namespace howl {
 namespace {
+
+constexpr std::size_t kMostChannels = 10'000;  // that are listed
+
+double FileBytes(const std::string& file) {
+  std::error_code ignored;
+  const auto size = std::filesystem::file_size(file, ignored);
+  return ignored ? 0.0 : static_cast<double>(size);
+}
 
 std::string Size(const ArrayInfo& array) {
   return std::to_string(array.rows) + " x " + std::to_string(array.columns);
@@ -99,6 +110,10 @@ std::vector<ColumnInfo> ListChannels(const std::vector<ArrayInfo>& arrays) {
       columns.push_back({array.name, array.name, array.problem, array.samples()});
       continue;
     }
+    if (array.channels() > kMostChannels) {
+      columns.push_back({array.name, array.name, "a " + Size(array) + " matrix", array.samples()});
+      continue;
+    }
     for (std::size_t k = 1; k <= array.channels(); ++k) {
       const std::string name = array.name + ":" + std::to_string(k);
       columns.push_back({name, "", "", array.samples()});
@@ -129,6 +144,9 @@ std::vector<ArrayChannel> FindChannels(const std::string& file,
       finder.Fail(name, std::to_string(samples) +
                             " samples do not fit into the memory, expected a shorter record");
     }
+    // Of a matrix all is unpacked, whichever of its channels is read.
+    const double all_bytes = bytes * static_cast<double>(arrays[channel.array].channels());
+    if (IsBomb(FileBytes(file), all_bytes)) finder.Fail(name, kBombWords);
     const std::size_t expected = arrays[found.front().array].samples();
     if (samples != expected) {
       finder.Fail(name, std::to_string(samples) + " samples, expected " + std::to_string(expected) +

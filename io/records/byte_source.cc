@@ -12,6 +12,8 @@
 #include <system_error>
 #include <vector>
 
+#include "io/records/packed_size.h"
+
 namespace howl {
 namespace {
 
@@ -83,6 +85,8 @@ class GzipBytes final : public ByteSource {
       stream_.avail_out = static_cast<uInt>(want);
       const int status = inflate(&stream_, Z_NO_FLUSH);
       done += want - stream_.avail_out;
+      unpacked_ += static_cast<double>(want - stream_.avail_out);
+      if (IsBomb(packed_bytes_, unpacked_)) throw ByteError(kBombWords);
       inside_member_ = status != Z_STREAM_END;
       if (status == Z_STREAM_END) {
         StartNextMember();
@@ -104,6 +108,7 @@ class GzipBytes final : public ByteSource {
     const std::size_t got = packed_->Read(reinterpret_cast<char*>(input_.data()), input_.size());
     stream_.next_in = input_.data();
     stream_.avail_in = static_cast<uInt>(got);
+    packed_bytes_ += static_cast<double>(got);
     if (got > 0) return;
     if (inside_member_) throw ByteError("truncated gzip, expected its end");
     at_end_ = true;
@@ -123,6 +128,8 @@ class GzipBytes final : public ByteSource {
 
   std::unique_ptr<ByteSource> packed_;
   std::vector<Bytef> input_;
+  double packed_bytes_ = 0.0;  // read so far
+  double unpacked_ = 0.0;
   z_stream stream_{};
   bool inside_member_ = true;
   bool at_end_ = false;

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/records/array_columns.h"
 #include "io/records/hdf5_lock.h"
+#include "io/records/packed_size.h"
+#include "io/records/survival.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -54,6 +57,18 @@ std::string Problem(hid_t dataset, int rank) {
   return rank == 1 || rank == 2 ? "" : std::to_string(rank) + " dimensions";
 }
 
+// A chunk is unpacked as a whole; 0 without any.
+double ChunkBytes(hid_t dataset) {
+  const Handle plist(H5Dget_create_plist(dataset), H5Pclose);
+  if (!plist.ok() || H5Pget_layout(plist.get()) != H5D_CHUNKED) return 0.0;
+  std::array<hsize_t, H5S_MAX_RANK> sizes{};
+  const int rank = H5Pget_chunk(plist.get(), H5S_MAX_RANK, sizes.data());
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  auto bytes = static_cast<double>(H5Tget_size(type.get()));
+  for (int i = 0; i < rank; ++i) bytes *= static_cast<double>(sizes[static_cast<std::size_t>(i)]);
+  return bytes;
+}
+
 herr_t AddDataset(hid_t root, const char* name, const H5O_info_t* info, void* arrays) {
   if (info->type != H5O_TYPE_DATASET) return 0;
   const Handle dataset(H5Dopen2(root, name, H5P_DEFAULT), H5Dclose);
@@ -81,6 +96,15 @@ class Hdf5Table final : public TableSource {
 
   Columns Read(const std::vector<ColumnName>& names) override {
     const Hdf5Lock lock;
+    RequireSurvival(file_, [&] { ReadColumns(names); });
+    return ReadColumns(names);
+  }
+
+  std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
+  std::string Format() const override { return "an HDF5 file"; }
+
+ private:
+  Columns ReadColumns(const std::vector<ColumnName>& names) const {
     Columns columns;
     for (const ArrayChannel& channel : FindChannels(file_, arrays_, names)) {
       columns.push_back(ReadChannel(arrays_[channel.array], channel.channel));
@@ -88,15 +112,14 @@ class Hdf5Table final : public TableSource {
     return columns;
   }
 
-  std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
-  std::string Format() const override { return "an HDF5 file"; }
-
- private:
   std::vector<double> ReadChannel(const ArrayInfo& array, std::size_t channel) const {
     std::vector<double> column(array.samples());
     if (column.empty()) return column;
     const Handle dataset(H5Dopen2(root_.get(), array.name.c_str(), H5P_DEFAULT), H5Dclose);
     const Handle space(H5Dget_space(dataset.get()), H5Sclose);
+    if (IsBomb(static_cast<double>(std::filesystem::file_size(file_)), ChunkBytes(dataset.get()))) {
+      throw UserError(file_, 0, array.name, kBombWords);
+    }
     if (array.channels() > 1) {
       std::array<hsize_t, 2> start = {0, channel};
       std::array<hsize_t, 2> count = {array.rows, 1};
@@ -146,6 +169,7 @@ Hdf5Lock::Hdf5Lock() : lock_(Hdf5Mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, n
 
 std::unique_ptr<TableSource> OpenHdf5Table(const std::filesystem::path& file) {
   const Hdf5Lock lock;
+  RequireSurvival(file.string(), [&] { const Hdf5Table table(file); });
   return std::make_unique<LockedHdf5Table>(file);
 }
 

@@ -10,40 +10,28 @@
 #include <string>
 #include <vector>
 
+#include "io/records/mat5_element.h"
+#include "io/records/mat5_nested.h"
+#include "io/records/packed_size.h"
 #include "io/user_error.h"
 
 namespace howl {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
+using Words = Mat5Words;
+using Element = Mat5Element;
 
-constexpr std::uint32_t kMatrix = 14;
+constexpr std::uint32_t kMatrix = kMat5Matrix;
 constexpr std::uint32_t kCompressed = 15;
 constexpr std::size_t kStart = 4096;  // of a variable, that has its class, dimensions and name
-constexpr std::size_t kTag = 8;
+constexpr std::size_t kTag = kMat5Tag;
 
-struct Words {
-  bool swapped = false;
-  std::uint32_t At(const Bytes& bytes, std::size_t at) const {
-    std::uint32_t word = 0;
-    for (std::size_t i = 0; i < 4; ++i) word = word << 8 | bytes[at + (swapped ? i : 3 - i)];
-    return word;
-  }
-};
+constexpr const char* kDamagedHead =
+    "a variable that does not begin as one does, expected a MATLAB file: damaged";
 
-struct Element {
-  std::uint32_t type = 0;
-  std::size_t length = 0;
-  std::size_t begin = 0;  // of its bytes
-  std::size_t next = 0;   // element
-};
-
-std::optional<Element> ElementAt(const Bytes& bytes, std::size_t at, const Words& words) {
-  if (at + kTag > bytes.size()) return std::nullopt;
-  const std::uint32_t first = words.At(bytes, at);
-  if (first >> 16 != 0) return Element{first & 0xffff, first >> 16, at + 4, at + kTag};
-  const std::size_t length = words.At(bytes, at + 4);
-  return Element{first, length, at + kTag, at + kTag + (length + 7) / 8 * 8};
+std::optional<Element> ElementAt(Mat5Bytes bytes, std::size_t at, const Words& words) {
+  return Mat5ElementAt(bytes, at, words);
 }
 
 // 0 for a type that is no number.
@@ -80,8 +68,8 @@ std::string Fault(const Bytes& bytes, const Words& words, std::string* name) {
          " by its dimensions: damaged";
 }
 
-Bytes Inflated(const Bytes& packed) {
-  Bytes bytes(kStart);
+Bytes Inflated(const Bytes& packed, std::size_t size) {
+  Bytes bytes(size);
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) return {};
   stream.next_in = const_cast<Bytef*>(packed.data());
@@ -116,17 +104,32 @@ void CheckMat5(const std::filesystem::path& file) {
     const std::uint32_t type = words.At(tag, 0);
     const std::size_t length = words.At(tag, 4);
     Bytes start = read(at + kTag, std::min(length, kStart));
-    at += kTag + length;
+    const std::uintmax_t begin = at + kTag;
+    at = begin + length;
     if (at > size) break;
+    std::size_t stated = length;
     if (type == kCompressed) {
-      start = Inflated(start);
-      if (start.size() < kTag || words.At(start, 0) != kMatrix) continue;
+      start = Inflated(start, kStart);
+      if (start.size() < kTag || words.At(start, 0) != kMatrix) {
+        throw UserError(file.string(), 0, "", kDamagedHead);
+      }
+      stated = words.At(start, 4);
       start.erase(start.begin(), start.begin() + kTag);
     } else if (type != kMatrix) {
       continue;
     }
+    if (!HasHead(start, words)) throw UserError(file.string(), 0, "", kDamagedHead);
     std::string name;
-    const std::string fault = Fault(start, words, &name);
+    std::string fault = Fault(start, words, &name);
+    if (fault.empty() && HoldsOthers(start, words)) {
+      if (IsBomb(static_cast<double>(length), static_cast<double>(stated))) {
+        throw UserError(file.string(), 0, name, kBombWords);
+      }
+      Bytes whole = read(begin, length);
+      if (type == kCompressed) whole = Inflated(whole, kTag + stated);
+      const std::size_t skipped = type == kCompressed ? std::min(kTag, whole.size()) : 0;
+      fault = FindNestedFault(Mat5Bytes(whole).subspan(skipped), words);
+    }
     if (!fault.empty()) throw UserError(file.string(), 0, name, fault);
   }
   if (at > size) {

@@ -13,6 +13,7 @@
 #include "io/records/hdf5_lock.h"
 #include "io/records/hdf5_table.h"
 #include "io/records/mat5_check.h"
+#include "io/records/survival.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -90,11 +91,8 @@ class MatTable final : public TableSource {
 
   Columns Read(const std::vector<ColumnName>& names) override {
     const Hdf5Lock lock;
-    Columns columns;
-    for (const ArrayChannel& channel : FindChannels(file_, arrays_, names)) {
-      columns.push_back(ReadChannel(arrays_[channel.array], channel.channel));
-    }
-    return columns;
+    RequireSurvival(file_, [&] { ReadColumns(names); });
+    return ReadColumns(names);
   }
 
   std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
@@ -103,9 +101,18 @@ class MatTable final : public TableSource {
   }
 
  private:
+  Columns ReadColumns(const std::vector<ColumnName>& names) {
+    Columns columns;
+    for (const ArrayChannel& channel : FindChannels(file_, arrays_, names)) {
+      columns.push_back(ReadChannel(arrays_[channel.array], channel.channel));
+    }
+    return columns;
+  }
+
   // A struct has its fields in its place: rec.p, and of a struct within it rec.run.p.
   void AddArrays(matvar_t& variable, const std::string& name) {
     if (IsSingleStruct(variable)) {
+      if (variable.data == nullptr) return;  // a damaged one, which matio would look into
       const unsigned count = Mat_VarGetNumberOfFields(&variable);
       char* const* const fields = Mat_VarGetStructFieldnames(&variable);
       for (unsigned i = 0; i < count; ++i) {
@@ -269,6 +276,8 @@ std::unique_ptr<TableSource> OpenMatTable(const std::filesystem::path& file) {
   std::unique_ptr<MatTable> table;
   {
     const Hdf5Lock lock;
+    // Not deleted: that would wait for the lock.
+    RequireSurvival(file.string(), [&] { (void)new MatTable(file); });
     table = std::make_unique<MatTable>(file);
   }
   if (!table->HasUntoldClass()) return table;

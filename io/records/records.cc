@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/number_range.h"
+#include "io/records/file_state.h"
 #include "io/records/known_instruments.h"
 #include "io/records/number_text.h"
 #include "io/records/table_source.h"
@@ -21,6 +22,8 @@ namespace {
 
 // Two rates whose relative difference is less are in the same unit; units differ by a thousand.
 constexpr double kSameRate = 0.01;
+
+const std::string kFewSamples = " samples, expected at least " + std::to_string(kFewestSamples);
 
 struct Part {
   std::size_t first = 0;
@@ -37,6 +40,7 @@ class Loader {
  private:
   void CheckSpec() const;
   Part ChoosePart(std::size_t rows, double step_s) const;
+  void CheckLength(const Part& part) const;
   double TimeUnit(double step) const;
   double CheckTime(std::span<const double> time, std::size_t first, double step, double resolution,
                    double unit_s) const;
@@ -99,6 +103,12 @@ Part Loader::ChoosePart(std::size_t rows, double step_s) const {
   }
   part.count = static_cast<std::size_t>(samples(*spec_.duration_s));
   return part;
+}
+
+void Loader::CheckLength(const Part& part) const {
+  if (part.count >= kFewestSamples) return;
+  FailConfig(spec_.duration_s ? "duration_s" : "start_s",
+             "leaves " + std::to_string(part.count) + kFewSamples);
 }
 
 // Seconds in a unit of the times: as the config states it, else by the column's name, or by the
@@ -172,6 +182,7 @@ void Loader::Take(std::vector<double>& column, const ColumnName& name, Part part
 
 Record Loader::Load() {
   CheckSpec();
+  const FileState before(spec_.file);
   table_ = OpenTable(spec_.file, spec_.dialect);
   std::vector<ColumnName> names = {spec_.pressure};
   if (spec_.heat_release) names.push_back(*spec_.heat_release);
@@ -183,12 +194,16 @@ Record Loader::Load() {
     throw UserError(spec_.file.string(), 0, "",
                     "does not fit into the memory, expected a shorter record");
   }
+  // Cut short or growing, its last row may be a part of one, and its end the record's.
+  if (FileState(spec_.file) != before) {
+    throw UserError(spec_.file.string(), 0, "",
+                    "was written to while it was read, expected a record that is complete");
+  }
 
   const std::size_t rows = columns.front().size();
-  const std::string few = " samples, expected at least " + std::to_string(kFewestSamples);
   if (rows < kFewestSamples) {
     throw UserError(spec_.file.string(), rows > 0 ? table_->LineOf(rows - 1) : 0, "",
-                    std::to_string(rows) + few);
+                    std::to_string(rows) + kFewSamples);
   }
   Part part;
   Record record;
@@ -206,16 +221,14 @@ Record Loader::Load() {
     }
     const double unit_s = TimeUnit(step);
     part = ChoosePart(rows, step * unit_s);
+    CheckLength(part);
     record.sampling_hz = CheckTime(std::span(time).subspan(part.first, part.count), part.first,
                                    step, resolution, unit_s);
     columns.pop_back();
   } else {
     record.sampling_hz = *spec_.sampling_hz;
     part = ChoosePart(rows, 1.0 / *spec_.sampling_hz);
-  }
-  if (part.count < kFewestSamples) {
-    FailConfig(spec_.duration_s ? "duration_s" : "start_s",
-               "leaves " + std::to_string(part.count) + few);
+    CheckLength(part);
   }
   Take(columns[0], spec_.pressure, part, spec_.pressure_scale);
   record.pressure = std::move(columns[0]);
@@ -224,6 +237,10 @@ Record Loader::Load() {
     record.heat_release = std::move(columns[1]);
   }
   TakeOutInstruments(spec_, config_file_, record);
+  if (record.pressure.size() < kFewestSamples) {
+    FailConfig("pressure_response",
+               "leaves " + std::to_string(record.pressure.size()) + kFewSamples);
+  }
   return record;
 }
 

@@ -16,7 +16,7 @@ namespace howl {
 
 // Two rates that differ by less are one: the clock of the times and that of the converter.
 inline constexpr double kSamplingRateTolerance = 1e-3;
-inline constexpr std::size_t kFewestSamples = 16;
+inline constexpr std::size_t kFewestSamples = 32;  // of which a spectrum can be made
 
 // The part [start_s, start_s + duration_s) of the record, scaled. Throws UserError: a mistake in
 // the data names the data's file and line (`data.csv:9000: p: nan, expected a finite number`), one

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <optional>
 
+#include "io/memory.h"
 #include "io/records/parse_number.h"
 #include "io/user_error.h"
 
@@ -35,6 +37,9 @@ void TextRows::MakeRoom(std::size_t bytes, double fraction) {
   for (std::vector<double>& column : columns_) {
     const std::size_t most = column.size() + bytes / (2 * slot_of_.size()) + 1;
     if (most <= column.capacity()) continue;
+    // The system grants more than there is, and ends the program that then uses it.
+    const double needed = static_cast<double>(sizeof(double) * most * columns_.size());
+    if (needed > MemoryBytes()) throw std::bad_alloc();
     std::size_t room = std::max(most, column.capacity() + column.capacity() / 2);
     if (fraction > 0.0 && !column.empty()) {
       // A start that is not like the rest (zeros in gzip) must not ask for the impossible.

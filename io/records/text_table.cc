@@ -122,7 +122,7 @@ void TextTable::ReadLayout() {
          std::to_string(dialect_.skip_rows) + " leaves nothing of " + std::to_string(line_ - 1) +
              " lines, expected fewer");
   }
-  Fail(line_ - 1, "", "no rows of numbers, expected at least 16" + hint_);
+  Fail(line_ - 1, "", "no rows of numbers, expected at least 32" + hint_);
 }
 
 // Another separator than the rows' own, and what stands before the table, show in the first lines.

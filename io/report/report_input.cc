@@ -21,6 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr double kMostHarmonic = 1000.0;
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 std::string FileText(const std::filesystem::path& path) {
@@ -114,11 +115,15 @@ void ReadPublishedLines(ReportInput& input) {
 void ReadLines(ReportInput& input, const std::filesystem::path& path) {
   const CsvTable table = ReadCsvTable(path);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const double harmonic = table.Number(row, "harmonic");
+    if (!(harmonic >= 0.0 && harmonic <= kMostHarmonic)) {
+      throw std::runtime_error("a harmonic that is no whole number from 0 to 1000");
+    }
     input.lines.push_back(
         {table.Text(row, "name"),
          table.Number(row, "phi"),
          {table.Number(row, "frequency_hz"), table.Number(row, "frequency_std_hz")},
-         static_cast<int>(table.Number(row, "harmonic"))});
+         static_cast<int>(harmonic)});
   }
 }
 

@@ -46,6 +46,12 @@ std::string Quoted(std::string_view text) {
   return out + "'";
 }
 
+std::string TicLabel(std::string_view text) {
+  std::string format;
+  for (const char c : text) format += c == '%' ? std::string("%%") : std::string(1, c);
+  return Quoted(format);
+}
+
 std::string Number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);

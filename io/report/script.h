@@ -30,6 +30,8 @@ int SeriesPoint(std::size_t index);
 
 // 'text' as gnuplot reads it literally.
 std::string Quoted(std::string_view text);
+// The same for a tic, whose label gnuplot takes as a format.
+std::string TicLabel(std::string_view text);
 // "1.2345": as many digits as a plot needs.
 std::string Number(double value);
 

@@ -49,9 +49,9 @@ class HardInput : public testing::Test {
   }
 
   // p, q in step at 220 Hz.
-  void WriteRecord(double p_scale, const std::string& name = "r.csv") {
+  void WriteRecord(double p_scale, const std::string& name = "r.csv", int samples = 600) {
     std::string text = "p,q\n";
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < samples; ++i) {
       const double angle = 2.0 * std::numbers::pi * 220.0 * i / 5000.0;
       char line[100];
       std::snprintf(line, sizeof line, "%.17g,%.17g\n", p_scale * std::sin(angle),
@@ -118,6 +118,24 @@ TEST_F(HardInput, SamplesLieWithinTheRangeOfTheArithmetic) {
   }
 }
 
+TEST_F(HardInput, ShortRecordsAreAnalysedOrRefused) {
+  for (const int samples : {1, 15, 16, 20, 31}) {
+    WriteRecord(1.0, "r.csv", samples);
+    const ProgramResult run = Run("analyse", kRecord);
+    EXPECT_EQ(run.status, 2) << samples;
+    EXPECT_THAT(run.err, HasSubstr(std::to_string(samples) + " samples, expected at least 32"));
+  }
+  for (const int samples : {32, 33, 40, 63, 64, 100, 127}) {
+    WriteRecord(1.0, "r.csv", samples);
+    for (const char* const command : {"analyse", "fit", "diagnose"}) {
+      const ProgramResult run = Run(command, kRecord);
+      EXPECT_LE(run.status, 2) << command << " " << samples << run.err;
+      if (run.status != 2) continue;
+      EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+    }
+  }
+}
+
 TEST_F(HardInput, SimulationsAreRefusedBeforeTheyRun) {
   const auto simulate = [](const std::string& keys) {
     return kGood + "simulate: {" + keys + "}\n";
@@ -129,7 +147,7 @@ TEST_F(HardInput, SimulationsAreRefusedBeforeTheyRun) {
   ExpectRefused("simulate", simulate("sampling_hz: 1e12"), "3: simulate.duration_s",
                 "GB of memory");
   ExpectRefused("simulate", simulate("duration_s: 1e-6"), "3: simulate.duration_s",
-                "samples, expected at least 16");
+                "samples, expected at least 32");
   ExpectRefused("simulate", simulate("settle_s: 1e20"), "3: simulate", "steps of the scheme");
 }
 

@@ -179,7 +179,7 @@ TEST(BadRecords, EachIsOneLineStatusTwoAndNoOutput) {
   const std::vector<BadRecord> cases = {
       {"nan", GoodRows(8998) + "nan,1\n" + GoodRows(100, ""), plain, "data.csv:9000: p: nan"},
       {"ragged", GoodRows(100) + "1\n" + GoodRows(100, ""), plain, "data.csv:102:"},
-      {"one sample", GoodRows(1), plain, "expected at least 16"},
+      {"one sample", GoodRows(1), plain, "expected at least 32"},
       {"constant", constant, plain, "constant"},
       {"wrong column", GoodRows(9000), "pressure: pressure, heat_release: q, sampling_hz: 5000",
        "no such column"},

@@ -141,12 +141,12 @@ TEST_F(Errors, TextInANumber) {
 }
 
 TEST_F(Errors, FewSamplesAndEmptyFiles) {
-  EXPECT_EQ(ErrorOfBytes(Csv(nullptr, 15)), "data.csv:16: 15 samples, expected at least 16");
-  EXPECT_EQ(ErrorOfBytes(Csv(nullptr, 1)), "data.csv:2: 1 samples, expected at least 16");
-  EXPECT_EQ(ErrorOfBytes(Csv(nullptr, 16)), "no error");
-  EXPECT_EQ(ErrorOfBytes(Csv(nullptr, 0)), "data.csv:1: no rows of numbers, expected at least 16");
+  EXPECT_EQ(ErrorOfBytes(Csv(nullptr, 31)), "data.csv:32: 31 samples, expected at least 32");
+  EXPECT_EQ(ErrorOfBytes(Csv(nullptr, 1)), "data.csv:2: 1 samples, expected at least 32");
+  EXPECT_EQ(ErrorOfBytes(Csv(nullptr, 32)), "no error");
+  EXPECT_EQ(ErrorOfBytes(Csv(nullptr, 0)), "data.csv:1: no rows of numbers, expected at least 32");
   EXPECT_EQ(ErrorOfBytes(""), "data.csv:1: an empty file, expected columns of numbers");
-  EXPECT_EQ(ErrorOfBytes("\n\n"), "data.csv:2: no rows of numbers, expected at least 16");
+  EXPECT_EQ(ErrorOfBytes("\n\n"), "data.csv:2: no rows of numbers, expected at least 32");
   RecordSpec spec = Spec("");
   spec.file = WriteGzip(folder_ / "data.csv", "");
   EXPECT_EQ(ErrorOf(spec), "data.csv:1: an empty file, expected columns of numbers");
@@ -278,7 +278,7 @@ TEST_F(Errors, WhatWasAskedFor) {
   spec.duration_s = 6.0;
   EXPECT_EQ(ErrorOf(spec), "no error");
   spec.duration_s = 0.01;
-  EXPECT_EQ(ErrorOf(spec), "rig.yaml:7: duration_s: leaves 10 samples, expected at least 16");
+  EXPECT_EQ(ErrorOf(spec), "rig.yaml:7: duration_s: leaves 10 samples, expected at least 32");
   spec = Spec(Csv());
   spec.pressure_scale = 0.0;
   EXPECT_EQ(ErrorOf(spec), "rig.yaml:7: pressure_scale: 0, expected a finite number other than 0");

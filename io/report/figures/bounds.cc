@@ -106,7 +106,7 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
   Script script;
   std::string names;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    names += (i == 0 ? "" : ", ") + Quoted(experiments[i]) + " " + std::to_string(i + 1);
+    names += (i == 0 ? "" : ", ") + TicLabel(experiments[i]) + " " + std::to_string(i + 1);
   }
   script
       .Line("set multiplot layout " + std::to_string(rows) + ",3 margins 0.07,0.98," +

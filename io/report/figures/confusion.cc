@@ -11,7 +11,7 @@ namespace {
 std::string Ticks(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + Quoted(names[i]) + " " + std::to_string(i + 1);
+    text += (i == 0 ? "" : ", ") + TicLabel(names[i]) + " " + std::to_string(i + 1);
   }
   return text;
 }

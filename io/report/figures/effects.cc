@@ -44,7 +44,7 @@ std::optional<Figure> EffectsFigure(const ReportInput& input) {
     csv.Cell(100.0 * std::clamp(row.low, kLowest, 1.0)).Cell(100.0 * std::min(row.high, 1.0));
     csv.Cell(row.effect).EndRow();
     longest = std::max(longest, row.effect.size());
-    names += (i == 0 ? "" : ", ") + Quoted(row.effect) + " " + std::to_string(i + 1);
+    names += (i == 0 ? "" : ", ") + TicLabel(row.effect) + " " + std::to_string(i + 1);
   }
   Figure figure;
   figure.name = "effects";

@@ -47,7 +47,7 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
   if (experiments.empty() || !(high > low)) return std::nullopt;
   std::string names;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    names += (i == 0 ? "" : ", ") + Quoted(experiments[i]) + " " + std::to_string(i + 1);
+    names += (i == 0 ? "" : ", ") + TicLabel(experiments[i]) + " " + std::to_string(i + 1);
   }
   Figure figure;
   figure.name = "gap_map";

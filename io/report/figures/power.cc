@@ -35,7 +35,7 @@ std::optional<Figure> PowerFigure(const ReportInput& input) {
     csv.Cell(std::clamp(severity, -kEdge, kEdge)).Cell(static_cast<double>(row));
     csv.Cell(edge(0)).Cell(edge(1)).Cell(effect).Cell(NumberAt(each, "found"));
     csv.Cell(NumberAt(each, "cases")).EndRow();
-    names += (row == 1 ? "" : ", ") + Quoted(effect) + " " + std::to_string(row);
+    names += (row == 1 ? "" : ", ") + TicLabel(effect) + " " + std::to_string(row);
   }
   if (row == 0) return std::nullopt;
   Figure figure;

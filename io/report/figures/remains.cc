@@ -30,7 +30,7 @@ std::optional<Figure> RemainsFigure(const ReportInput& input) {
     ++count;
     widest = std::max(widest, value);
     csv.Cell(bar.key).Cell(value).Cell(static_cast<double>(count)).EndRow();
-    names += (count == 1 ? "" : ", ") + Quoted(bar.label) + " " + std::to_string(count);
+    names += (count == 1 ? "" : ", ") + TicLabel(bar.label) + " " + std::to_string(count);
   }
   if (count == 0) return std::nullopt;
   Figure figure;

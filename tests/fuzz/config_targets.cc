@@ -1,0 +1,20 @@
+#include <filesystem>
+#include <fstream>
+
+#include "app/campaign/campaign_spec.h"
+#include "app/jobs/job_spec.h"
+#include "io/config/config.h"
+#include "tests/fuzz/target.h"
+
+namespace howl {
+
+std::vector<FuzzTarget> ConfigTargets() {
+  const auto reading = [](auto read) {
+    return [read](std::string_view input) { Answered([&] { (void)read(InputFile(input)); }); };
+  };
+  return {{"config", reading(LoadConfig)},
+          {"campaign", reading(LoadCampaign)},
+          {"job", reading(LoadJob)}};
+}
+
+}  // namespace howl

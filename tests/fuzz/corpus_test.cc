@@ -1,0 +1,40 @@
+// Every input that is kept in tests/fuzz/corpus goes through its reader: those that fuzzing found
+// to be wrong once, and those that reach most of the reader's branches.
+#include <gtest/gtest.h>
+
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/fuzz/target.h"
+
+namespace howl {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Corpus : public testing::TestWithParam<FuzzTarget> {};
+
+TEST_P(Corpus, IsReadOrRefusedWithinASecond) {
+  const fs::path folder = fs::path(HOWL_SOURCE_DIR) / "tests/fuzz/corpus" / GetParam().name;
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    SCOPED_TRACE(entry.path().string());
+    std::ifstream file(entry.path(), std::ios::binary);
+    std::stringstream input;
+    input << file.rdbuf();
+    const std::clock_t start = std::clock();  // the machine may have other work
+    GetParam().run(input.str());
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    EXPECT_LT(seconds, 1.0 * HOWL_TEST_SLOWNESS);
+    ++count;
+  }
+  EXPECT_GE(count, 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fuzz, Corpus, testing::ValuesIn(AllTargets()),
+                         [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace howl

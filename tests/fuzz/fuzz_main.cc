@@ -1,0 +1,20 @@
+// libFuzzer's entry to the target that HOWL_FUZZ_TARGET names.
+#include <gflags/gflags_declare.h>
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "tests/fuzz/target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const howl::FuzzTarget target = [] {
+    const auto all = howl::AllTargets();
+    const auto found = std::ranges::find(all, HOWL_FUZZ_TARGET, &howl::FuzzTarget::name);
+    CHECK(found != all.end());
+    return *found;
+  }();
+  target.run({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
