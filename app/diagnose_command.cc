@@ -106,6 +106,7 @@ int Run(const Options& options) {
   how.choose_delays = !StatesDelays(config);
   how.threads = options.threads;
   how.withheld = Withheld(options);
+  how.find_budget = !options.Has("--no-budget");
   how.seed = options.seed;
   how.bootstrap = Replicates(options);
   for (const EffectDeclaration& declaration : config.effects) {
@@ -174,8 +175,9 @@ Command DiagnoseCommand() {
       "catalogue, and scores on operating points left out. Needs records with p and q; a table\n"
       "with non-harmonic lines bounds the lag of the q sensor alone.\n"
       "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
-      "cannot tell from it, the place, the gap before and after, and every candidate. Effects of\n"
-      "your own stand in the config under `effects`. With --plan it writes plan.json instead.",
+      "cannot tell from it, the place, the gap before and after, and every candidate; where it is\n"
+      "unknown, a budget of several causes. Effects of your own stand in the config under "
+      "`effects`. With --plan it writes plan.json instead.",
       {{"--reference", "SIM.yaml",
         "records of another simulator, or of the rig at another time, in the model's place: which "
         "effect turns them into the config's?"},
@@ -185,6 +187,9 @@ Command DiagnoseCommand() {
        {"--plan", "",
         "diagnose nothing: which effects these records (or records simulated from a table's fit) "
         "can tell apart, from which size on, and which measurement separates the rest"},
+       {"--no-budget", "",
+        "where the verdict is unknown, do not account for the gap by several causes, which takes "
+        "longer than the search for one"},
        {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"},
        ShardOption()},
       Run,

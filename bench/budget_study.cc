@@ -54,8 +54,8 @@ int Run(int argc, char** argv) {
     for (const std::string& id : entry.equals) std::printf(" = %s", id.c_str());
     std::printf("\n");
   }
-  std::printf("left %.3f (%.2f of it), model errors %.3f %.3f\n", budget.gap_left,
-              budget.gap_left / budget.gap_before, budget.acoustic_error, budget.flame_error);
+  std::printf("left %.3f, model errors %.3f %.3f\n", budget.gap_left, budget.acoustic_error,
+              budget.flame_error);
   for (const Place& place : budget.left) {
     std::printf("  %s %.0f .. %.0f Hz, share %.2f, %zu points\n",
                 std::string(LoopBlockName(place.block)).c_str(), place.low_hz, place.high_hz,

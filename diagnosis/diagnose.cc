@@ -81,8 +81,8 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
     out.own_delays_gain = own_delays_gain;
   }
   out.second_mode_gain = second_mode_gain;
-  // A reference has the rig's own gap already. What is repaired are samples, and a transfer function
-  // fitted to them would speak of the repair.
+  // A reference has the rig's own gap already. What is repaired are samples, and a transfer
+  // function fitted to them would speak of the repair.
   const bool wanted = options.find_budget && options.reference.empty() && out.repaired.empty();
   if (wanted && !out.stopped && out.kind == VerdictKind::kUnknown) {
     BaseModel model = out.model;

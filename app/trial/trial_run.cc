@@ -113,7 +113,7 @@ void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progre
     const auto start = Clock::now();
     const ChildResult result = RunChild(
         {ThisProgram().string(), "diagnose", (folder.CaseFolder(name) / "config.yaml").string(),
-         "--out", out.string(), "--threads", "1", "--quiet"},
+         "--out", out.string(), "--threads", "1", "--quiet", "--no-budget"},
         "");
     // A terminal's Ctrl-C reaches the child as well, and may end it before this program notices.
     if (result.status < 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));

@@ -45,14 +45,16 @@ StructureFit Without(const StructureFit& from, const std::vector<BudgetItem>& it
     }
     case ItemKind::kComplexResidues:
       out.structure.complex_residues = false;
-      for (PointLoop& point : out.points) point.base_b.resize(0);
+      for (std::vector<PointLoop>* all : {&out.points, &out.centres}) {
+        for (PointLoop& point : *all) point.base_b.resize(0);
+      }
       return out;
     case ItemKind::kMode: {
       std::ptrdiff_t before = 0;  // modes that were added earlier
       for (std::size_t i = 0; i < which; ++i) before += items[i].kind == item.kind ? 1 : 0;
       --out.structure.further_modes;
-      for (PointLoop& point : out.points) {
-        point.modes.erase(point.modes.begin() + before);
+      for (std::vector<PointLoop>* all : {&out.points, &out.centres}) {
+        for (PointLoop& point : *all) point.modes.erase(point.modes.begin() + before);
       }
       return out;
     }

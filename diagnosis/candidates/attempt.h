@@ -106,7 +106,6 @@ void PayForParameters(Attempt* attempt);
 // The p-value of the largest gain among a catalogue of so many effects that were tried.
 double PValue(double gain, double parameters, std::size_t catalogue);
 
-
 // A value without an interval, for a parameter whose error is not estimated.
 EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit);
 

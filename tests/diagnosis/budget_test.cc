@@ -26,8 +26,7 @@ std::vector<DiagnosisExperiment> RigOfTwoCauses() {
   return SimulatePoints(
       3,
       [](RigParameters* rig) {
-        rig->instruments = {
-            std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, kCutoff_hz)};
+        rig->instruments = {std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, kCutoff_hz)};
         AddMode(2.2, 0.06, 0.25, rig);
       },
       21);
@@ -79,8 +78,7 @@ TEST(Budget, IsEmptyWhereTheModelIsRight) {
 TEST(PredictionGap, IsNearNothingForTheRightLoopAndLargeForAWrongOne) {
   const BudgetRecords records = MakeBudgetRecords(SimulateRig(), {});
   std::vector<JointBand> bands = records.whole;
-  StructureFit fit =
-      FitStructure(bands, StartOf(&bands, FitBase(records.records), BaseNoise()));
+  StructureFit fit = FitStructure(bands, StartOf(&bands, FitBase(records.records), BaseNoise()));
   const auto gap = [&] {
     double error = 0.0;
     double ceiling = 0.0;
@@ -148,8 +146,8 @@ class Kept final : public FitMemory {
 };
 
 TEST(Budget, GoesOnWhereItWasStopped) {
-  const std::vector<DiagnosisExperiment> rig = SimulateRig(
-      {std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, kCutoff_hz)});
+  const std::vector<DiagnosisExperiment> rig =
+      SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, kCutoff_hz)});
   BudgetOptions options = Among({"q_sensor_lowpass"});
   const Budget whole = FindBudget(rig, {}, options);
   ASSERT_EQ(whole.entries.size(), 1u);

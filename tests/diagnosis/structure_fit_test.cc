@@ -37,7 +37,8 @@ Prepared Prepare(const std::vector<DiagnosisExperiment>& rig) {
 }
 
 // Every number that ScorePoint has a gradient for, moved by `step`, in the same order.
-void Move(const PointLayout& layout, Eigen::Index k, double step, SharedLoop* shared, PointLoop* point) {
+void Move(const PointLayout& layout, Eigen::Index k, double step, SharedLoop* shared,
+          PointLoop* point) {
   if (k < layout.Own()) {
     MoveOwn(layout, k, step, point);
     return;
