@@ -21,8 +21,7 @@ inline constexpr double kPriorModeMeanLogXi = -3.0;  // xi 0.05
 inline constexpr double kPriorModeResidue = 1.0;     // a and b, of N
 inline constexpr double kPriorLevel = 3.0;           // of a noise's logarithm
 inline constexpr double kPriorShape = 1.5;           // of its higher coefficients
-inline constexpr double kLargestError =
-    10.0;  // eps; beyond the modes the base predicts next to nothing
+inline constexpr double kLargestError = 1.0;         // eps: with a larger one there is no model
 inline constexpr double kLeastError = 1e-4;
 inline constexpr double kLeastScatter = 1e-4;  // of log delay
 inline constexpr double kMostScatter = 0.5;
