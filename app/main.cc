@@ -1,5 +1,6 @@
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -11,7 +12,9 @@
 
 #include "app/command.h"
 #include "app/command_line.h"
-#include "app/help_topics.h"
+#include "app/help/completion.h"
+#include "app/help/help_text.h"
+#include "app/help/help_topics.h"
 #include "app/interruption.h"
 #include "app/negative_answer.h"
 #include "app/output_claim.h"
@@ -25,40 +28,7 @@
 namespace howl {
 namespace {
 
-void PrintOptions(const std::vector<OptionHelp>& options) {
-  for (const OptionHelp& option : options) {
-    const std::string left = option.name + (option.value.empty() ? "" : " " + option.value);
-    std::printf("  %-22s %s\n", left.c_str(), option.text.c_str());
-  }
-}
-
-void PrintHelp() {
-  std::printf(
-      "howl %s: grey-box identification of self-excited feedback loops\n\n"
-      "howl COMMAND CONFIG [options]\n\nCommands:\n",
-      std::string(Version()).c_str());
-  for (const Command& command : Commands()) {
-    std::printf("  %-10s %s\n", command.name.c_str(), command.summary.c_str());
-  }
-  std::printf("\nOptions of every command:\n");
-  PrintOptions(CommonOptions());
-  std::printf(
-      "\nhowl help COMMAND (or howl COMMAND --help) explains one command, howl help residuals what "
-      "a\n"
-      "fit can ask for; howl help schema prints the config's JSON schema.\n"
-      "Exit status: 0 done; 1 the answer is negative; 2 bad input.\n");
-}
-
-void PrintCommandHelp(const Command& command) {
-  std::printf("howl %s %s [options]: %s\n\n%s\n", command.name.c_str(), command.operands.c_str(),
-              command.summary.c_str(), command.details.c_str());
-  if (!command.options.empty()) {
-    std::printf("\nOptions:\n");
-    PrintOptions(command.options);
-  }
-  std::printf("\nOptions of every command:\n");
-  PrintOptions(CommonOptions());
-}
+void Print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 int PrintVersion() {
   std::printf("howl %s\n", std::string(Version()).c_str());
@@ -88,30 +58,39 @@ std::string Fault(const std::exception& error) {
   return "fails: " + what;
 }
 
+std::vector<std::string> RestOf(CommandLine* line) {
+  std::vector<std::string> words;
+  while (auto word = line->NextWord()) words.push_back(*std::move(word));
+  return words;
+}
+
 int Run(const std::vector<std::string>& words) {
+  if (IsCompletion(words)) {
+    Print(CompletionText(Complete({words.begin() + 2, words.end()})));
+    return kDone;
+  }
   CommandLine line(words);
   std::optional<std::string> word = line.NextWord();
   const bool asks = word == "help";  // howl help [COMMAND]
   if (asks) word = line.NextWord();
   if (!word) {
     if (line.WantsVersion()) return PrintVersion();
-    PrintHelp();
+    Print(ProgramHelp());
     return kDone;
   }
-  if (const std::optional<std::string> topic = asks ? HelpTopic(*word) : std::nullopt) {
-    std::printf("%s", topic->c_str());
+  if (asks && std::ranges::count(HelpTopics(), *word) > 0) {
+    Print(HelpTopic(*word, RestOf(&line)));
     return kDone;
   }
   const Command& command = FindCommand(*word);
   line.SetCommand(command);
-  std::vector<std::string> operands;
-  while (auto operand = line.NextWord()) operands.push_back(*std::move(operand));
+  const std::vector<std::string> operands = RestOf(&line);
   if (operands.size() > 1 && !command.TakesSeveral()) {
     throw UsageError(operands[1] + ": a second config, expected one, after " + operands[0]);
   }
   if (line.WantsVersion()) return PrintVersion();
   if (asks || line.WantsHelp()) {
-    PrintCommandHelp(command);
+    Print(CommandHelp(command));
     return kDone;
   }
   if (operands.empty()) {

@@ -5,37 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "rig/help.h"
 #include "rig/output.h"
 #include "rig/plan.h"
 #include "rig/recording.h"
 
 namespace rig {
 namespace {
-
-constexpr const char* kHelp =
-    "howl_rig RIG.yaml --out DIR [--key FILE]: simulate a rig for blind trials\n\n"
-    "Travelling waves in a duct with a flame, matched to the characteristics in RIG.yaml, with "
-    "the\n"
-    "effects that it names. Writes DIR/data/NAME.csv (p,q) for each experiment and "
-    "DIR/config.yaml,\n"
-    "which howl diagnose takes as it is and which says nothing of the effects. They are in the "
-    "key.\n\n"
-    "  --out DIR     where to write\n"
-    "  --key FILE    where the key goes (default: standard output)\n"
-    "  --list        the effects with their blocks and sizes, as CSV\n"
-    "  --help        this text\n\n"
-    "RIG.yaml, all but experiments being optional:\n\n"
-    "  experiments:\n"
-    "    - {name: exp1, phi: 0.56, frequency_hz: 219.9, phase_deg: -5.74, gain: 12.14}\n"
-    "  effects: [{id: q_sensor_lowpass, severity: medium}]   # small, medium, large or 0 to 1\n"
-    "  seed: 1\n"
-    "  duration_s: 3.2\n"
-    "  sampling_hz: 5000\n"
-    "  settle_s: 1\n"
-    "  scatter: true          # draw rigs like this one; false: as near to it as can be\n"
-    "  flame: any             # or tanh, arctan, erf, rational, asymmetric\n"
-    "  noise: {combustion_relative: 0.055, sensor_relative: 0.004}\n\n"
-    "Exit status: 0 done; 2 bad input.\n";
 
 int Simulate(const std::string& spec_path, const std::string& out, const std::string& key_path) {
   const Spec spec = LoadSpec(spec_path);
@@ -67,7 +43,11 @@ int Run(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (word == "--help" || word == "-h") {
-      std::fputs(kHelp, stdout);
+      std::fputs(HelpText().c_str(), stdout);
+      return 0;
+    }
+    if (word == "--man") {
+      std::fputs(ManPage().c_str(), stdout);
       return 0;
     }
     if (word == "--list") {

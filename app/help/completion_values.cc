@@ -1,0 +1,137 @@
+#include "app/help/completion_values.h"
+
+#include <algorithm>
+#include <exception>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "app/command_line.h"
+#include "app/trial/trial_rig.h"
+#include "diagnosis/diagnosis.h"
+#include "io/config/config.h"
+#include "io/results/family_csv.h"
+#include "io/results/result_files.h"
+
+namespace howl {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names ExperimentNames(const ValueContext& context) {
+  Names names;
+  for (const ExperimentConfig& each : LoadConfig(context.config).experiments) {
+    names.push_back(each.experiment.name);
+  }
+  return names;
+}
+
+Names Quantities(const ValueContext& context) {
+  Names names;
+  for (const std::string& experiment : ExperimentNames(context)) {
+    for (const char* const quantity : {"omega_hz", "xi", "N", "tau_s", "loop_gain"}) {
+      names.push_back(experiment + "." + quantity);
+    }
+  }
+  return names;
+}
+
+Names FamilyColumns(const ValueContext& context) {
+  return ReadFamilyCsv(context.out / kFamilyCsv).columns;
+}
+
+// "-COLUMN" sorts descending.
+Names SortColumns(const ValueContext& context) {
+  Names names = FamilyColumns(context);
+  if (!context.typed.starts_with('-')) return names;
+  for (std::string& name : names) name.insert(0, 1, '-');
+  return names;
+}
+
+Names CatalogueEffects(const ValueContext& /*context*/) {
+  Names names;
+  for (const EffectPointer& effect : Catalogue()) names.emplace_back(effect->id());
+  std::ranges::sort(names);  // an effect may have several forms of one name
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+Names TrialEffects(const ValueContext& /*context*/) {
+  Names names = {"catalogue", "none", "outside", "pairs"};
+  for (const RigEffect& effect : ListRigEffects()) names.push_back(effect.id);
+  return names;
+}
+
+Names Severities(const ValueContext& /*context*/) { return {"small", "medium", "large"}; }
+
+Names LogLevels(const ValueContext& /*context*/) { return {"1", "2"}; }
+
+// As they are named in the environment.
+Names OptionNames(const ValueContext& context) {
+  Names names;
+  const auto take = [&](const std::vector<OptionHelp>& options) {
+    for (const OptionHelp& each : options) {
+      std::string name = each.name.substr(each.name.find_first_not_of('-'));
+      std::ranges::replace(name, '-', '_');
+      names.push_back(name);
+    }
+  };
+  if (context.command != nullptr) take(context.command->options);
+  take(CommonOptions());
+  return names;
+}
+
+struct OptionValues {
+  std::string_view option;
+  Names (*names)(const ValueContext&);
+  bool is_list;  // joined by commas
+};
+
+constexpr OptionValues kOptionValues[] = {
+    {"--experiment", ExperimentNames, false}, {"--profile", Quantities, false},
+    {"--columns", FamilyColumns, true},       {"--sort", SortColumns, false},
+    {"--without", CatalogueEffects, true},    {"--effects", TrialEffects, true},
+    {"--severities", Severities, true},       {"--v", LogLevels, false},
+    {"--fromenv", OptionNames, true},         {"--tryfromenv", OptionNames, true},
+    {"--undefok", OptionNames, true}};
+
+Names TryNames(const OptionValues& values, const ValueContext& context) {
+  try {
+    return values.names(context);
+  } catch (const std::exception&) {
+    return {};  // a config that cannot be read; its own command will say so
+  }
+}
+
+FileKind ValueFiles(const OptionHelp& option, const Command* command) {
+  // Of howl init, --out is the config that it writes.
+  if (option.name == "--out" && command != nullptr && command->name == "init") {
+    return FileKind::kConfigs;
+  }
+  if (option.value == "DIR") return FileKind::kFolders;
+  if (option.value == "FILE") return FileKind::kAny;
+  return option.value.ends_with(".yaml") ? FileKind::kConfigs : FileKind::kNone;
+}
+
+}  // namespace
+
+Completion ValuesOf(const OptionHelp& option, const ValueContext& context) {
+  Completion values{{}, ValueFiles(option, context.command)};
+  for (const OptionValues& each : kOptionValues) {
+    if (each.option != option.name) continue;
+    const std::size_t comma = each.is_list ? context.typed.rfind(',') : std::string::npos;
+    const std::string before = comma == std::string::npos ? "" : context.typed.substr(0, comma + 1);
+    for (const std::string& name : TryNames(each, context)) {
+      values.words.push_back({before + name, ""});
+    }
+  }
+  return values;
+}
+
+FileKind OperandFiles(const Command& command) {
+  if (command.operands == "FOLDER") return FileKind::kFolders;
+  return command.TakesSeveral() ? FileKind::kAny : FileKind::kConfigs;
+}
+
+}  // namespace howl
