@@ -26,6 +26,8 @@ howl_install_packages "${howl_python_packages[@]}" ||
   echo "the Python package is not tested" >&2
 howl_install_packages "${howl_docs_packages[@]}" ||
   echo "mkdocs could not be installed: the site made of docs/ is not tested" >&2
+howl_install_packages "${howl_install_test_packages[@]}" ||
+  echo "manual pages, completion or packages are tested in part" >&2
 # Tests of measured records and practice rigs read the folders that HOWL_DATA and
 # HOWL_PRACTICE name (docs/development.md); where one is not set, its tests skip, saying so.
 cd "$root"

@@ -1,9 +1,18 @@
 # Sourced by run.sh and check.sh: what a fresh Debian 12 machine needs, and how to build.
 
+# What compiles howl, and what cpack makes packages with.
+howl_build_packages=(g++ cmake ninja-build pkg-config dpkg-dev file
+  libeigen3-dev libceres-dev libgoogle-glog-dev libgflags-dev libyaml-cpp-dev
+  libtbb-dev libboost-dev nlohmann-json3-dev libvalijson-dev
+  libmatio-dev libhdf5-dev zlib1g-dev libssl-dev)
+
 # For the test that drives a report's page in a real browser, which is skipped without them.
 howl_browser_packages=(chromium chromium-driver python3-selenium)
 # For the test that builds the site from docs/, which is skipped without them (12 MB to fetch).
 howl_docs_packages=(mkdocs mkdocs-material)
+
+# For the tests of manual pages, of completion and of the packages; each is skipped without its tool.
+howl_install_test_packages=(mandoc zsh fish lintian)
 
 # For the tests of the Python package; its figures and some formats of files need the later ones.
 howl_python_packages=(python3-pytest python3-numpy python3-pandas python3-yaml
@@ -12,11 +21,8 @@ howl_python_packages=(python3-pytest python3-numpy python3-pandas python3-yaml
 # Installs the packages that are missing, those named as arguments too, quietly and without asking;
 # asks no server when none is.
 howl_install_packages() {
-  local wanted=(g++ cmake ninja-build pkg-config clang-format clang-tidy python3
-    libeigen3-dev libceres-dev libgoogle-glog-dev libgflags-dev libyaml-cpp-dev
-    libtbb-dev libboost-dev libmpfi-dev nlohmann-json3-dev libvalijson-dev
-    libmatio-dev libhdf5-dev zlib1g-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev
-    gnuplot-nox "$@")
+  local wanted=("${howl_build_packages[@]}" clang-format clang-tidy python3 libmpfi-dev
+    libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox "$@")
   local missing=() package
   for package in "${wanted[@]}"; do
     if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then

@@ -5,7 +5,7 @@
 
 Whether each has what it should, with a manual page for each program and command, stripped, and without a
 word of the machine that built it; and where lintian is installed, that it finds no error and no warning.
---keep leaves the packages in FOLDER. Exit status 77 (skipped) where dpkg-deb or dpkg-shlibdeps is missing.
+--keep leaves the packages in FOLDER. Exit status 77 (skipped) where what cpack needs (dpkg-dev, file) is missing.
 """
 
 import argparse
@@ -116,9 +116,9 @@ def main():
     parser.add_argument("project", type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--keep", type=pathlib.Path)
     given = parser.parse_args()
-    for tool in ("dpkg-deb", "dpkg-shlibdeps"):
+    for tool in ("dpkg-deb", "dpkg-shlibdeps", "file"):
         if not shutil.which(tool):
-            print(f"skipped: {tool} is not installed (dpkg-dev)")
+            print(f"skipped: {tool} is not installed (dpkg-dev, file)")
             return SKIPPED
     version = re.search(r"VERSION ([\d.]+) LANGUAGES", (given.project / "CMakeLists.txt").read_text())[1]
     with tempfile.TemporaryDirectory() as name:
