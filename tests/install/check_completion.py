@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Completion in real shells: types words and a tab into a shell on a terminal, and looks at the line.
 
-    check_completion.py HOWL bash|zsh|fish
+    check_completion.py HOWL bash|zsh|zsh_installed|fish
 
-The shell has read what `howl help completion` prints. Exit status 77 (skipped) where it is not installed.
+The shell has read what `howl help completion` prints; zsh_installed finds it as the file _howl in a folder of
+completions, as the package has it. Exit status 77 (skipped) where it is not installed.
 """
 
 import os
@@ -48,6 +49,10 @@ CASES = [
     ("howl fit --member", "howl fit --member"),  # an option of another command
 ]
 
+ZSH_KEEPS = """
+setopt no_beep no_list_ambiguous no_auto_menu; keep() { print -r -- "$BUFFER" >> lines.txt; BUFFER= }
+zle -N keep; bindkey '^T' keep
+"""
 SETUP = {
     "bash": (["bash", "--norc", "--noprofile", "-i"], f"""
 PS1='{PROMPT}'; source <(howl help completion bash)
@@ -55,9 +60,13 @@ bind 'set bell-style none'; bind 'set completion-query-items 0'
 bind -x '"\\C-t": printf "%s\\n" "$READLINE_LINE" >> lines.txt; READLINE_LINE='
 """.strip().replace("\n", "; ")),
     "zsh": (["zsh", "-f", "-i"], f"""
-PS1='{PROMPT}'; autoload -U compinit; compinit -u -D; setopt no_beep no_list_ambiguous no_auto_menu
-source <(howl help completion zsh); keep() {{ print -r -- "$BUFFER" >> lines.txt; BUFFER= }}
-zle -N keep; bindkey '^T' keep
+PS1='{PROMPT}'; autoload -U compinit; compinit -u -D; source <(howl help completion zsh)
+{ZSH_KEEPS.strip()}
+""".strip().replace("\n", "; ")),
+    "zsh_installed": (["zsh", "-f", "-i"], f"""
+PS1='{PROMPT}'; mkdir .zsh; howl help completion zsh > .zsh/_howl; fpath=(~/.zsh $fpath)
+autoload -U compinit; compinit -u -D
+{ZSH_KEEPS.strip()}
 """.strip().replace("\n", "; ")),
 }
 
@@ -120,8 +129,9 @@ def lines_of_fish(folder, environment):
 
 def main():
     howl, shell = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
-    if shutil.which(shell) is None:
-        print(f"skipped: {shell} is not installed")
+    program = shell.partition("_")[0]
+    if shutil.which(program) is None:
+        print(f"skipped: {program} is not installed")
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
