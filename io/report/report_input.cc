@@ -115,7 +115,9 @@ void ReadPublishedLines(ReportInput& input) {
 void ReadLines(ReportInput& input, const std::filesystem::path& path) {
   const CsvTable table = ReadCsvTable(path);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const double harmonic = table.Number(row, "harmonic");
+    // The cell of a line that is no multiple of the fundamental is empty.
+    const bool none = table.Text(row, "harmonic").empty();
+    const double harmonic = none ? 0.0 : table.Number(row, "harmonic");
     if (!(harmonic >= 0.0 && harmonic <= kMostHarmonic)) {
       throw std::runtime_error("a harmonic that is no whole number from 0 to 1000");
     }
@@ -275,6 +277,10 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
       [&](const auto& path) { input.simulation = ReadJson(path, "howl.simulation/1"); });
   Try(input, "diagnosis.json", "diagnose",
       [&](const auto& path) { input.diagnosis = ReadJson(path, "howl.diagnosis/1"); });
+  Try(input, "prediction.json", "predict",
+      [&](const auto& path) { input.prediction = ReadJson(path, "howl.prediction/1"); });
+  Try(input, kPredictionMapCsv, "predict",
+      [&](const auto& path) { input.prediction_map = ReadCsvTable(path); });
   Try(input, "trial.json", "trial",
       [&](const auto& path) { input.trial = ReadJson(path, "howl.trial/1"); });
   Try(input, "campaign.json", "campaign",

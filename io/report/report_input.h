@@ -61,9 +61,9 @@ struct ReportInput {
 
   std::vector<ExperimentModel> fitted;  // of solution.json
   // Null where there is none.
-  nlohmann::json analysis, solution, family, simulation, diagnosis, trial, campaign;
-  std::optional<CsvTable> transfer, flame_curve, tradeoff, trial_table, campaign_table,
-      campaign_points;
+  nlohmann::json analysis, solution, family, prediction, simulation, diagnosis, trial, campaign;
+  std::optional<CsvTable> transfer, flame_curve, tradeoff, prediction_map, trial_table,
+      campaign_table, campaign_points;
   std::optional<FamilyMembers> members;
 
   std::vector<std::string> missing;  // sentences for the reader
