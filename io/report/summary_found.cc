@@ -67,7 +67,6 @@ void AddFit(const ReportInput& input, std::vector<std::string>& out) {
 }
 
 void AddFamily(const ReportInput& input, std::vector<std::string>& out) {
-  if (input.family.is_null()) return;
   if (input.FamilyIsEmpty()) {
     std::vector<std::string> names;
     for (const auto& name : ListAt(input.family, "empty_because")) {

@@ -55,7 +55,8 @@ void AddCommands(const ReportInput& input, std::vector<std::string>& out) {
   }
   if (input.solution.is_null())
     out.push_back("howl fit finds a loop for all experiments together.");
-  if (input.family.is_null()) out.push_back("howl family says what the data leave open.");
+  if (input.family.is_null() && !input.members)
+    out.push_back("howl family says what the data leave open.");
   if (input.members && input.prediction.is_null() && input.measured.size() > 1) {
     out.push_back(
         "howl predict says what to expect between the measured points, and with --map "

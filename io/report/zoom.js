@@ -54,7 +54,8 @@
     whole = [box.x, box.y, box.width, box.height];
     stage.replaceChildren(svg);
     const title = drawing.closest("figure").querySelector("figcaption strong");
-    document.getElementById("zoom-title").textContent = title ? title.textContent : "";
+    const name = title ? title.textContent.replace(/\.$/, "") : "";
+    document.getElementById("zoom-title").textContent = name;
     stage.style.aspectRatio = `${box.width} / ${box.height}`;
     all();
     dialog.showModal();

@@ -12,6 +12,10 @@
 namespace howl {
 namespace {
 
+// Told from all colours of the chart, and from paper by day and by night.
+constexpr const char* kBoundary = "#00805c";
+constexpr const char* kMembers = "#b0005b";
+
 constexpr std::size_t kMostColoured = 80;  // of an axis: each cell is a shape in the page
 
 struct Axis {
@@ -107,7 +111,7 @@ std::optional<Figure> StabilityMapFigure(const ReportInput& input) {
   const double phi = NumberAt(map, "phi");
   figure.caption =
       "Growth rate of the loop at rest, median of " + Spelled(NumberAt(map, "paths"), 6) +
-      " members. Black: the boundary, where |L Φ′(0)| is one at a phase crossing (1b); grey: "
+      " members. Green: the boundary, where |L Φ′(0)| is one at a phase crossing (1b); grey: "
       "between these lines it lies for 95 % of the members. At " +
       PercentOf(NumberAt(map, "unstable"), all) + " % of the points nearly all members grow, at " +
       PercentOf(NumberAt(map, "stable"), all) + " % nearly all decay." +
@@ -131,19 +135,20 @@ std::optional<Figure> StabilityMapFigure(const ReportInput& input) {
       .Line("set cblabel 'growth rate (1/s)'");
   script.Plot(
       "data using (pick('growth',2)):3:4:5:6:7:8 with boxxyerror linecolor palette notitle");
-  const std::string ink = std::string(" linecolor rgb '") + colour::kInk + "'";
+  const std::string line = std::string(" linecolor rgb '") + kBoundary + "'";
+  const std::string mark = std::string(" linecolor rgb '") + kMembers + "'";
   for (const char* const end : {"lo", "hi"}) {
     script.Plot("data using (pick('boundary_" + std::string(end) +
                 "',2)):3:4:5 with vectors nohead linewidth 1 linecolor rgb '" + colour::kGrey +
                 "'" +
                 (end == std::string("lo") ? " title 'boundary, 95 % of the members'" : " notitle"));
   }
-  script.Plot("data using (pick('boundary',2)):3:4:5 with vectors nohead linewidth 2" + ink +
+  script.Plot("data using (pick('boundary',2)):3:4:5 with vectors nohead linewidth 2" + line +
               " title 'boundary'");
   if (any_member) {
     script.Plot(
         "data using (pick('members',2)):3:4:5:6:7 with xyerrorbars pointtype 7 pointsize 0.4" +
-        ink + " title 'members'");
+        mark + " title 'members'");
   }
   script.EndPlot();
   figure.script = script.Text();
