@@ -13,11 +13,11 @@ namespace {
 constexpr std::size_t kMostRows = 40;
 
 // "205.8 (205.6 to 206.0)"
-TableCell Interval(const nlohmann::json& point, const char* key, double scale = 1.0) {
-  if (!point.contains(key)) return "–";
-  const double value = scale * NumberAt(point[key], "value");
+TableCell Interval(const nlohmann::json& point, const char* key) {
+  const nlohmann::json& interval = JsonAt(point, key);
+  const double value = NumberAt(interval, "value");
   if (!std::isfinite(value)) return "–";
-  const double lo = scale * NumberAt(point[key], "lo"), hi = scale * NumberAt(point[key], "hi");
+  const double lo = NumberAt(interval, "lo"), hi = NumberAt(interval, "hi");
   TableCell cell(value);
   if (!std::isfinite(lo) || !std::isfinite(hi)) return cell;
   cell.text += " (" + Spelled(lo, 3) + " to " + Spelled(hi, 3) + ")";
@@ -29,11 +29,11 @@ TableCell Interval(const nlohmann::json& point, const char* key, double scale = 
 std::string PredictionSummary(const ReportInput& input) {
   const nlohmann::json& points = ListAt(input.prediction, "points");
   if (points.empty()) return {};
-  const bool relative = input.prediction.value("flame", "") == "assumed";
+  const bool relative = TextAt(input.prediction, "flame") == "assumed";
   std::vector<TableRow> rows;
   for (const auto& point : points) {
     if (rows.size() == kMostRows) break;
-    rows.push_back({Spelled(NumberAt(point, "phi"), 6), point.value("status", ""),
+    rows.push_back({Spelled(NumberAt(point, "phi"), 6), TextAt(point, "status"),
                     Interval(point, "frequency_hz"), Interval(point, "growth_rate_1_s"),
                     Interval(point, relative ? "q_amplitude_relative" : "p_amplitude"),
                     TableCell(100.0 * NumberAt(point, "share_unstable"))});

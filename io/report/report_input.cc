@@ -197,6 +197,18 @@ double NumberAt(const Json& json, const char* key) {
   return found != json.end() && found->is_number() ? found->get<double>() : kNotANumber;
 }
 
+std::string TextAt(const Json& json, const char* key) {
+  const Json& found = JsonAt(json, key);
+  return found.is_string() ? found.get<std::string>() : std::string();
+}
+
+const Json& JsonAt(const Json& json, const char* key) {
+  static const Json null;
+  if (!json.is_object()) return null;
+  const auto found = json.find(key);
+  return found != json.end() ? *found : null;
+}
+
 const Json& ListAt(const Json& json, const char* key) {
   static const Json empty = Json::array();
   if (!json.is_object()) return empty;

@@ -82,10 +82,10 @@ void AddFamily(const ReportInput& input, std::vector<std::string>& out) {
 }
 
 std::string End(const nlohmann::json& cycle, const char* key) {
-  if (!cycle.contains(key)) return "";
-  const double value = NumberAt(cycle[key], "value");
+  const nlohmann::json& end = JsonAt(cycle, key);
+  const double value = NumberAt(end, "value");
   if (!std::isfinite(value)) return "";
-  const double lo = NumberAt(cycle[key], "lo"), hi = NumberAt(cycle[key], "hi");
+  const double lo = NumberAt(end, "lo"), hi = NumberAt(end, "hi");
   std::string out = std::string("it ") + key + " at " + Spelled(value, 4);
   if (std::isfinite(lo) && std::isfinite(hi)) {
     out += " (95 % of the members: " + Spelled(lo, 4) + " to " + Spelled(hi, 4) + ")";
@@ -100,7 +100,7 @@ void AddPrediction(const ReportInput& input, std::vector<std::string>& out) {
     const double share = NumberAt(point, "share_unstable");
     if (!std::isfinite(share)) continue;
     phis.push_back(NumberAt(point, "phi"));
-    frequencies.push_back(NumberAt(point["frequency_hz"], "value"));
+    frequencies.push_back(NumberAt(JsonAt(point, "frequency_hz"), "value"));
     shares.push_back(100.0 * share);
   }
   if (!phis.empty()) {
@@ -111,23 +111,21 @@ void AddPrediction(const ReportInput& input, std::vector<std::string>& out) {
                   ": " + FromTo(frequencies, "Hz") + ", unstable at rest for " +
                   FromTo(shares, "% of the members") + ".");
   }
-  if (!input.prediction.contains("cycle") || !input.prediction["cycle"].is_object()) return;
-  const std::string begins = End(input.prediction["cycle"], "begins");
-  const std::string ends = End(input.prediction["cycle"], "ends");
+  const nlohmann::json& cycle = JsonAt(input.prediction, "cycle");
+  const std::string begins = End(cycle, "begins");
+  const std::string ends = End(cycle, "ends");
   if (begins.empty() && ends.empty()) return;
   out.push_back("Where the cycle is, in " + input.operating_parameter + ": " + begins +
                 (begins.empty() || ends.empty() ? "" : ", ") + ends + ".");
 }
 
 void AddVerdict(const ReportInput& input, std::vector<std::string>& out) {
-  if (!input.diagnosis.contains("verdict") || !input.diagnosis["verdict"].is_object()) return;
-  const auto& verdict = input.diagnosis["verdict"];
-  const std::string kind = verdict.value("kind", "");
+  const nlohmann::json& verdict = JsonAt(input.diagnosis, "verdict");
+  const std::string kind = TextAt(verdict, "kind");
   if (kind == "none") {
     out.push_back("The model explains the records: no cause of a gap was found.");
-  } else if (kind == "effect" && verdict["effect"].is_string()) {
-    out.push_back("The model falls short of the rig by: " + verdict["effect"].get<std::string>() +
-                  ".");
+  } else if (kind == "effect") {
+    out.push_back("The model falls short of the rig by: " + TextAt(verdict, "effect") + ".");
   } else if (kind == "unknown") {
     out.push_back(
         "The model falls short of the rig by a cause that is not in the catalogue, or "

@@ -8,12 +8,12 @@ namespace {
 
 // The changes of one condition that give an empty family a member.
 void AddChanges(const ReportInput& input, std::vector<std::string>& out) {
-  if (!input.FamilyIsEmpty() || !input.family.contains("conflict")) return;
+  if (!input.FamilyIsEmpty()) return;
   std::vector<std::string> parts;
-  for (const auto& each : ListAt(input.family["conflict"], "relaxations")) {
-    if (!each.is_object() || !each.value("suffices", false)) continue;
+  for (const auto& each : ListAt(JsonAt(input.family, "conflict"), "relaxations")) {
+    if (JsonAt(each, "suffices") != true) continue;
     const double needed = NumberAt(each, "needed");
-    const std::string condition = each.value("condition", "");
+    const std::string condition = TextAt(each, "condition");
     parts.push_back(std::isfinite(needed)
                         ? condition + " " + Spelled(needed, kSummaryDigits) + " in place of " +
                               Spelled(NumberAt(each, "value"), kSummaryDigits)
@@ -40,8 +40,7 @@ void AddUnreliable(const ReportInput& input, std::vector<std::string>& out) {
 }
 
 void AddAdvice(const ReportInput& input, std::vector<std::string>& out) {
-  if (!input.diagnosis.contains("advice") || !input.diagnosis["advice"].is_string()) return;
-  std::string advice = input.diagnosis["advice"].get<std::string>();
+  std::string advice = TextAt(input.diagnosis, "advice");
   if (advice.empty()) return;
   if (advice.front() >= 'a' && advice.front() <= 'z') advice.front() -= 'a' - 'A';
   out.push_back(advice + ".");

@@ -13,7 +13,7 @@ void AddHealth(const ReportInput& input, std::vector<std::string>& out) {
   for (const nlohmann::json* file : {&input.solution, &input.analysis}) {
     asked = asked || (file->is_object() && file->contains("health"));
     for (const auto& finding : ListAt(*file, "health")) {
-      const std::string text = finding.is_object() ? finding.value("text", "") : "";
+      const std::string text = TextAt(finding, "text");
       if (!text.empty()) texts.insert(text);
     }
   }
@@ -29,8 +29,7 @@ void AddHealth(const ReportInput& input, std::vector<std::string>& out) {
 }
 
 void AddUndetermined(const ReportInput& input, std::vector<std::string>& out) {
-  if (!input.solution.contains("identifiability")) return;
-  const std::size_t open = ListAt(input.solution["identifiability"], "undetermined").size();
+  const std::size_t open = ListAt(JsonAt(input.solution, "identifiability"), "undetermined").size();
   if (open == 0) return;
   out.push_back("The joint fit is one choice: " + Counted(open, "direction") +
                 " of its parameters " + (open == 1 ? "is" : "are") +
@@ -40,18 +39,15 @@ void AddUndetermined(const ReportInput& input, std::vector<std::string>& out) {
 // "xi 0.0000012 to 0.3": a bound of the family that nothing exceeds.
 std::string Bound(const nlohmann::json& bounds, const char* key, const std::string& name,
                   double scale, const std::string& unit) {
-  if (!bounds.contains(key)) return "";
-  const auto& outer = ListAt(bounds[key], "outer");
+  const nlohmann::json& outer = ListAt(JsonAt(bounds, key), "outer");
   if (outer.size() != 2 || !outer[0].is_number() || !outer[1].is_number()) return "";
   return name + " " + FromTo(scale * outer[0].get<double>(), scale * outer[1].get<double>(), unit);
 }
 
 void AddBounds(const ReportInput& input, std::vector<std::string>& out) {
   const MeasuredPoint* const point = input.Reference();
-  if (point == nullptr || !input.family.is_object() || !input.family.contains("bounds")) return;
-  const auto& all = input.family["bounds"];
-  if (!all.is_object() || !all.contains(point->name)) return;
-  const auto& bounds = all[point->name];
+  if (point == nullptr) return;
+  const nlohmann::json& bounds = JsonAt(JsonAt(input.family, "bounds"), point->name.c_str());
   std::vector<std::string> parts;
   for (const std::string& part : {Bound(bounds, "omega_hz", "the natural frequency", 1.0, "Hz"),
                                   Bound(bounds, "xi", "the damping ratio", 1.0, ""),
@@ -64,8 +60,7 @@ void AddBounds(const ReportInput& input, std::vector<std::string>& out) {
 }
 
 void AddTolerances(const ReportInput& input, std::vector<std::string>& out) {
-  if (!input.family.is_object() || !input.family.contains("test")) return;
-  if (NumberAt(input.family["test"], "loop_gain_min") != 0.0) return;
+  if (NumberAt(JsonAt(input.family, "test"), "loop_gain_min") != 0.0) return;
   out.push_back(
       "The family was asked for without loop_gain_min: its models need not oscillate by "
       "themselves, as the rig did.");
@@ -75,7 +70,7 @@ void AddPrediction(const ReportInput& input, std::vector<std::string>& out) {
   if (!input.prediction.is_object()) return;
   std::vector<std::string> far;
   for (const auto& point : ListAt(input.prediction, "points")) {
-    if (point.value("status", "") == "outside") far.push_back(Spelled(NumberAt(point, "phi"), 6));
+    if (TextAt(point, "status") == "outside") far.push_back(Spelled(NumberAt(point, "phi"), 6));
   }
   out.push_back(
       "Predictions are intervals of 95 % of the members; only at a measured point is "
@@ -84,8 +79,7 @@ void AddPrediction(const ReportInput& input, std::vector<std::string>& out) {
 }
 
 void AddGap(const ReportInput& input, std::vector<std::string>& out) {
-  if (!input.diagnosis.contains("gap")) return;
-  const auto& gap = input.diagnosis["gap"];
+  const nlohmann::json& gap = JsonAt(input.diagnosis, "gap");
   const double before = NumberAt(gap, "before"), after = NumberAt(gap, "after");
   const double floor = NumberAt(gap, "floor");
   if (std::isfinite(before) && std::isfinite(after)) {
@@ -96,14 +90,10 @@ void AddGap(const ReportInput& input, std::vector<std::string>& out) {
                        : std::string()) +
                   ".");
   }
-  if (!input.diagnosis.contains("verdict")) return;
-  const auto& verdict = input.diagnosis["verdict"];
-  if (!verdict.is_object() || !verdict.contains("probability")) return;
-  const std::string kind = verdict.value("kind", "");
-  const std::string key = kind == "effect" && verdict["effect"].is_string()
-                              ? verdict["effect"].get<std::string>()
-                              : kind;
-  const double probability = NumberAt(verdict["probability"], key.c_str());
+  const nlohmann::json& verdict = JsonAt(input.diagnosis, "verdict");
+  const std::string kind = TextAt(verdict, "kind");
+  const std::string key = kind == "effect" ? TextAt(verdict, "effect") : kind;
+  const double probability = NumberAt(JsonAt(verdict, "probability"), key.c_str());
   if (!std::isfinite(probability)) return;
   std::vector<std::string> others;
   for (const auto& id : ListAt(verdict, "indistinguishable")) {

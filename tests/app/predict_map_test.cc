@@ -140,6 +140,9 @@ TEST(WithoutCondition, IsNullInTheConfig) {
   }
   EXPECT_EQ(RunHowl("predict " + plain + one + " --at 0.53").status, 1);
   EXPECT_EQ(RunHowl("predict " + plain + one + " --at 0.53 --without loop_gain_min").status, 0);
+  const ProgramResult measured =
+      RunHowl("predict " + plain + one + " --at 0.56 --without loop_gain_min");
+  EXPECT_THAT(measured.out, HasSubstr("most members are stable at rest at a reliable point"));
 }
 
 }  // namespace

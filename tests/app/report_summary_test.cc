@@ -115,11 +115,14 @@ TEST(ReportSummary, SaysTheVerdictAndTheAdvice) {
 TEST(ReportSummary, AFieldOfAnotherTypeLeavesThePageWhole) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "out");
-  folder.Write("out/prediction.json",
-               R"({"schema": "howl.prediction/1", "points": [3, {"phi": "x"}], "cycle": [1],
+  folder.Write(
+      "out/prediction.json",
+      R"({"schema": "howl.prediction/1", "points": [3, {"phi": 1, "share_unstable": 0.5}], "cycle": [1],
                    "map": {"x": 2}, "flame": 7})");
   folder.Write("out/prediction_map.csv", "phi,tau_s,growth_rate_1_s\n1,2,3\n");
   folder.Write("out/family.json", R"({"schema": "howl.family/1", "bounds": 3})");
+  folder.Write("out/diagnosis.json",
+               R"({"schema": "howl.diagnosis/1", "verdict": {"kind": "none"}, "gap": "?"})");
   const std::string page = Page(folder);
   EXPECT_THAT(page, HasSubstr("</html>"));
   EXPECT_THAT(page, HasSubstr("What is missing"));

@@ -57,9 +57,9 @@ std::string PercentOf(double count, double all) { return Spelled(100.0 * count /
 }  // namespace
 
 std::optional<Figure> StabilityMapFigure(const ReportInput& input) {
-  if (!input.prediction_map || !input.prediction.contains("map")) return std::nullopt;
+  const nlohmann::json& map = JsonAt(input.prediction, "map");
+  if (!input.prediction_map || !map.is_object()) return std::nullopt;
   const CsvTable& table = *input.prediction_map;
-  const auto& map = input.prediction["map"];
   if (table.columns.size() < 3 || !table.Find("growth_rate_1_s")) return std::nullopt;
   Axis x = AxisOf(input, table.columns[0]);
   Axis y = AxisOf(input, table.columns[1]);
@@ -98,10 +98,12 @@ std::optional<Figure> StabilityMapFigure(const ReportInput& input) {
   }
   bool any_member = false;
   for (const auto& mark : ListAt(map, "members")) {
-    csv.Cell("members").Cell(x.scale * NumberAt(mark["x"], "value"));
-    csv.Cell(y.scale * NumberAt(mark["y"], "value")).Cell(x.scale * NumberAt(mark["x"], "lo"));
-    csv.Cell(x.scale * NumberAt(mark["x"], "hi")).Cell(y.scale * NumberAt(mark["y"], "lo"));
-    csv.Cell(y.scale * NumberAt(mark["y"], "hi")).Cell("").EndRow();
+    csv.Cell("members").Cell(x.scale * NumberAt(JsonAt(mark, "x"), "value"));
+    csv.Cell(y.scale * NumberAt(JsonAt(mark, "y"), "value"))
+        .Cell(x.scale * NumberAt(JsonAt(mark, "x"), "lo"));
+    csv.Cell(x.scale * NumberAt(JsonAt(mark, "x"), "hi"))
+        .Cell(y.scale * NumberAt(JsonAt(mark, "y"), "lo"));
+    csv.Cell(y.scale * NumberAt(JsonAt(mark, "y"), "hi")).Cell("").EndRow();
     any_member = true;
   }
   Figure figure;
