@@ -31,8 +31,7 @@ std::vector<double> Values(const Options& options, const std::string& option,
   std::vector<double> values =
       ParseAskedPoints(option, options.Text(option).value_or(otherwise), most);
   std::ranges::sort(values);
-  const auto repeated = std::ranges::unique(values);
-  values.erase(repeated.begin(), repeated.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   if (values.front() < 0.0) throw UsageError(option + ": a value below zero, expected none");
   return values;
 }

@@ -39,8 +39,7 @@ void ReadValues(const CsvTable& table, Axis& axis) {
     axis.values.push_back(axis.scale * table.Number(row, axis.name));
   }
   std::ranges::sort(axis.values);
-  const auto repeated = std::ranges::unique(axis.values);
-  axis.values.erase(repeated.begin(), repeated.end());
+  axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
 }
 
 // The edges of a cell: half way to its neighbours.
