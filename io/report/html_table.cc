@@ -15,6 +15,17 @@ constexpr std::size_t kNumbersLength = 36;  // a column with longer cells is wor
 
 constexpr int kDigits = 3;  // that a reader takes in at a glance
 
+// 4980 rather than 4.98 · 10³.
+std::string Readable(double value, int digits) {
+  constexpr int kMostPlainPower = 5;
+  const int power = value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (!std::isfinite(value) || power < digits || power > kMostPlainPower) {
+    return Spelled(value, digits);
+  }
+  const double unit = std::pow(10.0, power - digits + 1);
+  return Spelled(unit * std::round(value / unit), kMostPlainPower + 2);
+}
+
 // What the cell's text leaves out; empty where that is nothing.
 std::string Whole(double value, std::string shown) {
   if (!std::isfinite(value)) return "";
@@ -27,10 +38,12 @@ std::string Whole(double value, std::string shown) {
 }  // namespace
 
 TableCell::TableCell(double value, int digits)
-    : text(Spelled(value, digits)), whole(Whole(value, text)) {}
+    : text(Readable(value, digits)), whole(Whole(value, text)) {}
 
 TableCell::TableCell(const Estimate& estimate, double scale)
-    : text(SpelledInterval(estimate, scale, kDigits)), whole(Whole(scale * estimate.value, text)) {
+    : text(std::isfinite(estimate.std) ? SpelledInterval(estimate, scale, kDigits)
+                                       : Readable(scale * estimate.value, kDigits)),
+      whole(Whole(scale * estimate.value, text)) {
   if (!whole.empty() && std::isfinite(estimate.std) && estimate.std > 0.0) {
     whole += ", standard deviation " + NumberText(scale * estimate.std);
   }

@@ -34,7 +34,7 @@ const std::vector<Section>& Sections() {
        {"bode_family", "bode_all", "transfer", "nyquist", "spectrum_comparison",
         "sensitivity_omega", "sensitivity_tau", "bifurcation"}},
       {"family", "What the data leave open", {"tradeoff", "bounds"}},
-      {"prediction", "What to expect where nobody measured", {"stability_map"}},
+      {"prediction", "What to expect where nobody measured", {"prediction", "stability_map"}},
       {"diagnosis",
        "Where and why the model falls short",
        {"gap_map", "effects", "budget", "remains"}},

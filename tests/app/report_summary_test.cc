@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -140,6 +141,7 @@ TEST(ReportTables, ThreeDigitsAndTheWholeNumber) {
   ASSERT_TRUE(std::regex_search(
       page, found,
       std::regex("<th scope=\"row\">exp1</th><td>0.56</td><td title=\"([^\"]+)\">217<")));
+  EXPECT_THAT(page, HasSubstr(">4980</td>"));  // N of experiment 1: no power of ten
   EXPECT_DOUBLE_EQ(std::stod(found[1]), solution["experiments"][0]["omega_hz"].get<double>());
 }
 
@@ -169,6 +171,16 @@ TEST(ReportStabilityMap, TheBoundaryLiesBetweenGrowthAndDecay) {
       0);
   const std::string page = Page(folder);
   EXPECT_THAT(page, HasSubstr("id=\"figure-stability_map\""));
+  const Json points = Json::parse(ReadFile(folder.path() / "out" / "prediction.json"))["points"];
+  const auto predicted = Curve(FigureData(folder.path() / "out", "prediction"), "prediction");
+  ASSERT_EQ(predicted.size(), points.size());
+  for (const Json& point : points) {
+    const auto row = std::ranges::find_if(
+        predicted, [&](const Row& each) { return each.numbers[0] == point["phi"].get<double>(); });
+    ASSERT_NE(row, predicted.end());
+    EXPECT_EQ(row->numbers[1], point["frequency_hz"]["value"].get<double>());
+    EXPECT_EQ(row->numbers[6], point["growth_rate_1_s"]["hi"].get<double>());
+  }
   const auto rows = FigureData(folder.path() / "out", "stability_map");
   const auto boundary = Curve(rows, "boundary");
   ASSERT_GT(boundary.size(), 5u);
