@@ -10,7 +10,7 @@
 #include "io/report/page_tables.h"
 #include "io/report/prediction_section.h"
 #include "io/report/render.h"
-#include "io/report/summary.h"
+#include "io/report/summary/summary.h"
 #include "model/version.h"
 #include "report_assets.inc"
 

@@ -1,4 +1,4 @@
-#include "io/report/summary.h"
+#include "io/report/summary/summary.h"
 
 #include "io/report/page.h"
 

@@ -1,7 +1,7 @@
 // What a report says first, in plain sentences from the files that are there: what was found, how
 // sure it is, and what to do next.
-#ifndef HOWL_IO_REPORT_SUMMARY_H_
-#define HOWL_IO_REPORT_SUMMARY_H_
+#ifndef HOWL_IO_REPORT_SUMMARY_SUMMARY_H_
+#define HOWL_IO_REPORT_SUMMARY_SUMMARY_H_
 
 #include <string>
 #include <vector>
@@ -20,4 +20,4 @@ std::string SummaryHtml(const ReportInput& input);
 
 }  // namespace howl
 
-#endif  // HOWL_IO_REPORT_SUMMARY_H_
+#endif  // HOWL_IO_REPORT_SUMMARY_SUMMARY_H_

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "io/report/summary.h"
-#include "io/report/summary_words.h"
+#include "io/report/summary/summary.h"
+#include "io/report/summary/words.h"
 
 namespace howl {
 namespace {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <set>
 
-#include "io/report/summary.h"
-#include "io/report/summary_words.h"
+#include "io/report/summary/summary.h"
+#include "io/report/summary/words.h"
 
 namespace howl {
 namespace {
