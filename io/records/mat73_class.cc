@@ -17,7 +17,8 @@ bool IsMatlabsOwn(hid_t attribute) {
   const hid_t space = H5Aget_space(attribute);
   bool own = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
              H5Sget_simple_extent_npoints(space) == 1;
-  if (own) {
+  // A text that is padded, not ended, loses its last letter where matio asks for one that is ended.
+  if (own && H5Tget_strpad(type) != H5T_STR_NULLTERM) {
     std::vector<char> text(H5Tget_size(type));
     own = H5Aread(attribute, type, text.data()) >= 0 &&
           std::find(text.begin(), text.end(), '\0') != text.end();
