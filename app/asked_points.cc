@@ -20,41 +20,42 @@ std::vector<std::string> Split(const std::string& text, char at) {
   return parts;
 }
 
-double ParseNumber(const std::string& whole, const std::string& text) {
+double ParseNumber(const std::string& option, const std::string& whole, const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw UsageError("--at: " + whole +
+    throw UsageError(option + ": " + whole +
                      ", expected a number or FROM:TO:STEP, such as 0.5:0.7:0.01");
   }
   return value;
 }
 
-void CheckCount(double count) {
-  if (count <= static_cast<double>(kMostAskedPoints)) return;
-  throw UsageError("--at: more than " + std::to_string(kMostAskedPoints) +
+void CheckCount(const std::string& option, double count, std::size_t most) {
+  if (count <= static_cast<double>(most)) return;
+  throw UsageError(option + ": more than " + std::to_string(most) +
                    " points, expected fewer, or a longer step");
 }
 
 }  // namespace
 
-std::vector<double> ParseAskedPoints(const std::string& text) {
+std::vector<double> ParseAskedPoints(const std::string& option, const std::string& text,
+                                     std::size_t most) {
   std::vector<double> points;
   for (const std::string& item : Split(text, ',')) {
     const std::vector<std::string> parts = Split(item, ':');
-    const double from = ParseNumber(item, parts[0]);
+    const double from = ParseNumber(option, item, parts[0]);
     if (parts.size() == 1) {
       points.push_back(from);
-      CheckCount(static_cast<double>(points.size()));
+      CheckCount(option, static_cast<double>(points.size()), most);
       continue;
     }
-    if (parts.size() != 3) ParseNumber(item, item);
-    const double to = ParseNumber(item, parts[1]);
-    const double step = ParseNumber(item, parts[2]);
-    if (!(step > 0.0)) throw UsageError("--at: " + item + ", expected a step above zero");
-    if (to < from) throw UsageError("--at: " + item + ", expected FROM below TO");
+    if (parts.size() != 3) ParseNumber(option, item, item);
+    const double to = ParseNumber(option, item, parts[1]);
+    const double step = ParseNumber(option, item, parts[2]);
+    if (!(step > 0.0)) throw UsageError(option + ": " + item + ", expected a step above zero");
+    if (to < from) throw UsageError(option + ": " + item + ", expected FROM below TO");
     const double steps = std::floor((to - from) / step * (1.0 + kRounding) + kRounding);
-    CheckCount(static_cast<double>(points.size()) + steps + 1.0);
+    CheckCount(option, static_cast<double>(points.size()) + steps + 1.0, most);
     for (double k = 0.0; k <= steps; k += 1.0) points.push_back(from + k * step);
   }
   return points;

@@ -33,11 +33,12 @@ constexpr const char* kHead = "head";
 
 std::filesystem::path StatePath(const Options& options) { return options.out / "bounds.state"; }
 
-// Identifies what the state belongs to: this config, seed and program.
+// Identifies what the state belongs to: this config, test, seed and program.
 std::string Key(const Options& options) {
   std::ifstream file(options.config, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
+  text << options.Text("--without").value_or("");
   const std::uint64_t hash = UnitSeed(options.seed, text.str());
   return "howl.bounds " + std::string(Version()) + " " + std::to_string(hash);
 }

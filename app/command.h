@@ -49,6 +49,7 @@ Command AnalyseCommand();
 Command CampaignCommand();
 Command CheckCommand();
 Command DiagnoseCommand();
+Command ExportCommand();
 Command FitCommand();
 Command FamilyCommand();
 Command InitCommand();

@@ -111,6 +111,13 @@ void PrintConflict(const FamilyProblem& problem, const Conflict& conflict,
     std::printf("  # %zu more data that would do are in family.json\n", data.size() - kShownData);
   }
   PrintHelpless(problem, conflict);
+  const auto is_condition = [](const SmallestChange* change) {
+    return change->target.kind == ChangeKind::kCondition;
+  };
+  if (std::ranges::any_of(limits, is_condition)) {
+    std::printf(
+        "to leave a condition out altogether, without touching the config: --without NAME\n");
+  }
 }
 
 }  // namespace howl

@@ -4,6 +4,7 @@
 #include "app/command.h"
 #include "app/family_run.h"
 #include "app/family_text.h"
+#include "app/without_conditions.h"
 #include "io/results/family_csv.h"
 #include "io/results/family_json.h"
 #include "io/results/result_files.h"
@@ -13,7 +14,7 @@ namespace howl {
 namespace {
 
 int Run(const Options& options) {
-  const Config config = LoadConfig(options.config);
+  const Config config = WithoutConditions(LoadConfig(options.config), options);
   if (const std::optional<Shard> shard = ShardOf(options)) {
     RunFamilyShard(config, options, *shard);
     return kDone;
@@ -53,7 +54,8 @@ Command FamilyCommand() {
       "the family is\n"
       "empty, names the conditions that exclude each other and exits with 1. Interrupted work\n"
       "goes on where it stopped.",
-      {{"--falsify", "OTHER.yaml", "which members survive the experiments of another config"},
+      {WithoutOption(),
+       {"--falsify", "OTHER.yaml", "which members survive the experiments of another config"},
        {"--advise", "", "which further measurement would remove most of the family"},
        {"--profile", "QUANTITY",
         "the best fit along exp1.tau_s, exp1.loop_gain, a prediction or any expression"},

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "app/asked_points.h"
@@ -8,18 +10,20 @@
 #include "app/conflict_text.h"
 #include "app/family_questions.h"
 #include "app/family_run.h"
+#include "app/map_axes.h"
 #include "app/measured_flame.h"
+#include "app/predict_map.h"
 #include "app/predict_text.h"
 #include "app/problem_input.h"
+#include "app/without_conditions.h"
 #include "io/results/predict_files.h"
 #include "io/results/result_files.h"
+#include "io/results/stability_map_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
 namespace howl {
 namespace {
-
-constexpr std::size_t kMostMembers = 1000;
 
 void CheckPoints(const Config& config, const OperatingPoints& points,
                  const std::vector<double>& asked) {
@@ -71,14 +75,12 @@ std::optional<GuaranteedPoint> GuaranteeAt(const FamilyRun& run, const Operating
 }
 
 PredictReport Predict(const Config& config, const Options& options, const FamilyRun& run,
-                      const PredictedFlame& flame, const std::vector<double>& asked) {
-  const OperatingPoints points(run.problem.experiments);
-  const std::vector<Member> members = Thinned(run.members, kMostMembers);
-  const std::vector<MemberPath> paths =
-      MakePaths(run.problem, points, members, options.seed, options.threads);
+                      const CarriedMembers& carried, const PredictedFlame& flame,
+                      const std::vector<double>& asked) {
+  const auto& [points, members, paths] = carried;
   PredictReport report;
   report.operating_parameter = config.operating_parameter;
-  report.members = members.size();
+  report.members = members;
   report.paths = paths.size();
   report.flame = flame.stated ? "config" : flame.IsAssumed() ? "assumed" : "measured";
   report.scatter_known = points.size() != 2;
@@ -90,27 +92,59 @@ PredictReport Predict(const Config& config, const Options& options, const Family
   return report;
 }
 
+// The points of --at; with a map alone the measured ones.
+std::vector<double> AskedPoints(const Options& options, const std::optional<AskedMap>& map,
+                                const OperatingPoints& points) {
+  std::vector<double> asked;
+  if (const auto at = options.Text("--at")) {
+    asked = ParseAskedPoints("--at", *at);
+  } else {
+    for (std::size_t k = 0; k < points.size(); ++k) asked.push_back(points.phi(k));
+  }
+  if (!map || map->HasOperatingAxis() || asked.size() == 1) return asked;
+  throw UsageError("--map: neither quantity is the operating parameter, expected one point, --at " +
+                   std::to_string(points.phi(0)));
+}
+
 int Run(const Options& options) {
-  const std::optional<std::string> at = options.Text("--at");
-  if (!at) {
+  if (!options.Has("--at") && !options.Has("--map")) {
     throw UsageError("predict: no operating point given, expected --at 0.6 or --at FROM:TO:STEP");
   }
-  const std::vector<double> asked = ParseAskedPoints(*at);
-  const Config config = LoadConfig(options.config);
+  if (const auto at = options.Text("--at")) ParseAskedPoints("--at", *at);
+  const Config config = WithoutConditions(LoadConfig(options.config), options);
+  const std::optional<AskedMap> map = ParseMap(config, options);
   const ProblemInput input = LoadInput(config, options);
   RequireExperiments(config, options, input);
-  CheckPoints(config, OperatingPoints(input.experiments), asked);
+  const OperatingPoints points(input.experiments);
+  const std::vector<double> asked = AskedPoints(options, map, points);
+  CheckPoints(config, points, asked);
+  if (map && map->HasOperatingAxis() && points.size() < 2) {
+    throw UsageError("--map: one operating point, expected two or more for an axis of it");
+  }
   const FamilyRun run = RunFamilyAnew(config, options, input.experiments);
   if (run.members.empty()) {
     if (!options.quiet) PrintConflict(run.problem, run.conflict, run.recorded);
     return kNegativeAnswer;
   }
-  const PredictReport report = Predict(config, options, run, FlameOf(config, input), asked);
+  const CarriedMembers carried = CarryMembers(options, run);
+  const PredictReport report =
+      Predict(config, options, run, carried, FlameOf(config, input), asked);
+  nlohmann::ordered_json json = PredictJson(report);
+  std::string text = PredictText(report);
+  std::string written = "prediction.csv and prediction.json";
+  std::error_code ignored;
+  std::filesystem::remove(options.out / kPredictionMapCsv, ignored);  // of an earlier prediction
+  if (map) {
+    const MapReport mapped = MakeMap(config, options, carried, asked, *map);
+    WriteWholeFile(options.out / kPredictionMapCsv, StabilityMapCsv(mapped));
+    json["map"] = StabilityMapJson(mapped);
+    text += MapText(mapped);
+    written = "prediction.csv, prediction_map.csv and prediction.json";
+  }
   WriteWholeFile(options.out / kPredictionCsv, PredictCsv(report));
-  WriteWholeFile(options.out / "prediction.json", PredictJson(report).dump(2) + "\n");
+  WriteWholeFile(options.out / "prediction.json", json.dump(2) + "\n");
   if (!options.quiet) {
-    std::printf("%swritten: prediction.csv and prediction.json in %s\n",
-                PredictText(report).c_str(), options.out.c_str());
+    std::printf("%swritten: %s in %s\n", text.c_str(), written.c_str(), options.out.c_str());
   }
   const bool any = std::ranges::any_of(
       report.points, [](const PointPrediction& point) { return point.members > 0; });
@@ -129,9 +163,17 @@ Command PredictCommand() {
       "interval that holds 95 % of the members; and where the cycle begins and ends. Only at\n"
       "a measured point is any of it guaranteed. A point further away than the measured range\n"
       "is wide has no prediction. Writes prediction.csv and prediction.json. Exits with 1\n"
-      "when the family is empty, or no point asked for can be predicted.",
+      "when the family is empty, or no point asked for can be predicted. --map adds a\n"
+      "stability chart over two quantities, prediction_map.csv.",
       {{"--at", "PHI...",
-        "operating points: 0.6 or 0.5:0.7:0.01 (from, to, step), joined by commas"}},
+        "operating points: 0.6 or 0.5:0.7:0.01 (from, to, step), joined by commas (with --map:\n"
+        "the measured ones)"},
+       WithoutOption(),
+       {"--map", "X:Y",
+        "growth rate at rest over two of the operating parameter, omega_hz, xi, N, M, tau_s and "
+        "flame_slope"},
+       {"--map-x", "FROM:TO:STEP", "values of X (default: 41 over what was measured or listed)"},
+       {"--map-y", "FROM:TO:STEP", "values of Y"}},
       Run};
 }
 

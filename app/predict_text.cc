@@ -118,6 +118,16 @@ std::string PredictText(const PredictReport& report) {
             2) +
         "\n";
   }
+  if (Any(report, [](const auto& point) {
+        return point.kind == PointKind::kMeasured && !point.rests_on_unreliable &&
+               point.share_unstable < 0.5;
+      })) {
+    text += Wrapped(
+                "most members are stable at rest at a reliable point, where the rig oscillated: "
+                "what keeps that cycle going is not in them",
+                2) +
+            "\n";
+  }
   if (!report.scatter_known) {
     text += Wrapped(
                 "two operating points do not show how far a rig is from a straight line between "

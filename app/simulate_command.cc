@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/asked_models.h"
 #include "app/command.h"
-#include "app/config_fit.h"
 #include "app/flame_table_rig.h"
 #include "app/measured_flame.h"
 #include "app/problem_input.h"
@@ -15,9 +15,7 @@
 #include "app/simulate_times.h"
 #include "app/text_table.h"
 #include "estimation/family/problem/membership.h"
-#include "estimation/fit/joint_fit.h"
 #include "io/records/records.h"
-#include "io/results/family_csv.h"
 #include "io/results/records_yaml.h"
 #include "io/results/result_files.h"
 #include "io/results/simulation_json.h"
@@ -27,37 +25,6 @@
 
 namespace howl {
 namespace {
-
-constexpr int kMostMembers = 100000000;
-
-// The stable solution's models, or one listed member's.
-std::vector<LoopModel> ModelsToSimulate(const Config& config, const Options& options,
-                                        const std::vector<Experiment>& experiments) {
-  const auto number = options.Count("--member", 1, kMostMembers);
-  if (!number) {
-    const JointProblem problem = MakeJointProblem(config, experiments);
-    return SolveConfig(config, options, problem).models;
-  }
-  const FamilyTable table = ReadFamilyCsv(options.out / kFamilyCsv);
-  if (*number > static_cast<int>(table.rows.size())) {
-    throw UsageError("--member: " + std::to_string(*number) + ", expected at most " +
-                     std::to_string(table.rows.size()) + ", the members of family.csv");
-  }
-  const std::vector<double>& row = table.rows[static_cast<std::size_t>(*number - 1)];
-  std::vector<LoopModel> models;
-  for (const Experiment& experiment : experiments) {
-    const auto value = [&](const char* column) {
-      return row[table.Column(experiment.name + "." + column)];
-    };
-    models.push_back({.omega_hz = value("omega_hz"),
-                      .xi = value("xi"),
-                      .N = value("N"),
-                      .M = value("M"),
-                      .tau_s = value("tau_s"),
-                      .harmonic_ratio = config.model.harmonic_ratio});
-  }
-  return models;
-}
 
 std::string LoopsText(const Options& options, const std::vector<Experiment>& experiments,
                       const std::vector<SimulatedRig>& rigs) {
@@ -73,7 +40,7 @@ std::string LoopsText(const Options& options, const std::vector<Experiment>& exp
          .flame = rig.flame,
          .cycle_hz = rig.cycle ? std::optional(rig.cycle->frequency_hz) : std::nullopt});
   }
-  return SimulationJson(options.Count("--member", 1, kMostMembers), loops).dump(2) + "\n";
+  return SimulationJson(AskedMember(options), loops).dump(2) + "\n";
 }
 
 void Print(const std::vector<Experiment>& experiments, const std::vector<SimulatedRig>& rigs) {
@@ -99,7 +66,7 @@ int Run(const Options& options) {
   const std::vector<Experiment>& experiments = input.experiments;
   const SimulationTimes times = MakeSimulationTimes(config.simulation, experiments);
   CheckSimulationTimes(config, times, experiments);
-  const std::vector<LoopModel> models = ModelsToSimulate(config, options, experiments);
+  const std::vector<LoopModel> models = AskedModels(config, options, experiments);
   if (config.simulation.sweep) CheckSweep(config, times);
   std::vector<SimulatedRig> rigs;
   for (std::size_t i = 0; i < experiments.size(); ++i) {

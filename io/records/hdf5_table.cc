@@ -88,10 +88,15 @@ herr_t AddDataset(hid_t root, const char* name, const H5O_info_t* info, void* ar
 
 class Hdf5Table final : public TableSource {
  public:
-  explicit Hdf5Table(const std::filesystem::path& file)
-      : file_(file.string()), root_(H5Fopen(file_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
+  Hdf5Table(const std::filesystem::path& file, Hdf5Names names)
+      : file_(file.string()),
+        names_(names),
+        root_(H5Fopen(file_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
     if (!root_.ok()) throw UserError(file_, 0, "", "truncated or damaged, expected an HDF5 file");
     H5Ovisit2(root_.get(), H5_INDEX_NAME, H5_ITER_INC, AddDataset, &arrays_, H5O_INFO_BASIC);
+    if (names_ == Hdf5Names::kPaths) return;
+    std::erase_if(arrays_, [](const ArrayInfo& array) { return array.name.starts_with('#'); });
+    for (ArrayInfo& array : arrays_) std::ranges::replace(array.name, '/', '.');
   }
 
   Columns Read(const std::vector<ColumnName>& names) override {
@@ -101,9 +106,17 @@ class Hdf5Table final : public TableSource {
   }
 
   std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
-  std::string Format() const override { return "an HDF5 file"; }
+  std::string Format() const override {
+    return names_ == Hdf5Names::kMatlab ? "a MATLAB 7.3 file" : "an HDF5 file";
+  }
 
  private:
+  std::string PathOf(const ArrayInfo& array) const {
+    std::string path = array.name;
+    if (names_ == Hdf5Names::kMatlab) std::ranges::replace(path, '.', '/');
+    return path;
+  }
+
   Columns ReadColumns(const std::vector<ColumnName>& names) const {
     Columns columns;
     for (const ArrayChannel& channel : FindChannels(file_, arrays_, names)) {
@@ -115,7 +128,7 @@ class Hdf5Table final : public TableSource {
   std::vector<double> ReadChannel(const ArrayInfo& array, std::size_t channel) const {
     std::vector<double> column(array.samples());
     if (column.empty()) return column;
-    const Handle dataset(H5Dopen2(root_.get(), array.name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle dataset(H5Dopen2(root_.get(), PathOf(array).c_str(), H5P_DEFAULT), H5Dclose);
     const Handle space(H5Dget_space(dataset.get()), H5Sclose);
     if (IsBomb(static_cast<double>(std::filesystem::file_size(file_)), ChunkBytes(dataset.get()))) {
       throw UserError(file_, 0, array.name, kBombWords);
@@ -142,6 +155,7 @@ class Hdf5Table final : public TableSource {
   }
 
   std::string file_;
+  Hdf5Names names_;
   Handle root_;
   std::vector<ArrayInfo> arrays_;
 };
@@ -149,8 +163,8 @@ class Hdf5Table final : public TableSource {
 // Closes the file under the lock, too.
 class LockedHdf5Table final : public TableSource {
  public:
-  explicit LockedHdf5Table(const std::filesystem::path& file)
-      : table_(std::make_unique<Hdf5Table>(file)) {}
+  LockedHdf5Table(const std::filesystem::path& file, Hdf5Names names)
+      : table_(std::make_unique<Hdf5Table>(file, names)) {}
   ~LockedHdf5Table() override {
     const Hdf5Lock lock;
     table_.reset();
@@ -167,10 +181,10 @@ class LockedHdf5Table final : public TableSource {
 
 Hdf5Lock::Hdf5Lock() : lock_(Hdf5Mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-std::unique_ptr<TableSource> OpenHdf5Table(const std::filesystem::path& file) {
+std::unique_ptr<TableSource> OpenHdf5Table(const std::filesystem::path& file, Hdf5Names names) {
   const Hdf5Lock lock;
-  RequireSurvival(file.string(), [&] { const Hdf5Table table(file); });
-  return std::make_unique<LockedHdf5Table>(file);
+  RequireSurvival(file.string(), [&] { const Hdf5Table table(file, names); });
+  return std::make_unique<LockedHdf5Table>(file, names);
 }
 
 }  // namespace howl

@@ -9,7 +9,12 @@
 
 namespace howl {
 
-std::unique_ptr<TableSource> OpenHdf5Table(const std::filesystem::path& file);
+// kMatlab: a file of MATLAB's version 7.3, where the data set rec/p is the field rec.p of a struct,
+// and what cells refer to (#refs#) is no variable.
+enum class Hdf5Names { kPaths, kMatlab };
+
+std::unique_ptr<TableSource> OpenHdf5Table(const std::filesystem::path& file,
+                                           Hdf5Names names = Hdf5Names::kPaths);
 
 }  // namespace howl
 

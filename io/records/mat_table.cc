@@ -13,6 +13,7 @@
 #include "io/records/hdf5_lock.h"
 #include "io/records/hdf5_table.h"
 #include "io/records/mat5_check.h"
+#include "io/records/mat73_class.h"
 #include "io/records/survival.h"
 #include "io/user_error.h"
 
@@ -71,18 +72,13 @@ class MatTable final : public TableSource {
     for (;;) {
       const Variable variable(Mat_VarReadNextInfo(mat_.get()));
       if (!variable) break;
-      has_untold_class_ |= variable->class_type == MAT_C_EMPTY && variable->rank > 0;
       AddArrays(*variable, variable->name != nullptr ? variable->name : "");
     }
     std::sort(arrays_.begin(), arrays_.end(),
               [](const ArrayInfo& a, const ArrayInfo& b) { return a.name < b.name; });
   }
 
-  // Files of version 7.3 state the class in an attribute, a text of fixed length; matio understands
-  // it with a zero at its end alone, which not every program writes.
-  bool HasUntoldClass() const {
-    return has_untold_class_ && Mat_GetVersion(mat_.get()) == MAT_FT_MAT73;
-  }
+  bool IsVersion73() const { return Mat_GetVersion(mat_.get()) == MAT_FT_MAT73; }
 
   ~MatTable() override {
     const Hdf5Lock lock;
@@ -97,7 +93,7 @@ class MatTable final : public TableSource {
 
   std::vector<ColumnInfo> List() const override { return ListChannels(arrays_); }
   std::string Format() const override {
-    return Mat_GetVersion(mat_.get()) == MAT_FT_MAT73 ? "a MATLAB 7.3 file" : "a MATLAB file";
+    return IsVersion73() ? "a MATLAB 7.3 file" : "a MATLAB file";
   }
 
  private:
@@ -194,7 +190,7 @@ class MatTable final : public TableSource {
     const int place = static_cast<int>(channel);
     const int count = static_cast<int>(array.samples());
     int status = 0;
-    if (Mat_GetVersion(mat_.get()) == MAT_FT_MAT73) {
+    if (IsVersion73()) {
       // Its linear read selects sample by sample: ten times slower, five times the memory.
       int start[2] = {0, place};
       int stride[2] = {1, 1};
@@ -264,7 +260,6 @@ class MatTable final : public TableSource {
     return column;
   }
 
-  bool has_untold_class_ = false;
   std::string file_;
   MatFile mat_;
   std::vector<ArrayInfo> arrays_;
@@ -276,13 +271,15 @@ std::unique_ptr<TableSource> OpenMatTable(const std::filesystem::path& file) {
   std::unique_ptr<MatTable> table;
   {
     const Hdf5Lock lock;
-    // Not deleted: that would wait for the lock.
-    RequireSurvival(file.string(), [&] { (void)new MatTable(file); });
+    RequireSurvival(file.string(), [&] {
+      const auto* const probe = new MatTable(file);  // not deleted: that would wait for the lock
+      if (probe->IsVersion73()) HasMatlabsOwnClasses(file);
+    });
     table = std::make_unique<MatTable>(file);
+    if (!table->IsVersion73() || HasMatlabsOwnClasses(file)) return table;
   }
-  if (!table->HasUntoldClass()) return table;
   table.reset();
-  return OpenHdf5Table(file);  // such a file is an HDF5 file as well
+  return OpenHdf5Table(file, Hdf5Names::kMatlab);
 }
 
 }  // namespace howl

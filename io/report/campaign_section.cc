@@ -19,7 +19,7 @@ std::string Count(const nlohmann::json& json, const char* key) {
 
 std::string VerdictTable(const nlohmann::json& campaign) {
   if (!campaign.contains("verdicts") || campaign["verdicts"].empty()) return {};
-  std::vector<std::vector<std::string>> rows;
+  std::vector<TableRow> rows;
   for (const auto& [verdict, count] : campaign["verdicts"].items()) {
     rows.push_back({verdict, Spelled(count.get<double>(), 7)});
   }
@@ -28,11 +28,11 @@ std::string VerdictTable(const nlohmann::json& campaign) {
 
 std::string ColumnTable(const nlohmann::json& campaign) {
   if (!campaign.contains("columns") || campaign["columns"].empty()) return {};
-  std::vector<std::vector<std::string>> rows;
+  std::vector<TableRow> rows;
   for (const auto& [column, numbers] : campaign["columns"].items()) {
     rows.push_back({column, Count(numbers, "count")});
     for (const char* const key : {"min", "quartile", "median", "upper_quartile", "max"}) {
-      rows.back().push_back(Spelled(NumberAt(numbers, key), 5));
+      rows.back().push_back(TableCell(NumberAt(numbers, key)));
     }
   }
   return HtmlTable("Over all rigs",
@@ -42,12 +42,13 @@ std::string ColumnTable(const nlohmann::json& campaign) {
 
 std::string RigTable(const CsvTable& table) {
   const std::vector<std::string> columns = DifferingColumns(table);
-  std::vector<std::vector<std::string>> rows;
+  std::vector<TableRow> rows;
   for (std::size_t row = 0; row < table.rows.size() && row < kMostRows; ++row) {
     rows.emplace_back();
     for (const std::string& column : columns) {
       const double number = table.Number(row, column);
-      rows.back().push_back(std::isfinite(number) ? Spelled(number, 5) : table.Text(row, column));
+      rows.back().push_back(std::isfinite(number) ? TableCell(number)
+                                                  : TableCell(table.Text(row, column)));
     }
   }
   const std::string which = table.rows.size() > kMostRows

@@ -8,7 +8,9 @@
 #include "io/report/fault_words.h"
 #include "io/report/health_section.h"
 #include "io/report/page_tables.h"
+#include "io/report/prediction_section.h"
 #include "io/report/render.h"
+#include "io/report/summary/summary.h"
 #include "model/version.h"
 #include "report_assets.inc"
 
@@ -32,6 +34,7 @@ const std::vector<Section>& Sections() {
        {"bode_family", "bode_all", "transfer", "nyquist", "spectrum_comparison",
         "sensitivity_omega", "sensitivity_tau", "bifurcation"}},
       {"family", "What the data leave open", {"tradeoff", "bounds"}},
+      {"prediction", "What to expect where nobody measured", {"prediction", "stability_map"}},
       {"diagnosis",
        "Where and why the model falls short",
        {"gap_map", "effects", "budget", "remains"}},
@@ -90,6 +93,7 @@ std::string SectionText(const std::string& id, const ReportInput& input) {
   if (id == "data") return MeasuredTable(input);
   if (id == "models") return FitTable(input);
   if (id == "family") return FamilySummary(input);
+  if (id == "prediction") return PredictionSummary(input);
   if (id == "diagnosis") return DiagnosisSummary(input);
   if (id == "trial") return TrialSummary(input);
   if (id == "campaign") return CampaignSummary(input);
@@ -181,6 +185,7 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
       return std::string();
     }
   };
+  const std::string summary = part("the summary", [&] { return SummaryHtml(input); });
   const std::string health = part("the health", [&] { return HealthHtml(input); });
   for (const Section& section : Sections()) {
     std::string inside = part(std::string("the table under \"") + section.title + "\"",
@@ -202,8 +207,9 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
          "<link rel=\"icon\" href=\"data:,\">\n<title>" +
          title + "</title>\n<style>" + (has_browser ? std::string(kPlotStyle) : std::string()) +
          kPageStyle + "</style>\n</head>\n<body>\n<header><h1>" + title + "</h1><p class=\"run\">" +
-         RunText(input) + "</p><nav>" + contents + "</nav></header>\n<main>\n" + health +
-         MissingHtml(missing) + body + "</main>\n" +
+         RunText(input) + "</p><nav>" + contents + "</nav></header>\n<main>\n" + summary + health +
+         MissingHtml(missing) + body + "</main>\n" + kZoomMarkup + "<script>" + kZoomScript +
+         "</script>\n" +
          (has_browser ? std::string("<footer>Plots of the browser: uPlot, MIT License.</footer>\n")
                       : std::string()) +
          "</body>\n</html>\n";

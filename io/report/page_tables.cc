@@ -5,19 +5,19 @@
 #include <cstdio>
 #include <vector>
 
-#include "estimation/analysis/half_width.h"
 #include "io/report/figures/curves.h"
 #include "io/report/html_table.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
-#include "io/report/spelled_interval.h"
 #include "io/results/verdict_remarks.h"
 #include "trial/power.h"
 
 namespace howl {
 namespace {
 
-std::string Text(double value, int digits = 5) { return Spelled(value, digits); }
+constexpr int kOperatingDigits = 6;  // as it was set on the rig
+
+std::string Text(double value, int digits = 3) { return Spelled(value, digits); }
 
 std::string Percent(double share) {
   char text[32];
@@ -68,12 +68,12 @@ std::string TriedSize(const nlohmann::json& severity, const nlohmann::json& size
 
 std::string MeasuredTable(const ReportInput& input) {
   if (input.measured.empty()) return {};
-  std::vector<std::vector<std::string>> rows;
+  std::vector<TableRow> rows;
   for (const MeasuredPoint& point : input.measured) {
-    rows.push_back({point.name + (point.reliable ? "" : " *"), Text(point.phi),
-                    SpelledInterval(point.frequency_hz), SpelledInterval(point.phase_deg),
-                    SpelledInterval(point.gain), SpelledInterval(point.tau_s, 1e3),
-                    SpelledInterval(point.flame_slope), SpelledInterval(point.loop_gain)});
+    rows.push_back({point.name + (point.reliable ? "" : " *"),
+                    TableCell(point.phi, kOperatingDigits), TableCell(point.frequency_hz),
+                    TableCell(point.phase_deg), TableCell(point.gain), TableCell(point.tau_s, 1e3),
+                    TableCell(point.flame_slope), TableCell(point.loop_gain)});
   }
   return HtmlTable(
       "Characteristics of the limit cycle; ± is half of a 95 % interval where one is "
@@ -90,13 +90,13 @@ std::string FitTable(const ReportInput& input) {
   std::vector<std::string> head = {"experiment", input.OperatingLabel(), "ω (Hz)", "ξ", "N"};
   if (two_modes) head.emplace_back("M");
   head.emplace_back("τ (ms)");
-  std::vector<std::vector<std::string>> rows;
+  std::vector<TableRow> rows;
   for (const ExperimentModel& fit : input.fitted) {
-    std::vector<std::string>& row = rows.emplace_back();
-    row = {fit.name, Text(fit.phi), Text(fit.model.omega_hz), Text(fit.model.xi, 4),
-           Text(fit.model.N)};
-    if (two_modes) row.push_back(Text(fit.model.M));
-    row.push_back(Text(1e3 * fit.model.tau_s));
+    TableRow& row = rows.emplace_back();
+    row = {fit.name, TableCell(fit.phi, kOperatingDigits), TableCell(fit.model.omega_hz),
+           TableCell(fit.model.xi), TableCell(fit.model.N)};
+    if (two_modes) row.push_back(TableCell(fit.model.M));
+    row.push_back(TableCell(1e3 * fit.model.tau_s));
   }
   const bool converged = input.solution.value("converged", false);
   return HtmlTable("Joint fit: one choice among those that the data leave" +
@@ -156,16 +156,16 @@ std::string DiagnosisSummary(const ReportInput& input) {
     }
   }
   out += "</p>\n";
-  std::vector<std::vector<std::string>> rows;
+  std::vector<TableRow> rows;
   for (const auto& place : input.diagnosis.value("where", nlohmann::json::array())) {
     std::string names;
     for (const auto& name : place["experiments"]) {
       names += (names.empty() ? "" : ", ") + name.get<std::string>();
     }
-    rows.push_back({place.value("block", ""),
-                    Text(place["band_hz"][0].get<double>(), 4) + " to " +
-                        Text(place["band_hz"][1].get<double>(), 4),
-                    names, Text(NumberAt(place, "share"), 2)});
+    rows.push_back(
+        {place.value("block", ""),
+         Text(place["band_hz"][0].get<double>()) + " to " + Text(place["band_hz"][1].get<double>()),
+         names, TableCell(NumberAt(place, "share"))});
   }
   if (!rows.empty()) {
     out += HtmlTable("Where", {"block", "band (Hz)", "experiments", "share of the gap"}, rows);
@@ -176,19 +176,18 @@ std::string DiagnosisSummary(const ReportInput& input) {
     std::string parameters;
     const nlohmann::json estimates = candidate.value("parameters", nlohmann::json::object());
     for (const auto& [name, value] : estimates.items()) {
-      parameters +=
-          (parameters.empty() ? "" : "; ") + name + " " + Text(NumberAt(value, "value"), 4);
+      parameters += (parameters.empty() ? "" : "; ") + name + " " + Text(NumberAt(value, "value"));
       if (std::isfinite(NumberAt(value, "lo"))) {
         parameters +=
-            " (" + Text(NumberAt(value, "lo"), 4) + " to " + Text(NumberAt(value, "hi"), 4) + ")";
+            " (" + Text(NumberAt(value, "lo")) + " to " + Text(NumberAt(value, "hi")) + ")";
       }
       const std::string unit = value.value("unit", "");
       if (!unit.empty()) parameters += " " + unit;
       if (value.value("at_bound", false)) parameters += " at a bound of the search";
     }
     rows.push_back({candidate.value("effect", ""),
-                    Text(100.0 * NumberAt(candidate, "shrinkage"), 3),
-                    Text(NumberAt(candidate, "gap_after"), 3), parameters});
+                    TableCell(100.0 * NumberAt(candidate, "shrinkage")),
+                    TableCell(NumberAt(candidate, "gap_after")), parameters});
   }
   if (!rows.empty()) {
     out += HtmlTable("The most probable candidates, with 95 % intervals",
@@ -217,13 +216,14 @@ std::string TrialSummary(const ReportInput& input) {
   };
   std::vector<nlohmann::json> methods = {input.trial["diagnose"]};
   for (const auto& rival : ListAt(input.trial, "rivals")) methods.push_back(rival);
-  std::vector<std::vector<std::string>> rows;
+  std::vector<TableRow> rows;
   for (const nlohmann::json& method : methods) {
     const nlohmann::json all = part(method, "all_severities");
     rows.push_back({method.value("method", ""), tally(part(all, "effect")),
                     tally(part(all, "class_of_at_most_three")), tally(part(all, "block")),
                     tally(part(method, "false_alarms")), tally(part(method, "unknown_recall")),
-                    Text(NumberAt(method, "log_score"), 3), Text(NumberAt(method, "brier"), 3)});
+                    TableCell(NumberAt(method, "log_score")),
+                    TableCell(NumberAt(method, "brier"))});
   }
   std::string out = "<p>" + Text(NumberAt(input.trial, "cases"), 6) +
                     " sealed cases from another simulator, diagnosed blind.";

@@ -115,7 +115,9 @@ void ReadPublishedLines(ReportInput& input) {
 void ReadLines(ReportInput& input, const std::filesystem::path& path) {
   const CsvTable table = ReadCsvTable(path);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const double harmonic = table.Number(row, "harmonic");
+    // The cell of a line that is no multiple of the fundamental is empty.
+    const bool none = table.Text(row, "harmonic").empty();
+    const double harmonic = none ? 0.0 : table.Number(row, "harmonic");
     if (!(harmonic >= 0.0 && harmonic <= kMostHarmonic)) {
       throw std::runtime_error("a harmonic that is no whole number from 0 to 1000");
     }
@@ -193,6 +195,18 @@ double NumberAt(const Json& json, const char* key) {
   if (!json.is_object()) return kNotANumber;
   const auto found = json.find(key);
   return found != json.end() && found->is_number() ? found->get<double>() : kNotANumber;
+}
+
+std::string TextAt(const Json& json, const char* key) {
+  const Json& found = JsonAt(json, key);
+  return found.is_string() ? found.get<std::string>() : std::string();
+}
+
+const Json& JsonAt(const Json& json, const char* key) {
+  static const Json null;
+  if (!json.is_object()) return null;
+  const auto found = json.find(key);
+  return found != json.end() ? *found : null;
 }
 
 const Json& ListAt(const Json& json, const char* key) {
@@ -275,6 +289,10 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
       [&](const auto& path) { input.simulation = ReadJson(path, "howl.simulation/1"); });
   Try(input, "diagnosis.json", "diagnose",
       [&](const auto& path) { input.diagnosis = ReadJson(path, "howl.diagnosis/1"); });
+  Try(input, "prediction.json", "predict",
+      [&](const auto& path) { input.prediction = ReadJson(path, "howl.prediction/1"); });
+  Try(input, kPredictionMapCsv, "predict",
+      [&](const auto& path) { input.prediction_map = ReadCsvTable(path); });
   Try(input, "trial.json", "trial",
       [&](const auto& path) { input.trial = ReadJson(path, "howl.trial/1"); });
   Try(input, "campaign.json", "campaign",

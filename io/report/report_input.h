@@ -61,9 +61,9 @@ struct ReportInput {
 
   std::vector<ExperimentModel> fitted;  // of solution.json
   // Null where there is none.
-  nlohmann::json analysis, solution, family, simulation, diagnosis, trial, campaign;
-  std::optional<CsvTable> transfer, flame_curve, tradeoff, trial_table, campaign_table,
-      campaign_points;
+  nlohmann::json analysis, solution, family, prediction, simulation, diagnosis, trial, campaign;
+  std::optional<CsvTable> transfer, flame_curve, tradeoff, prediction_map, trial_table,
+      campaign_table, campaign_points;
   std::optional<FamilyMembers> members;
 
   std::vector<std::string> missing;  // sentences for the reader
@@ -86,6 +86,10 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads);
 
 // A number of a JSON tree, NaN where there is none.
 double NumberAt(const nlohmann::json& json, const char* key);
+// A text of a JSON tree, empty where there is none.
+std::string TextAt(const nlohmann::json& json, const char* key);
+// What stands under the key; null where nothing does.
+const nlohmann::json& JsonAt(const nlohmann::json& json, const char* key);
 Estimate EstimateAt(const nlohmann::json& json, const char* key);
 // A list of a JSON tree, empty where there is none.
 const nlohmann::json& ListAt(const nlohmann::json& json, const char* key);

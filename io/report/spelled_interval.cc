@@ -11,7 +11,6 @@
 namespace howl {
 namespace {
 
-constexpr int kValueDigits = 5;       // where no error is known
 constexpr int kLeastPlainPower = -3;  // 0.0012, but 1.2 · 10⁻⁴
 constexpr int kMostPlainPower = 4;
 constexpr double kOneDigitFrom = 3.5;
@@ -37,10 +36,10 @@ std::string Raised(int power) {
 
 }  // namespace
 
-std::string SpelledInterval(const Estimate& estimate, double scale) {
+std::string SpelledInterval(const Estimate& estimate, double scale, int digits) {
   const double value = scale * estimate.value;
   const double half = std::abs(scale) * HalfWidth95(estimate);
-  if (!std::isfinite(half) || half == 0.0) return Spelled(value, kValueDigits);
+  if (!std::isfinite(half) || half == 0.0) return Spelled(value, digits);
   const int first = PowerOf(std::max(std::abs(value), half));
   const int power = first < kLeastPlainPower || first > kMostPlainPower ? first : 0;
   const double unit = std::pow(10.0, power);

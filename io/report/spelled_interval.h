@@ -10,8 +10,9 @@ namespace howl {
 
 // value and half width times `scale`. The half width has two digits where they begin below 35 and
 // else one, the value ends at the same decimal, and both stand before one power of ten:
-// "(−7.023 ± 0.011) · 10⁻⁵". Without an error the value alone; a dash for NaN.
-std::string SpelledInterval(const Estimate& estimate, double scale = 1.0);
+// "(−7.023 ± 0.011) · 10⁻⁵". Without an error the value alone with
+// `digits` digits; a dash for NaN.
+std::string SpelledInterval(const Estimate& estimate, double scale = 1.0, int digits = 5);
 
 }  // namespace howl
 

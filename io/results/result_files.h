@@ -21,14 +21,15 @@ inline constexpr const char* kProfileCsv = "profile.csv";
 inline constexpr const char* kSweepCsv = "sweep.csv";
 inline constexpr const char* kTrialCsv = "trial.csv";
 inline constexpr const char* kPredictionCsv = "prediction.csv";
+inline constexpr const char* kPredictionMapCsv = "prediction_map.csv";
 
 inline constexpr const char* kCampaignCsv = "campaign.csv";
 inline constexpr const char* kCampaignPointsCsv = "campaign_points.csv";
 
-inline constexpr std::array<std::string_view, 13> kResultTables = {
-    kCharacteristicsCsv, kLinesCsv,    kOscillationsCsv,  kTransferCsv, kFlameCurveCsv,
-    kFamilyCsv,          kTradeoffCsv, kProfileCsv,       kSweepCsv,    kTrialCsv,
-    kPredictionCsv,      kCampaignCsv, kCampaignPointsCsv};
+inline constexpr std::array<std::string_view, 14> kResultTables = {
+    kCharacteristicsCsv, kLinesCsv,         kOscillationsCsv, kTransferCsv,      kFlameCurveCsv,
+    kFamilyCsv,          kTradeoffCsv,      kProfileCsv,      kSweepCsv,         kTrialCsv,
+    kPredictionCsv,      kPredictionMapCsv, kCampaignCsv,     kCampaignPointsCsv};
 
 // An experiment's NAME.csv would overwrite a table of results, as the name "family" would.
 inline bool IsResultsName(std::string_view name) {

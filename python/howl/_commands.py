@@ -26,6 +26,13 @@ def _config_of(other: Union[PathLike, Result]) -> str:
     return str(other.problem().config) if isinstance(other, Result) else os.fspath(other)
 
 
+def _numbers(values: Any) -> List[str]:
+    """As the command line has them, each the same double."""
+    if values is None:
+        return []
+    return [repr(float(value)) for value in np.atleast_1d(np.asarray(values, dtype=float))]
+
+
 _COMMON = """
     The problem is one of
 
@@ -75,35 +82,45 @@ def fit(problem: Any, q: Any = None, *, sampling_hz: Any = None, phi: Any = None
 def family(problem: Any, q: Any = None, *, sampling_hz: Any = None, phi: Any = None,
            name: Any = None, config: Optional[Mapping[str, Any]] = None,
            falsify: Union[PathLike, Result, None] = None, advise: bool = False,
-           profile: Optional[str] = None, out: Optional[PathLike] = None,
-           threads: Optional[int] = None, seed: Optional[int] = None,
-           progress: ProgressArgument = None) -> Family:
+           profile: Optional[str] = None, without: Sequence[str] = (),
+           out: Optional[PathLike] = None, threads: Optional[int] = None,
+           seed: Optional[int] = None, progress: ProgressArgument = None) -> Family:
     """Which loops can the data not reject?
 
     `falsify` is another config's path, or a result: which members survive its experiments.
     `advise` adds which further measurement would remove most of the family, `profile` the best fit
-    along a quantity such as "exp1.tau_s". All are in the result's `json` or files.
+    along a quantity such as "exp1.tau_s". Conditions of the test named in `without`, such as
+    "loop_gain_min", are left out. All are in the result's `json` or files.
     """
     words = ["--falsify", _config_of(falsify)] if falsify is not None else []
     words += ["--advise"] if advise else []
     words += ["--profile", profile] if profile is not None else []
+    words += ["--without", ",".join(without)] if without else []
     return result(Family, "family", words, problem, q, options_of(locals()))
 
 
 @_documented
-def predict(problem: Any, q: Any = None, *, at: Any, sampling_hz: Any = None, phi: Any = None,
-            name: Any = None, config: Optional[Mapping[str, Any]] = None,
-            out: Optional[PathLike] = None, threads: Optional[int] = None,
-            seed: Optional[int] = None, progress: ProgressArgument = None) -> Prediction:
+def predict(problem: Any, q: Any = None, *, at: Any = None, map: Optional[str] = None,
+            map_x: Any = None, map_y: Any = None, without: Sequence[str] = (),
+            sampling_hz: Any = None, phi: Any = None, name: Any = None,
+            config: Optional[Mapping[str, Any]] = None, out: Optional[PathLike] = None,
+            threads: Optional[int] = None, seed: Optional[int] = None,
+            progress: ProgressArgument = None) -> Prediction:
     """What would the loop do at operating points that nobody measured?
 
-    `at` is a value of the operating parameter or several. Raises NegativeAnswer where the family is
-    empty or none of the points can be predicted.
+    `at` is a value of the operating parameter or several; with a `map` alone it is the measured
+    ones. `map`, such as "phi:tau_s", asks for a stability chart over two quantities, `map_x` and
+    `map_y` being their values. Conditions of the family's test named in `without` are left out.
+    Raises NegativeAnswer where the family is empty or none of the points can be predicted.
     """
-    values = [repr(float(value)) for value in np.atleast_1d(np.asarray(at, dtype=float))]
+    values = _numbers(at)
     words: List[str] = []
     for start in range(0, len(values), 1000):  # one argument has no more than 128 KiB
         words += ["--at=" + ",".join(values[start:start + 1000])]
+    words += ["--map", map] if map is not None else []
+    for option, axis in (("--map-x", map_x), ("--map-y", map_y)):
+        words += [option + "=" + ",".join(_numbers(axis))] if axis is not None else []
+    words += ["--without", ",".join(without)] if without else []
     return result(Prediction, "predict", words, problem, q, options_of(locals()))
 
 

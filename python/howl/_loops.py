@@ -169,14 +169,17 @@ class Prediction(Result):
     `table` has a row for each point and quantity (`frequency_hz`, `growth_rate_1_s`, `loop_gain`,
     `p_amplitude` or `q_amplitude_relative`, `share_unstable`): the members' median, the interval
     that holds 95 % of them, and at measured points what is guaranteed. `begins` and `ends` say
-    where the cycle does.
+    where the cycle does. `map` is the stability chart, a row for each point, where one was asked
+    for.
     """
 
     main_file = "prediction.json"
     table: pd.DataFrame
+    map: Optional[pd.DataFrame]
 
     def _load(self) -> None:
         self.table = self._csv("prediction.csv")
+        self.map = self._csv("prediction_map.csv") if self.json.get("map") else None
 
     @property
     def points(self) -> pd.DataFrame:

@@ -1,6 +1,7 @@
 // One record in every form that a reader takes gives the same bits.
 #include <bit>
 #include <charconv>
+#include <cstring>
 #include <functional>
 #include <random>
 
@@ -112,35 +113,53 @@ RecordSpec Columns(std::filesystem::path file, const char* t = "1", const char* 
   return spec;
 }
 
-// As h5py and hdf5storage write it: MATLAB's class is a text of fixed length without a zero.
-RecordSpec WriteUnterminatedMatlab73(const TemporaryFolder& folder, const Samples& samples) {
+// How a program other than MATLAB writes a variable's class.
+enum class ClassText { kWithoutZero, kOfVariableLength, kOnlyOneWithoutZero, kAbsent };
+
+void WriteClass(hid_t object, const char* name, bool with_zero, bool variable_length) {
+  const hid_t text = H5Tcopy(H5T_C_S1);
+  H5Tset_size(text, variable_length ? H5T_VARIABLE : std::strlen(name) + (with_zero ? 1 : 0));
+  H5Tset_strpad(text, with_zero || variable_length ? H5T_STR_NULLTERM : H5T_STR_NULLPAD);
+  const hid_t scalar = H5Screate(H5S_SCALAR);
+  const hid_t own = H5Acreate2(object, "MATLAB_class", text, scalar, H5P_DEFAULT, H5P_DEFAULT);
+  const void* const value = variable_length ? static_cast<const void*>(&name) : name;
+  EXPECT_GE(H5Awrite(own, text, value), 0);
+  H5Aclose(own);
+  H5Sclose(scalar);
+  H5Tclose(text);
+}
+
+// As h5py and hdf5storage write it; the variables at the root, or the fields of a struct.
+RecordSpec WriteForeignMatlab73(const TemporaryFolder& folder, const Samples& samples,
+                                ClassText kind, bool is_struct) {
   constexpr hsize_t kHeaderBytes = 512;
   const std::string path = (folder / "a.mat").string();
   const hid_t how = H5Pcreate(H5P_FILE_CREATE);
   H5Pset_userblock(how, kHeaderBytes);
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, how, H5P_DEFAULT);
   H5Pclose(how);
-  const hid_t text = H5Tcopy(H5T_C_S1);
-  H5Tset_size(text, 6);
-  H5Tset_strpad(text, H5T_STR_NULLPAD);
-  const hid_t scalar = H5Screate(H5S_SCALAR);
+  const std::string place = is_struct ? "rec/" : "";
   for (const auto& [name, values] :
        {std::pair("t", &samples.t), {"p", &samples.p}, {"q", &samples.q}}) {
-    AddDataset(file, name, {1, kRows}, *values);
-    const hid_t data = H5Dopen2(file, name, H5P_DEFAULT);
-    const hid_t own = H5Acreate2(data, "MATLAB_class", text, scalar, H5P_DEFAULT, H5P_DEFAULT);
-    EXPECT_GE(H5Awrite(own, text, "double"), 0);
-    H5Aclose(own);
+    AddDataset(file, (place + name).c_str(), {1, kRows}, *values);
+    const hid_t data = H5Dopen2(file, (place + name).c_str(), H5P_DEFAULT);
+    const bool with_zero = kind == ClassText::kOnlyOneWithoutZero && *name != 'q';
+    if (kind != ClassText::kAbsent)
+      WriteClass(data, "double", with_zero, kind == ClassText::kOfVariableLength);
     H5Dclose(data);
   }
-  H5Sclose(scalar);
-  H5Tclose(text);
+  if (is_struct && kind != ClassText::kAbsent) {
+    const hid_t group = H5Gopen2(file, "rec", H5P_DEFAULT);
+    WriteClass(group, "struct", false, kind == ClassText::kOfVariableLength);
+    H5Gclose(group);
+  }
   H5Fclose(file);
   std::string header = "MATLAB 7.3 MAT-file, by a test";
   header.resize(124, ' ');
   header += std::string("\x00\x02IM", 4);
   std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << header;
-  return Columns(path, "t", "p", "q");
+  const std::string dotted = is_struct ? "rec." : "";
+  return Columns(path, (dotted + "t").c_str(), (dotted + "p").c_str(), (dotted + "q").c_str());
 }
 
 std::vector<Form> Forms() {
@@ -233,7 +252,18 @@ std::vector<Form> Forms() {
                      H5Fclose(file);
                      return Columns(folder / "a.h5", "t", "run/p", "run/q");
                    }});
-  forms.push_back({"MATLAB 7.3, its class without a final zero", WriteUnterminatedMatlab73});
+  for (const auto& [name, kind] : {std::pair("without a final zero", ClassText::kWithoutZero),
+                                   {"of variable length", ClassText::kOfVariableLength},
+                                   {"once without a final zero", ClassText::kOnlyOneWithoutZero},
+                                   {"absent", ClassText::kAbsent}}) {
+    for (const bool is_struct : {false, true}) {
+      forms.push_back(
+          {std::string("MATLAB 7.3, its class ") + name + (is_struct ? ", a struct" : ""),
+           [=](const TemporaryFolder& folder, const Samples& s) {
+             return WriteForeignMatlab73(folder, s, kind, is_struct);
+           }});
+    }
+  }
   return forms;
 }
 

@@ -1,4 +1,4 @@
-"""Drives the report's family browser in a real browser, and fails where the page does not follow.
+"""Drives the report in a real browser, its family browser first, and fails where it does not follow.
 
     browser_test.py HOWL SOURCE_DIR
 
@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from page_checks import check, test_rows, test_summary, test_zoom
 
 SKIP = 77
 MEMBERS = 10000
@@ -88,11 +90,6 @@ class Page:
 
 def close(a, b, relative=2e-4):
     return abs(a - b) <= relative * max(abs(a), abs(b))
-
-
-def check(condition, message):
-    if not condition:
-        raise AssertionError(message)
 
 
 def start_browser():
@@ -303,7 +300,7 @@ def test_hover(driver, page):
 
 def test_appearance(driver):
     """No figure wider than the page, and ink that differs from paper, by day and by night."""
-    for width in (1280, 420):
+    for width in (1280, 700, 400):
         driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
             "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
         for scheme in ("light", "dark"):
@@ -318,6 +315,11 @@ def test_appearance(driver):
             check(state[0] <= width, f"the page is {state[0]} wide in a window of {width}")
             check(state[1] != state[2], f"{scheme}: ink and paper are both {state[1]}")
             check(state[3] == state[1], f"{scheme}: figures write in {state[3]}, the page in {state[1]}")
+        wide = driver.execute_script("""
+            return [...document.querySelectorAll('main *')].filter((e) => !e.closest('.scroll, svg')
+              && e.getBoundingClientRect().right > document.documentElement.clientWidth + 1)
+              .map((e) => e.tagName + '#' + e.id + '.' + e.className)""")
+        check(not wide, f"in a window of {width} these are cut off: {wide[:5]}")
     driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
@@ -336,6 +338,9 @@ def main():
             subprocess.run([howl, "report", folder, "--quiet"], check=True)
             test_load(driver, os.path.join(folder, "report.html"))
             page = Page(driver)
+            test_summary(driver, folder, MEMBERS)
+            test_rows(driver)
+            test_zoom(driver)
             test_choose(page, spreads)
             test_growth(page, spreads)
             test_slider(page, spreads)

@@ -26,6 +26,8 @@ std::optional<Figure> OmegaSensitivityFigure(const ReportInput& input);    // 13
 std::optional<Figure> DelaySensitivityFigure(const ReportInput& input);    // 14
 std::optional<Figure> TradeoffFigure(const ReportInput& input);
 std::optional<Figure> BoundsFigure(const ReportInput& input);
+std::optional<Figure> PredictionFigure(const ReportInput& input);
+std::optional<Figure> StabilityMapFigure(const ReportInput& input);
 std::optional<Figure> TransferFigure(const ReportInput& input);
 std::optional<Figure> BifurcationFigure(const ReportInput& input);
 std::optional<Figure> GapMapFigure(const ReportInput& input);
