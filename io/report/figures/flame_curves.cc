@@ -57,7 +57,7 @@ std::optional<Figure> FlameCurvesFigure(const ReportInput& input) {
   script.Line("set xlabel 'delayed derivative of p (units of p per second)'")
       .Line("set format x '%.1s%c'")
       .Line("set ylabel 'q (units of the record)'")
-      .Line("set key outside right top");
+      .Line("set key outside top center horizontal maxcols 3");
   for (std::size_t i = 0; i < names.size(); ++i) {
     script.Plot("data using (pick(" + Quoted(names[i].first) +
                 ",2)):3 with linespoints pointsize 0.45 linewidth 1.2 pointtype " +
