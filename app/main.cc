@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "app/command.h"
-#include "app/command_line.h"
-#include "app/help_topics.h"
-#include "app/interruption.h"
-#include "app/negative_answer.h"
-#include "app/output_claim.h"
-#include "app/progress_line.h"
-#include "app/standard_streams.h"
+#include "app/command_line/command.h"
+#include "app/command_line/command_line.h"
+#include "app/command_line/help_topics.h"
+#include "app/command_line/negative_answer.h"
+#include "app/jobs/output_claim.h"
+#include "app/process/interruption.h"
+#include "app/process/progress_line.h"
+#include "app/process/standard_streams.h"
 #include "estimation/parallel.h"
 #include "io/report/run_file.h"
 #include "io/user_error.h"

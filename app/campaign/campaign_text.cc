@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/text_table.h"
+#include "app/text/text_table.h"
 #include "io/report/csv_table.h"
 #include "io/results/result_files.h"
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "app/command.h"
-#include "app/command_line.h"
+#include "app/command_line/command.h"
+#include "app/command_line/command_line.h"
 #include "app/jobs/shard.h"
 #include "io/config/config_cursor.h"
 #include "io/config/config_text.h"

@@ -1,7 +1,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "app/digest.h"
+#include "app/files/digest.h"
 #include "app/trial/trial_run.h"
 
 namespace howl {

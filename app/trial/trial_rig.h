@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options.h"
+#include "app/command_line/options.h"
 #include "estimation/analysis/experiment.h"
 #include "io/config/config.h"
 #include "trial/case_plan.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "app/digest.h"
-#include "app/json_fields.h"
+#include "app/files/digest.h"
+#include "app/files/json_fields.h"
 #include "app/trial/trial_run.h"
 #include "io/results/result_files.h"
 #include "io/results/trial_json.h"

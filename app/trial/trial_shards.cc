@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/child_process.h"
-#include "app/digest.h"
-#include "app/json_fields.h"
+#include "app/files/digest.h"
+#include "app/files/json_fields.h"
+#include "app/process/child_process.h"
 #include "app/trial/trial_seal.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
