@@ -6,8 +6,8 @@
 #include <string>
 
 #include "bench/measured_rig.h"
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/slack.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/gap/slack.h"
 #include "io/config/config.h"
 #include "io/records/records.h"
 

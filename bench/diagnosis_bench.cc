@@ -3,11 +3,11 @@
 
 #include "bench/simulated_rig.h"
 #include "diagnosis/bootstrap/fitted_rig.h"
-#include "diagnosis/coherent_lines.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/gain_fluctuation.h"
-#include "diagnosis/slack.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/gap/slack.h"
+#include "diagnosis/samples/coherent_lines.h"
+#include "diagnosis/samples/gain_fluctuation.h"
 
 namespace howl {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/real_fft.h"
+#include "diagnosis/numerics/real_fft.h"
 
 namespace howl {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/choose_modes.h"
-#include "diagnosis/search.h"
+#include "diagnosis/search/choose_modes.h"
+#include "diagnosis/search/search.h"
 
 namespace howl {
 namespace {

@@ -21,11 +21,11 @@
 #include <vector>
 
 #include "diagnosis/budget/budget.h"
-#include "diagnosis/cut_record.h"
-#include "diagnosis/estimated_parameter.h"
-#include "diagnosis/fit_memory.h"
-#include "diagnosis/gap_map.h"
-#include "diagnosis/moved_parameters.h"
+#include "diagnosis/fit/estimated_parameter.h"
+#include "diagnosis/fit/fit_memory.h"
+#include "diagnosis/fit/moved_parameters.h"
+#include "diagnosis/gap/gap_map.h"
+#include "diagnosis/records/cut_record.h"
 #include "model/effects/catalogue.h"
 
 namespace howl {

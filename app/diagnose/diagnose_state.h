@@ -9,7 +9,7 @@
 #include <string>
 
 #include "app/jobs/unit_store.h"
-#include "diagnosis/fit_memory.h"
+#include "diagnosis/fit/fit_memory.h"
 
 namespace howl {
 

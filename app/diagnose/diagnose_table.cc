@@ -8,7 +8,7 @@
 
 #include "app/command_line/command.h"
 #include "app/text/text_table.h"
-#include "diagnosis/table_diagnosis.h"
+#include "diagnosis/table/table_diagnosis.h"
 #include "io/results/diagnosis_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"

@@ -1,5 +1,5 @@
 // howl diagnose without records: the diagnosis from a table of characteristics
-// (diagnosis/table_diagnosis.h).
+// (diagnosis/table/table_diagnosis.h).
 #ifndef HOWL_APP_DIAGNOSE_DIAGNOSE_TABLE_H_
 #define HOWL_APP_DIAGNOSE_DIAGNOSE_TABLE_H_
 

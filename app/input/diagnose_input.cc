@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "app/input/record_input.h"
-#include "diagnosis/cut_record.h"
+#include "diagnosis/records/cut_record.h"
 #include "io/user_error.h"
 
 namespace howl {

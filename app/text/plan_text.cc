@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/text/text_table.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/verdict/verdict.h"
 
 namespace howl {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "diagnosis/bootstrap/fitted_rig.h"
-#include "diagnosis/search.h"
+#include "diagnosis/search/search.h"
 #include "estimation/parallel.h"
 #include "estimation/unit_seed.h"
 

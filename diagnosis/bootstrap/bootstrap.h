@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/fit/effect_fit.h"
 
 namespace howl {
 

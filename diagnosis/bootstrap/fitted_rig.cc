@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "diagnosis/real_fft.h"
+#include "diagnosis/numerics/real_fft.h"
 #include "estimation/unit_seed.h"
 #include "model/loop_effect.h"
 #include "model/random_stream.h"

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/fit/effect_fit.h"
 #include "model/simulate.h"
 
 namespace howl {

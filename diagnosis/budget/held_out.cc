@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/coherent_lines.h"
+#include "diagnosis/samples/coherent_lines.h"
 
 namespace howl {
 namespace {

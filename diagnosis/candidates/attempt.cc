@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/sample_limits.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/samples/sample_limits.h"
+#include "diagnosis/verdict/verdict.h"
 
 namespace howl {
 namespace {

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/coherent_lines.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/gain_fluctuation.h"
-#include "diagnosis/reference.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/reference/reference.h"
+#include "diagnosis/samples/coherent_lines.h"
+#include "diagnosis/samples/gain_fluctuation.h"
 #include "model/effects/declared_effect.h"
 
 namespace howl {

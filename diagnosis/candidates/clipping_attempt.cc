@@ -1,7 +1,7 @@
 #include <glog/logging.h>
 
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/static_map.h"
+#include "diagnosis/samples/static_map.h"
 
 namespace howl {
 namespace {

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "diagnosis/cut_record.h"
+#include "diagnosis/records/cut_record.h"
 #include "model/effects/catalogue.h"
 
 namespace howl {

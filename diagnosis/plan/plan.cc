@@ -9,11 +9,11 @@
 #include <optional>
 #include <utility>
 
-#include "diagnosis/choose_modes.h"
-#include "diagnosis/coherent_lines.h"
 #include "diagnosis/plan/plan_samples.h"
 #include "diagnosis/plan/plan_table.h"
 #include "diagnosis/plan/plan_trials.h"
+#include "diagnosis/samples/coherent_lines.h"
+#include "diagnosis/search/choose_modes.h"
 #include "estimation/parallel.h"
 
 namespace howl {

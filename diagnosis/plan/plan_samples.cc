@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/coherent_lines.h"
-#include "diagnosis/fitter.h"
-#include "diagnosis/gain_fluctuation.h"
-#include "diagnosis/real_fft.h"
-#include "diagnosis/sample_limits.h"
-#include "diagnosis/static_map.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/fit/fitter.h"
+#include "diagnosis/numerics/real_fft.h"
+#include "diagnosis/samples/coherent_lines.h"
+#include "diagnosis/samples/gain_fluctuation.h"
+#include "diagnosis/samples/sample_limits.h"
+#include "diagnosis/samples/static_map.h"
+#include "diagnosis/verdict/verdict.h"
 #include "model/random_stream.h"
 
 namespace howl {

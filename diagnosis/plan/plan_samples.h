@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/plan/plan.h"
 
 namespace howl {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "diagnosis/bootstrap/fitted_rig.h"
-#include "diagnosis/fitter.h"
+#include "diagnosis/fit/fitter.h"
 
 namespace howl {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/table_diagnosis.h"
+#include "diagnosis/table/table_diagnosis.h"
 
 namespace howl {
 

@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "diagnosis/acoustic_cut.h"
+#include "diagnosis/cuts/acoustic_cut.h"
 
 namespace howl {
 namespace {

@@ -1,13 +1,13 @@
 // The base is the config's loop: one mode or two, the second at the config's ratio.
-#include "diagnosis/base_model.h"
+#include "diagnosis/records/base_model.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "diagnosis/acoustic_cut.h"
-#include "diagnosis/choose_modes.h"
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/search/choose_modes.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/sample_limits.h"
-#include "diagnosis/slack.h"
-#include "diagnosis/static_map.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/gap/slack.h"
+#include "diagnosis/samples/sample_limits.h"
+#include "diagnosis/samples/static_map.h"
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 

@@ -10,7 +10,7 @@
 #include <memory>
 #include <numbers>
 
-#include "diagnosis/declared_fit.h"
+#include "diagnosis/candidates/declared_fit.h"
 #include "diagnosis/diagnosis.h"
 #include "tests/diagnosis/simulated_rig.h"
 

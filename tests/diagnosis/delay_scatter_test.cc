@@ -1,5 +1,5 @@
 // Delays that scatter over the experiments are no gap; a law behind them is.
-#include "diagnosis/delay_scatter.h"
+#include "diagnosis/fit/delay_scatter.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/fit/effect_fit.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/acoustic_cut.h"
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/fit/effect_fit.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

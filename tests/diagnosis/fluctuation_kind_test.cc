@@ -1,4 +1,4 @@
-#include "diagnosis/fluctuation_kind.h"
+#include "diagnosis/samples/fluctuation_kind.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/gap_map.h"
+#include "diagnosis/gap/gap_map.h"
 
 #include <gtest/gtest.h>
 

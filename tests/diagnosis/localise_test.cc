@@ -11,7 +11,7 @@
 
 #include "diagnosis/localise/free_additive.h"
 #include "diagnosis/localise/free_factor.h"
-#include "diagnosis/place.h"
+#include "diagnosis/localise/place.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

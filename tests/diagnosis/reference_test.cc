@@ -1,5 +1,5 @@
 // Reference mode: what the reference has too is absorbed, and only the difference is named.
-#include "diagnosis/reference.h"
+#include "diagnosis/reference/reference.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -11,9 +11,9 @@
 #include <string>
 
 #include "bench/measured_rig.h"
-#include "diagnosis/cut_noise.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/reference_clipping.h"
+#include "diagnosis/noise/cut_noise.h"
+#include "diagnosis/reference/reference_clipping.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "diagnosis/acoustic_cut.h"
-#include "diagnosis/band_signal.h"
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/records/band_signal.h"
 #include "model/crossings.h"
 #include "model/effects/catalogue.h"
 #include "model/harmonic_balance.h"

@@ -1,6 +1,6 @@
 // The lag that a published table allows, against closed forms: (3) with table 2 of the paper, the
 // passivity of G, and tables made from a loop whose sensor lags by a known angle.
-#include "diagnosis/table_diagnosis.h"
+#include "diagnosis/table/table_diagnosis.h"
 
 #include <gtest/gtest.h>
 
