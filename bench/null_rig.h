@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "model/random_stream.h"
-#include "model/simulate.h"
+#include "model/noise/random_stream.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 

@@ -9,7 +9,7 @@
 #include "app/text/second_mode_text.h"
 #include "app/text/text_table.h"
 #include "app/text/vanishing_text.h"
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "estimation/family/problem/membership.h"
 #include "estimation/fit/joint_fit.h"
 #include "estimation/health/fit_health.h"

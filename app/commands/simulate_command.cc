@@ -23,7 +23,7 @@
 #include "io/results/simulation_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <optional>
 
-#include "model/crossings.h"
-#include "model/poles.h"
+#include "model/loop/crossings.h"
+#include "model/loop/poles.h"
 
 namespace howl {
 namespace {

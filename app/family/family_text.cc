@@ -8,7 +8,7 @@
 
 #include "app/text/conflict_text.h"
 #include "app/text/text_table.h"
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/spectra/half_width.h"
 
 namespace howl {
 namespace {

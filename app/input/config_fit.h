@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/command_line/options.h"
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/fit/joint_fit.h"
 #include "estimation/fit/joint_problem.h"
 #include "io/config/config.h"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/input/problem_input.h"
-#include "estimation/analysis/flame_shape.h"
+#include "estimation/analysis/flame/flame_shape.h"
 
 namespace howl {
 

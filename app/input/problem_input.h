@@ -8,7 +8,7 @@
 
 #include "app/command_line/options.h"
 #include "estimation/analysis/analyse.h"
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/family/problem/problem.h"
 #include "io/config/config.h"
 

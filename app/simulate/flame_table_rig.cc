@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "estimation/analysis/measured_flame_table.h"
+#include "estimation/analysis/flame/measured_flame_table.h"
 #include "io/user_error.h"
 
 namespace howl {

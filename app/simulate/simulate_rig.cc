@@ -9,7 +9,7 @@
 
 #include "app/simulate/simulate_start.h"
 #include "app/text/text_table.h"
-#include "estimation/analysis/spectrum.h"
+#include "estimation/analysis/spectra/spectrum.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
-#include "estimation/analysis/flame_shape.h"
+#include "estimation/analysis/flame/flame_shape.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/parameters.h"
 #include "io/config/config.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 

@@ -5,7 +5,7 @@
 
 #include "app/text/text_table.h"
 #include "io/user_error.h"
-#include "model/floquet.h"
+#include "model/cycles/floquet.h"
 
 namespace howl {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "io/config/config.h"
-#include "model/harmonic_balance.h"
+#include "model/cycles/harmonic_balance.h"
 
 namespace howl {
 

@@ -10,7 +10,7 @@
 #include "estimation/parallel.h"
 #include "io/results/csv_writer.h"
 #include "io/user_error.h"
-#include "model/continuation.h"
+#include "model/cycles/continuation.h"
 
 namespace howl {
 namespace {
@@ -88,7 +88,7 @@ std::vector<SweepResult> RunSweeps(const Config& config, const SimulationTimes& 
   RunUnits(rigs.size(), threads, [&](std::size_t i) {
     RigParameters& parameters = rigs[i].start.rig;
     if (sweep.combustion_noise_relative) {
-      // Of variance S0 f_c pi / 2 (model/noise.h).
+      // Of variance S0 f_c pi / 2 (model/noise/noise.h).
       const double std = *sweep.combustion_noise_relative * parameters.model.flame.saturation;
       parameters.noise.combustion_density =
           2.0 * std * std / (std::numbers::pi * parameters.noise.combustion_corner_hz);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/config/config.h"
-#include "model/simulate.h"
-#include "model/sweep.h"
+#include "model/simulation/simulate.h"
+#include "model/simulation/sweep.h"
 
 namespace howl {
 

@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "io/config/config.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 

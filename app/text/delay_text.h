@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "estimation/analysis/delay.h"
+#include "estimation/analysis/loop/delay.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/text/text_table.h"
-#include "estimation/analysis/remove_instruments.h"
+#include "estimation/analysis/instruments/remove_instruments.h"
 #include "io/records/known_instruments.h"
 #include "io/records/number_text.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/text/text_table.h"
-#include "estimation/analysis/loop_gain_reason.h"
+#include "estimation/analysis/loop/loop_gain_reason.h"
 
 namespace howl {
 namespace {

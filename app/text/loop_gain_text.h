@@ -8,8 +8,8 @@
 
 namespace howl {
 
-// One wrapped line for each reason (estimation/analysis/loop_gain_reason.h) with the experiments
-// that it holds for; empty where there is none.
+// One wrapped line for each reason (estimation/analysis/loop/loop_gain_reason.h) with the
+// experiments that it holds for; empty where there is none.
 std::string LowLoopGainText(const AnalysisSet& set);
 
 }  // namespace howl

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "estimation/analysis/vanishing_phi.h"
+#include "estimation/analysis/loop/vanishing_phi.h"
 
 namespace howl {
 

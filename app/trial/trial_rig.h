@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/command_line/options.h"
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "io/config/config.h"
 #include "trial/case_plan.h"
 

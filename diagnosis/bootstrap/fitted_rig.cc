@@ -9,8 +9,8 @@
 
 #include "diagnosis/numerics/real_fft.h"
 #include "estimation/unit_seed.h"
-#include "model/loop_effect.h"
-#include "model/random_stream.h"
+#include "model/loop/loop_effect.h"
+#include "model/noise/random_stream.h"
 
 namespace howl {
 namespace {

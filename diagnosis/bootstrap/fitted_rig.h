@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "diagnosis/fit/effect_fit.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/spectra/half_width.h"
 
 namespace howl {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/records/cut_record.h"
-#include "estimation/analysis/statistics.h"
+#include "estimation/analysis/spectra/statistics.h"
 
 namespace howl {
 namespace {

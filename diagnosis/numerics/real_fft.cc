@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include "model/fft.h"
+#include "model/numerics/fft.h"
 
 namespace howl {
 namespace {

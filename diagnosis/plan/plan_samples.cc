@@ -15,7 +15,7 @@
 #include "diagnosis/samples/sample_limits.h"
 #include "diagnosis/samples/static_map.h"
 #include "diagnosis/verdict/verdict.h"
-#include "model/random_stream.h"
+#include "model/noise/random_stream.h"
 
 namespace howl {
 namespace {

@@ -4,7 +4,7 @@
 #ifndef HOWL_DIAGNOSIS_RECORDS_BASE_MODEL_H_
 #define HOWL_DIAGNOSIS_RECORDS_BASE_MODEL_H_
 
-#include "model/acoustics.h"
+#include "model/loop/acoustics.h"
 
 namespace howl {
 

@@ -10,7 +10,7 @@
 
 #include "diagnosis/noise/sensor_noise.h"
 #include "diagnosis/numerics/real_fft.h"
-#include "estimation/analysis/statistics.h"
+#include "estimation/analysis/spectra/statistics.h"
 
 namespace howl {
 namespace {

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "diagnosis/records/base_model.h"
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 #include "model/effects/effect.h"
 
 namespace howl {

@@ -5,7 +5,7 @@
 #include "diagnosis/search/search.h"
 #include "diagnosis/verdict/placebo.h"
 #include "estimation/parallel.h"
-#include "model/random_stream.h"
+#include "model/noise/random_stream.h"
 
 namespace howl {
 namespace {

@@ -7,7 +7,7 @@
 #include <complex>
 #include <functional>
 
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

@@ -23,9 +23,9 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "estimation/analysis/experiment.h"
-#include "estimation/analysis/statistics.h"
-#include "model/acoustics.h"
+#include "estimation/analysis/loop/experiment.h"
+#include "estimation/analysis/spectra/statistics.h"
+#include "model/loop/acoustics.h"
 
 namespace howl {
 

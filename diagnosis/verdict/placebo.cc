@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "model/random_stream.h"
+#include "model/noise/random_stream.h"
 
 namespace howl {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "estimation/analysis/analysis_spec.h"
-#include "estimation/analysis/cycle_band.h"
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/cycle/cycle_band.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/family/problem/family_spec.h"
 #include "estimation/fit/solver_spec.h"
 #include "estimation/parameters.h"

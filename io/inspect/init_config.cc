@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "estimation/analysis/characteristics.h"
+#include "estimation/analysis/cycle/characteristics.h"
 #include "estimation/health/number_words.h"
 #include "io/config/config_sections.h"
 #include "io/config/placeholder.h"

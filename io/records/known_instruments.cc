@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "estimation/analysis/remove_instruments.h"
+#include "estimation/analysis/instruments/remove_instruments.h"
 #include "io/number_range.h"
 #include "io/records/number_text.h"
 #include "io/records/response_table.h"

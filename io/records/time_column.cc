@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "estimation/analysis/statistics.h"
+#include "estimation/analysis/spectra/statistics.h"
 #include "io/records/number_text.h"
 
 namespace howl {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "io/report/figures/curves.h"
 #include "io/report/html_table.h"
 #include "io/report/page.h"

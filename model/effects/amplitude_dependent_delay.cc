@@ -5,7 +5,7 @@
 
 #include "model/effects/catalogue.h"
 #include "model/effects/lagged_amplitude.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

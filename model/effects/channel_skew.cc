@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/lagrange.h"
-#include "model/simulate.h"
+#include "model/numerics/lagrange.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

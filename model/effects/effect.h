@@ -25,7 +25,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/acoustics.h"
+#include "model/loop/acoustics.h"
 
 namespace howl {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "diagnosis/bootstrap/fitted_rig.h"
-#include "model/instrument.h"
+#include "model/loop/instrument.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

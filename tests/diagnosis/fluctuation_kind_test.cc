@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/random_stream.h"
+#include "model/noise/random_stream.h"
 
 namespace howl {
 namespace {

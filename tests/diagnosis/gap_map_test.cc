@@ -7,7 +7,7 @@
 #include <complex>
 #include <vector>
 
-#include "model/random_stream.h"
+#include "model/noise/random_stream.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 

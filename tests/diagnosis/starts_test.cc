@@ -11,10 +11,10 @@
 #include "diagnosis/cuts/acoustic_cut.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/records/band_signal.h"
-#include "model/crossings.h"
+#include "model/cycles/harmonic_balance.h"
 #include "model/effects/catalogue.h"
-#include "model/harmonic_balance.h"
-#include "model/units.h"
+#include "model/loop/crossings.h"
+#include "model/numerics/units.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/loop.h"
-#include "model/units.h"
+#include "model/loop/crossings.h"
+#include "model/loop/loop.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

@@ -46,7 +46,7 @@ def broken_anchors(site):
 
 
 def missing_files(project):
-    """Files of the tree that a page names and that are not there: `model/acoustics.h`."""
+    """Files of the tree that a page names and that are not there: `model/loop/acoustics.h`."""
     folders = "app|bench|cmake|configs|diagnosis|docs|estimation|io|model|results|rig|tests|trial"
     named = re.compile(rf"`((?:{folders})/[\w./-]+\.\w+)`")
     pages = [project / "README.md", project / "CONTRIBUTING.md"]

@@ -17,10 +17,10 @@
 #include "estimation/analysis/analyse.h"
 #include "estimation/family/problem/membership.h"
 #include "estimation/fit/joint_fit.h"
-#include "model/cycle_scale.h"
-#include "model/harmonic_balance.h"
-#include "model/random_stream.h"
-#include "model/simulate.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/noise/random_stream.h"
+#include "model/simulation/cycle_scale.h"
+#include "model/simulation/simulate.h"
 
 namespace howl::testing {
 

@@ -14,7 +14,7 @@
 
 #include "estimation/family/bounds/centred_row.h"
 #include "estimation/family/bounds/contract.h"
-#include "model/complex.h"
+#include "model/numerics/complex.h"
 
 namespace howl {
 

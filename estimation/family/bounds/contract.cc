@@ -7,7 +7,7 @@
 #include "estimation/family/bounds/centred_bound.h"
 #include "estimation/family/bounds/second_mode_bound.h"
 #include "estimation/family/problem/targets.h"
-#include "model/complex.h"
+#include "model/numerics/complex.h"
 
 namespace howl {
 

@@ -12,7 +12,7 @@
 namespace howl {
 
 // An experiment's transfer ellipsoid, in the offsets of
-// estimation/analysis/transfer_ellipsoid.h.
+// estimation/analysis/transfer/transfer_ellipsoid.h.
 struct TransferBound {
   bool used = false;
   double distance = 0.0;  // widened by more than the rounding of the test

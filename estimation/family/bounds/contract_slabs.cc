@@ -11,7 +11,7 @@
 #include <algorithm>
 
 #include "estimation/family/bounds/contract.h"
-#include "model/acoustics.h"
+#include "model/loop/acoustics.h"
 
 namespace howl {
 

@@ -5,7 +5,7 @@
 #include "estimation/family/bounds/contract.h"
 #include "estimation/family/bounds/interval.h"
 #include "estimation/family/bounds/second_mode_bound.h"
-#include "model/loop.h"
+#include "model/loop/loop.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 //   second_crossing_gain_min  |N U_1 + M U_r| >= minimum / (w |Phi'(0)|)                 at a line
 //
 // with y = sinh(ln(f / omega)) and y_r = sinh(ln(f / (r omega))). The contractors lose no member.
-// All need a RoundingGuard. Units: Hz, N and M as in model/acoustics.h.
+// All need a RoundingGuard. Units: Hz, N and M as in model/loop/acoustics.h.
 #ifndef HOWL_ESTIMATION_FAMILY_BOUNDS_SECOND_MODE_BOUND_H_
 #define HOWL_ESTIMATION_FAMILY_BOUNDS_SECOND_MODE_BOUND_H_
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/members/chain.h"
 
 namespace howl {

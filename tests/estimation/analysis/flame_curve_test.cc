@@ -1,4 +1,4 @@
-#include "estimation/analysis/flame_curve.h"
+#include "estimation/analysis/flame/flame_curve.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "estimation/analysis/analyse.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

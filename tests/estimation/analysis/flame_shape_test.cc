@@ -1,4 +1,4 @@
-#include "estimation/analysis/flame_shape.h"
+#include "estimation/analysis/flame/flame_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "estimation/analysis/analyse.h"
-#include "estimation/analysis/flame_bin_residual.h"
-#include "model/flame_shapes.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "estimation/analysis/flame/flame_bin_residual.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/loop/flame_shapes.h"
+#include "model/simulation/simulate.h"
 #include "tests/residual_jacobian.h"
 
 namespace howl {

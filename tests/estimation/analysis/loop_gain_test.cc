@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "estimation/analysis/analyse.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
-#include "model/units.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/numerics/units.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/answers/oscillation_pole.h"
 #include "estimation/family/members/enumerate.h"
-#include "model/poles.h"
+#include "model/loop/poles.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -1,6 +1,6 @@
 // From a simulated rig's records to its family: the rig itself must be a member, whatever its
-// modes. Truth is the rig; the simulator is model/simulate.h, which shares no estimate with
-// analysis.
+// modes. Truth is the rig; the simulator is model/simulation/simulate.h, which shares no estimate
+// with analysis.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,13 +8,13 @@
 #include <string>
 
 #include "estimation/analysis/analyse.h"
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/bounds/enclose.h"
 #include "estimation/family/bounds/feasible.h"
 #include "estimation/unit_seed.h"
-#include "model/floquet.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "model/cycles/floquet.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/simulation/simulate.h"
 #include "tests/r228.h"
 
 namespace howl {

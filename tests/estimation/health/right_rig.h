@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "estimation/analysis/analyse.h"
-#include "estimation/analysis/experiment.h"
-#include "model/crossings.h"
-#include "model/loop.h"
-#include "model/simulate.h"
+#include "estimation/analysis/loop/experiment.h"
+#include "model/loop/crossings.h"
+#include "model/loop/loop.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 

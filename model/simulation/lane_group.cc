@@ -1,0 +1,360 @@
+#include "model/simulation/lane_group.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "model/simulation/cycle_scale.h"
+
+namespace howl::internal {
+namespace {
+
+constexpr int kChunk = 16 * kLoopBlock;      // steps between visits of the recorders
+constexpr double kAmplitudeMemory_s = 0.02;  // of a first mode at the paper's 220 Hz
+
+bool SameLoop(const LoopParameters<double>& a, const LoopParameters<double>& b) {
+  return a.acoustics.omega_hz == b.acoustics.omega_hz && a.acoustics.xi == b.acoustics.xi &&
+         a.acoustics.N == b.acoustics.N && a.acoustics.M == b.acoustics.M &&
+         a.acoustics.harmonic_ratio == b.acoustics.harmonic_ratio && a.tau_s == b.tau_s;
+}
+
+bool SameFlame(const Flame<double>& a, const Flame<double>& b) {
+  return a.slope == b.slope && a.saturation == b.saturation && a.offset == b.offset;
+}
+
+template <int W>
+class LaneGroup {
+ public:
+  LaneGroup(std::span<const SimulationCase* const> cases, const SimulationOptions& options,
+            double internal_hz)
+      : cases_(cases), step_s_(1.0 / internal_hz) {
+    const int ratio = static_cast<int>(std::lround(internal_hz / options.sampling_hz));
+    int most_delay_steps = 0;
+    const RigParameters& first = cases[0]->rig;
+    block_.modes = NumModes(first);
+    block_.shape = first.model.flame.shape;
+    for (int l = 0; l < W; ++l) {
+      // Lanes without a member repeat the first one; nothing of theirs is recorded.
+      const RigParameters& rig = cases[Member(l)]->rig;
+      const LaneCoefficients c = MakeCoefficients(rig, rig.model.loop, rig.model.flame, step_s_);
+      CHECK_GE(c.delay_steps, kMinDelaySteps)
+          << "a delay of " << rig.model.loop.tau_s << " s needs a higher internal rate than "
+          << internal_hz << " Hz";
+      block_.Set(l, c);
+      delay_steps_[static_cast<std::size_t>(l)] = c.delay_steps;
+      most_delay_steps = std::max(most_delay_steps, c.delay_steps);
+    }
+    has_effects_ = W == 1 && !first.effects.empty();
+    memory_s_ /= CycleScale(first.model.loop.acoustics.omega_hz);
+    if (has_effects_) {
+      most_delay_steps *= 4;
+      for (const auto& effect : first.effects) {
+        const double longest = effect->LongestDelay(first.model.loop.tau_s) / step_s_;
+        most_delay_steps = std::max(most_delay_steps, static_cast<int>(std::ceil(longest)));
+        drives_ = drives_ || effect->Drives();
+      }
+    }
+    past_ = most_delay_steps + kOrder + kLoopBlock;
+    const std::size_t rows = static_cast<std::size_t>(past_) + kChunk + kLoopBlock + kLoopBlock;
+    rate_.assign(rows * W, 0.0);
+    heat_.assign(rows * W, 0.0);
+    pressure_.assign(rows * W, 0.0);
+    for (std::size_t l = 0; l < cases.size(); ++l) {
+      recorders_.emplace_back(*cases[l], options, ratio);
+      const Noise& noise = cases[l]->rig.noise;
+      noises_.emplace_back(
+          noise.combustion_density, noise.combustion_corner_hz, internal_hz,
+          DeriveSeed(cases[l]->seed, static_cast<std::uint64_t>(StreamKey::kCombustion)));
+    }
+    half_length_ = recorders_[0].half_length();
+    settle_steps_ = std::llround(options.settle_s * internal_hz);
+    samples_ = std::llround(options.duration_s * options.sampling_hz) * ratio + 2LL * half_length_;
+    // The recorders' first sample is the one at step `settle_steps_`, counted from the initial
+    // state; the record's first half_length_ later.
+    if (has_effects_) StartEffects();
+    for (int l = 0; l < W; ++l) SetPast(l);
+    if (drives_) released_ = heat_;
+  }
+
+  void Run(std::span<SimulatedRecord*> records) {
+    // Row of the present step in the buffers, which hold the past before it.
+    row_ = past_;
+    step_ = 0;
+    FillHeat(1, kAhead - 1);
+    Record(row_, 1);  // the initial state is the first sample
+    while (step_ < settle_steps_ + samples_) {
+      for (int i = 0; i < kChunk; i += kLoopBlock) {
+        if (has_effects_) UpdateParameters();
+        FillHeat(kAhead, kLoopBlock);
+        Propagate(&block_, kLoopBlock, Row(heat_, row_ - kBehind), Row(pressure_, row_ + 1),
+                  Row(rate_, row_ + 1));
+        row_ += kLoopBlock;
+        step_ += kLoopBlock;
+      }
+      Record(row_ - kChunk + 1, kChunk);
+      MoveBack();
+    }
+    for (std::size_t l = 0; l < cases_.size(); ++l) *records[l] = recorders_[l].Finish();
+  }
+
+ private:
+  class Line final : public DelayLine {
+   public:
+    explicit Line(const LaneGroup& group) : group_(group) {}
+    void Read(std::span<const double> delay_s, std::span<double> out) const override {
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        const DelaySteps delay = SplitDelay(delay_s[i], group_.step_s_);
+        const int row = group_.fill_row_ + static_cast<int>(i) - delay.steps + kFirstNode<kOrder>;
+        CHECK_LE(row + kOrder - 1, group_.row_) << "a delay of " << delay_s[i] << " s is too short";
+        CHECK_GE(row, 0) << "a delay of " << delay_s[i] << " s is too long";
+        const double* at = group_.rate_.data() + row;
+        double sum = delay.weights[0] * at[0];
+        for (std::size_t j = 1; j < kOrder; ++j) sum += delay.weights[j] * at[j];
+        out[i] = sum;
+      }
+    }
+
+   private:
+    const LaneGroup& group_;
+  };
+
+  std::size_t Member(int lane) const {
+    const auto l = static_cast<std::size_t>(lane);
+    return l < cases_.size() ? l : 0;
+  }
+  static double* Row(std::vector<double>& rows, int row) {
+    return rows.data() + static_cast<std::ptrdiff_t>(row) * W;
+  }
+
+  // The past as a sum of exponentials, each answered by the modes' transfer functions.
+  void SetPast(int lane) {
+    const RigParameters& rig = cases_[Member(lane)]->rig;
+    const auto modes = Modes(rig, rig.model.loop);
+    const auto l = static_cast<std::size_t>(lane);
+    for (const InitialWave& wave : rig.past) {
+      const std::complex<double> s(wave.growth_rate, kRadPerSPerHz * wave.frequency_hz);
+      const std::complex<double> q = std::polar(wave.amplitude, wave.phase_rad);
+      std::complex<double> rate = 0.0;
+      std::complex<double> pressure = 0.0;
+      for (int k = 0; k < block_.modes; ++k) {
+        const ModeParameters& mode = modes[static_cast<std::size_t>(k)];
+        const std::complex<double> d =
+            s * s + 2.0 * mode.omega_rad_s * mode.xi * s + mode.omega_rad_s * mode.omega_rad_s;
+        const std::complex<double> integral = mode.coefficient * q / d;
+        block_.y[static_cast<std::size_t>(k)][l] += (mode.omega_rad_s * integral).real();
+        block_.p[static_cast<std::size_t>(k)][l] += (s * integral).real();
+        pressure += s * integral;
+        rate += s * s * integral;
+      }
+      for (int i = 0; i <= past_; ++i) {
+        const std::complex<double> turn = std::exp(s * (step_s_ * (i - past_)));
+        const std::size_t at = static_cast<std::size_t>(i) * W + l;
+        rate_[at] += (rate * turn).real();
+        heat_[at] += (q * turn).real();
+        pressure_[at] += (pressure * turn).real();
+      }
+    }
+  }
+
+  // Heat release of the `count` steps that begin `first` steps after the present one.
+  void FillHeat(int first, int count) {
+    fill_row_ = row_ + first;
+    double* heat = Row(heat_, fill_row_);
+    std::array<double, kLoopBlock> tau;
+    const std::span<double> taus(tau.data(), static_cast<std::size_t>(count));
+    if (has_effects_) {
+      std::fill(taus.begin(), taus.end(), context_.loop.tau_s);
+      context_.tau_s = taus;
+      SetContextTime(first);
+    }
+    if (has_effects_ && moves_delay_) {
+      for (const auto& effect : effects_) {
+        if (effect->MovesDelay()) effect->Delay(context_, taus);
+      }
+      Line(*this).Read(taus, {heat, static_cast<std::size_t>(count)});
+    } else {
+      for (int l = 0; l < W; ++l) {
+        const double* from =
+            Row(rate_, fill_row_ - delay_steps_[static_cast<std::size_t>(l)] + kFirstNode<kOrder>) +
+            l;
+        double* to = block_.window.data() + l;
+        const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(count + kOrder - 1) * W;
+        for (std::ptrdiff_t i = 0; i < end; i += W) to[i] = from[i];
+      }
+      Interpolate(block_, count, heat);
+    }
+    if (has_effects_) {
+      const std::span<double> signal(heat, static_cast<std::size_t>(count));
+      for (const auto& effect : effects_) effect->FlameIn(context_, signal);
+      ApplyFlame(block_, count, heat);
+      for (const auto& effect : effects_) effect->FlameOut(context_, signal);
+      AddNoise(count, heat);
+      for (const auto& effect : effects_) effect->Source(context_, signal);
+      if (drives_) {
+        std::copy(signal.begin(), signal.end(), released_.begin() + fill_row_);
+        for (const auto& effect : effects_) {
+          if (effect->Drives()) effect->Drive(context_, signal);
+        }
+      }
+    } else {
+      ApplyFlame(block_, count, heat);
+      AddNoise(count, heat);
+    }
+  }
+
+  void AddNoise(int count, double* heat) {
+    for (std::size_t l = 0; l < cases_.size(); ++l) {
+      if (cases_[l]->rig.noise.combustion_density == 0.0) continue;
+      for (int i = 0; i < count; ++i)
+        heat[static_cast<std::size_t>(i) * W + l] += noises_[l].Next();
+    }
+  }
+
+  void StartEffects() {
+    const SimulationCase& one = *cases_[0];
+    context_.step_s = step_s_;
+    context_.loop = one.rig.model.loop;
+    context_.flame = one.rig.model.flame;
+    line_ = std::make_unique<Line>(*this);
+    context_.delay_line = line_.get();
+    for (const auto& effect : one.rig.effects) {
+      effects_.push_back(effect->Clone());
+      effects_.back()->Start(
+          one.rig, step_s_,
+          DeriveSeed(one.seed, static_cast<std::uint64_t>(StreamKey::kEffects) + effects_.size()));
+      moves_delay_ = moves_delay_ || effects_.back()->MovesDelay();
+    }
+  }
+
+  void SetContextTime(int steps_ahead) {
+    const auto steps = static_cast<double>(step_ + steps_ahead - settle_steps_ - half_length_);
+    context_.time_s = steps * step_s_;
+  }
+
+  // Slow changes: constant within a block, taken at its first sample.
+  void UpdateParameters() {
+    const RigParameters& rig = cases_[0]->rig;
+    UpdateAmplitudes();
+    SetContextTime(kAhead);
+    LoopParameters<double> loop = rig.model.loop;
+    Flame<double> flame = rig.model.flame;
+    for (const auto& effect : effects_) effect->Parameters(context_, &loop, &flame);
+    if (SameLoop(loop, context_.loop) && SameFlame(flame, context_.flame)) return;
+    const LaneCoefficients c = MakeCoefficients(rig, loop, flame, step_s_);
+    CHECK(moves_delay_ || (c.delay_steps >= kMinDelaySteps && c.delay_steps + kOrder < past_))
+        << "delay of " << loop.tau_s << " s";
+    // p and its integral go on without a jump: y = omega times the integral changes its unit.
+    for (std::size_t k = 0; k < kMaxModes; ++k) {
+      if (block_.omega[k][0] > 0.0) block_.y[k][0] *= c.omega_rad_s[k] / block_.omega[k][0];
+    }
+    block_.Set(0, c);
+    delay_steps_[0] = c.delay_steps;
+    context_.loop = loop;
+    context_.flame = flame;
+  }
+
+  void UpdateAmplitudes() {
+    double rate = 0.0;
+    double pressure = 0.0;
+    for (int i = row_ - kLoopBlock + 1; i <= row_; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      rate += rate_[at] * rate_[at];
+      pressure += pressure_[at] * pressure_[at];
+    }
+    const double keep = std::exp(-kLoopBlock * step_s_ / memory_s_);
+    if (step_ == 0) {  // the past is known
+      rate_square_ = pressure_square_ = 0.0;
+      for (int i = 0; i <= row_; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        rate_square_ += rate_[at] * rate_[at] / (row_ + 1);
+        pressure_square_ += pressure_[at] * pressure_[at] / (row_ + 1);
+      }
+    } else {
+      rate_square_ = keep * rate_square_ + (1.0 - keep) * rate / kLoopBlock;
+      pressure_square_ = keep * pressure_square_ + (1.0 - keep) * pressure / kLoopBlock;
+    }
+    context_.rate_square = step_ == 0 ? rate_square_ : rate / kLoopBlock;
+    context_.pressure_square = step_ == 0 ? pressure_square_ : pressure / kLoopBlock;
+    context_.rate_amplitude = std::sqrt(2.0 * rate_square_);
+    context_.pressure_amplitude = std::sqrt(2.0 * pressure_square_);
+  }
+
+  // Hands rows [row, row + count) to the recorders, less what settling throws away.
+  void Record(int row, int count) {
+    const std::int64_t first_step = step_ - (row_ - row);
+    const std::int64_t skip = std::max<std::int64_t>(settle_steps_ - first_step, 0);
+    if (skip >= count) return;
+    const auto from = static_cast<std::size_t>(row + skip);
+    const auto n = static_cast<std::size_t>(count - skip);
+    line_p_.resize(n);
+    line_q_.resize(n);
+    const std::vector<double>& heat = drives_ ? released_ : heat_;
+    for (std::size_t l = 0; l < cases_.size(); ++l) {
+      for (std::size_t i = 0; i < n; ++i) {
+        line_p_[i] = pressure_[(from + i) * W + l];
+        line_q_[i] = heat[(from + i) * W + l];
+      }
+      recorders_[l].Push(line_p_, line_q_);
+    }
+  }
+
+  // The last rows become the past of the next chunk.
+  void MoveBack() {
+    const int shift = row_ - past_;
+    const auto move = [shift](std::vector<double>& rows) {
+      std::copy(rows.begin() + static_cast<std::ptrdiff_t>(shift) * W, rows.end(), rows.begin());
+    };
+    move(rate_);
+    move(heat_);
+    if (drives_) move(released_);
+    move(pressure_);
+    row_ = past_;
+  }
+
+  std::span<const SimulationCase* const> cases_;
+  double step_s_;
+  LaneBlock<W> block_;
+  std::array<int, W> delay_steps_{};
+  int past_ = 0;
+  int half_length_ = 0;
+  std::int64_t settle_steps_ = 0;
+  std::int64_t samples_ = 0;
+  std::vector<double> rate_;
+  std::vector<double> heat_;
+  std::vector<double> released_;  // heat release without what else drives the acoustics
+  std::vector<double> pressure_;
+  std::vector<double> line_p_;
+  std::vector<double> line_q_;
+  std::vector<Recorder> recorders_;
+  std::vector<ColouredNoise> noises_;
+  int row_ = 0;
+  int fill_row_ = 0;
+  std::int64_t step_ = 0;
+  bool has_effects_ = false;
+  bool moves_delay_ = false;
+  bool drives_ = false;
+  std::vector<std::unique_ptr<LoopEffect>> effects_;
+  std::unique_ptr<Line> line_;
+  LoopContext context_;
+  double rate_square_ = 0.0;
+  double pressure_square_ = 0.0;
+  double memory_s_ = kAmplitudeMemory_s;
+};
+
+}  // namespace
+
+void RunLanes(std::span<const SimulationCase* const> cases, const SimulationOptions& options,
+              double internal_hz, std::span<SimulatedRecord*> records) {
+  // A few members in eight lanes would cost as much as eight. The bits are the same either way.
+  if (cases.size() > 2) {
+    LaneGroup<8>(cases, options, internal_hz).Run(records);
+    return;
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    LaneGroup<1>(cases.subspan(i, 1), options, internal_hz).Run(records.subspan(i, 1));
+  }
+}
+
+}  // namespace howl::internal
