@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "io/config/nearest_key.h"
+#include "io/config/schema/nearest_key.h"
 #include "io/user_error.h"
 
 DEFINE_string(out, "", "folder for the output files (default: out/ and the config's name)");

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "estimation/residuals/registry.h"
-#include "io/config/config_schema.h"
+#include "io/config/schema/config_schema.h"
 
 namespace howl {
 namespace {

@@ -21,7 +21,7 @@
 #include "app/process/progress_line.h"
 #include "app/text/diagnose_text.h"
 #include "diagnosis/diagnosis.h"
-#include "io/config/nearest_key.h"
+#include "io/config/schema/nearest_key.h"
 #include "io/results/diagnosis_json.h"
 #include "io/whole_file.h"
 

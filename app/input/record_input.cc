@@ -3,9 +3,9 @@
 #include <glog/logging.h>
 
 #include "estimation/health/sample_health.h"
+#include "io/records/columns/time_unit.h"
 #include "io/records/record_faults.h"
 #include "io/records/records.h"
-#include "io/records/time_unit.h"
 
 namespace howl {
 namespace {

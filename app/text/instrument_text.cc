@@ -5,8 +5,8 @@
 
 #include "app/text/text_table.h"
 #include "estimation/analysis/instruments/remove_instruments.h"
+#include "io/records/columns/number_text.h"
 #include "io/records/known_instruments.h"
-#include "io/records/number_text.h"
 
 namespace howl {
 namespace {

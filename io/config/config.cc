@@ -2,16 +2,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/config/config_cursor.h"
-#include "io/config/config_schema.h"
-#include "io/config/config_sections.h"
-#include "io/config/config_text.h"
-#include "io/config/config_tree.h"
-#include "io/config/placeholder.h"
-#include "io/config/scalar_check.h"
-#include "io/config/schema_check.h"
-#include "io/config/schema_words.h"
-#include "io/config/yaml_tree.h"
+#include "io/config/schema/config_cursor.h"
+#include "io/config/schema/config_schema.h"
+#include "io/config/schema/config_tree.h"
+#include "io/config/schema/scalar_check.h"
+#include "io/config/schema/schema_check.h"
+#include "io/config/schema/schema_words.h"
+#include "io/config/sections/config_sections.h"
+#include "io/config/yaml/config_text.h"
+#include "io/config/yaml/placeholder.h"
+#include "io/config/yaml/yaml_tree.h"
 
 namespace howl {
 Config LoadConfig(const std::filesystem::path& path) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "estimation/analysis/spectra/statistics.h"
-#include "io/records/number_text.h"
+#include "io/records/columns/number_text.h"
 
 namespace howl {
 namespace {

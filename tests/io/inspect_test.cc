@@ -7,7 +7,7 @@
 #include "io/inspect/init_config.h"
 #include "io/inspect/record_look.h"
 #include "io/inspect/role_guess.h"
-#include "io/records/number_text.h"
+#include "io/records/columns/number_text.h"
 #include "tests/io/record_files.h"
 
 namespace howl {
