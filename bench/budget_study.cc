@@ -14,6 +14,7 @@
 #include "bench/measured_rig.h"
 #include "diagnosis/budget/budget.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/records/records.h"
 
 namespace howl {

@@ -9,6 +9,7 @@
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/gap/slack.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/records/records.h"
 
 namespace howl {

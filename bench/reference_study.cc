@@ -11,6 +11,7 @@
 
 #include "bench/measured_rig.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/records/records.h"
 
 namespace howl {

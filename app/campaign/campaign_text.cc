@@ -7,7 +7,7 @@
 
 #include "app/text/text_table.h"
 #include "io/report/csv_table.h"
-#include "io/results/result_files.h"
+#include "io/result_files.h"
 
 namespace howl {
 namespace {

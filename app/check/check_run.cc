@@ -9,6 +9,7 @@
 #include "app/text/text_table.h"
 #include "estimation/health/analysis_health.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/records/record_faults.h"
 
 namespace howl {

@@ -12,9 +12,10 @@
 #include "app/text/vanishing_text.h"
 #include "estimation/analysis/second_crossing.h"
 #include "estimation/analysis/spectra/half_width.h"
+#include "io/config/reading/config_reading.h"
+#include "io/result_files.h"
 #include "io/results/analysis_files.h"
 #include "io/results/health_json.h"
-#include "io/results/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

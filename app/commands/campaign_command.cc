@@ -18,7 +18,8 @@
 #include "app/process/interruption.h"
 #include "estimation/parallel.h"
 #include "io/config/config.h"
-#include "io/results/result_files.h"
+#include "io/config/reading/config_reading.h"
+#include "io/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

@@ -21,6 +21,7 @@
 #include "app/process/progress_line.h"
 #include "app/text/diagnose_text.h"
 #include "diagnosis/diagnosis.h"
+#include "io/config/reading/config_reading.h"
 #include "io/config/schema/nearest_key.h"
 #include "io/results/diagnosis_json.h"
 #include "io/whole_file.h"

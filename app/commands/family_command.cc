@@ -4,9 +4,10 @@
 #include "app/family/bounds_run.h"
 #include "app/family/family_run.h"
 #include "app/family/family_text.h"
+#include "io/config/reading/config_reading.h"
+#include "io/result_files.h"
 #include "io/results/family_csv.h"
 #include "io/results/family_json.h"
-#include "io/results/result_files.h"
 #include "io/whole_file.h"
 
 namespace howl {

@@ -15,6 +15,7 @@
 #include "estimation/health/fit_health.h"
 #include "estimation/health/mistake_search.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/results/health_json.h"
 #include "io/results/solution_json.h"
 #include "io/whole_file.h"

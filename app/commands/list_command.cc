@@ -9,8 +9,9 @@
 #include "app/command_line/command.h"
 #include "app/text/text_table.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
+#include "io/result_files.h"
 #include "io/results/family_csv.h"
-#include "io/results/result_files.h"
 
 namespace howl {
 namespace {

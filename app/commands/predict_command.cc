@@ -11,8 +11,9 @@
 #include "app/input/problem_input.h"
 #include "app/text/conflict_text.h"
 #include "app/text/predict_text.h"
+#include "io/config/reading/config_reading.h"
+#include "io/result_files.h"
 #include "io/results/predict_files.h"
-#include "io/results/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

@@ -12,6 +12,7 @@
 #include "estimation/family/answers/tradeoff.h"
 #include "estimation/fit/joint_fit.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/config/sections/absent_record.h"
 #include "io/results/analysis_files.h"
 #include "io/results/family_json.h"

@@ -16,6 +16,7 @@
 #include "app/process/interruption.h"
 #include "estimation/family/bounds/bound_text.h"
 #include "estimation/unit_seed.h"
+#include "io/config/reading/config_reading.h"
 #include "io/whole_file.h"
 #include "model/version.h"
 

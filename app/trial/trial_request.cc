@@ -3,6 +3,7 @@
 
 #include "app/files/digest.h"
 #include "app/trial/trial_run.h"
+#include "io/config/reading/config_reading.h"
 
 namespace howl {
 namespace {

@@ -3,7 +3,7 @@
 #include "app/files/digest.h"
 #include "app/files/json_fields.h"
 #include "app/trial/trial_run.h"
-#include "io/results/result_files.h"
+#include "io/result_files.h"
 #include "io/results/trial_json.h"
 #include "io/results/trial_sheet.h"
 #include "io/whole_file.h"

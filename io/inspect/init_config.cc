@@ -14,7 +14,7 @@
 #include "io/inspect/yaml_text.h"
 #include "io/records/columns/number_text.h"
 #include "io/records/columns/time_unit.h"
-#include "io/results/result_files.h"
+#include "io/result_files.h"
 #include "io/user_error.h"
 
 namespace howl {

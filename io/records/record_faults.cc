@@ -6,7 +6,7 @@
 #include <memory>
 #include <set>
 
-#include "io/records/columns/table_source.h"
+#include "io/records/open_table.h"
 #include "io/records/records.h"
 
 namespace howl {

@@ -15,6 +15,7 @@
 #include "io/records/columns/time_unit.h"
 #include "io/records/file_state.h"
 #include "io/records/known_instruments.h"
+#include "io/records/open_table.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -7,7 +7,7 @@
 
 #include "io/number_range.h"
 #include "io/records/columns/number_text.h"
-#include "io/records/columns/table_source.h"
+#include "io/records/open_table.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -9,10 +9,11 @@
 #include <limits>
 #include <sstream>
 
+#include "io/config/reading/config_reading.h"
 #include "io/records/records.h"
 #include "io/report/fault_words.h"
 #include "io/report/read_measured.h"
-#include "io/results/result_files.h"
+#include "io/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

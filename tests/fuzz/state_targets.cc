@@ -12,6 +12,7 @@
 #include "app/trial/trial_log.h"
 #include "estimation/family/bounds/enclose.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "tests/fuzz/target.h"
 
 namespace howl {

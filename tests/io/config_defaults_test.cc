@@ -8,6 +8,7 @@
 #include <string>
 
 #include "estimation/residuals/registry.h"
+#include "io/config/reading/config_reading.h"
 #include "io/config/schema/config_schema.h"
 #include "io/config/schema/nearest_key.h"
 #include "io/config/sections/config_sections.h"

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/inspect/column_words.h"
 #include "io/inspect/init_config.h"
 #include "io/inspect/record_look.h"

@@ -13,10 +13,22 @@ import sys
 # In order: a room may use those that stand before it.
 LISTS = {
     "": ["model", "estimation", "diagnosis", "trial", "io", "app"],
+    "model": ["model/numerics", "model/noise", "model/loop", "model/cycles", "model/delay_systems",
+              "model/simulation", "model/effects"],
     "estimation": ["estimation/analysis", "estimation/residuals", "estimation/fit",
                    "estimation/family/problem", "estimation/family/local",
                    "estimation/family/members", "estimation/family/bounds",
                    "estimation/family/answers", "estimation/health"],
+    "analysis": ["estimation/analysis/spectra", "estimation/analysis/cycle",
+                 "estimation/analysis/oscillations", "estimation/analysis/transfer",
+                 "estimation/analysis/instruments", "estimation/analysis/flame",
+                 "estimation/analysis/loop"],
+    "io": ["io/config/yaml", "io/config/schema", "io/records/columns", "io/records/text",
+           "io/records/binary", "io/records", "io/config", "io/config/sections", "io/config/reading",
+           "io/results", "io/inspect", "io/report"],
+    "app": ["app/files", "app/process", "app/text", "app/command_line", "app/jobs", "app/input",
+            "app/simulate", "app/family", "app/diagnose", "app/check", "app/trial", "app/campaign",
+            "app/commands"],
 }
 # howl_rig is a second simulator, so that a trial is no comparison of a program with itself.
 ALONE = ["rig"]
@@ -25,7 +37,8 @@ APART = [("diagnosis", "trial")]
 
 
 def room_of(path, rooms):
-    return next((room for room in rooms if path == room or path.startswith(room + "/")), None)
+    inside = [room for room in rooms if path == room or path.startswith(room + "/")]
+    return max(inside, key=len, default=None)
 
 
 def faults(path, included):

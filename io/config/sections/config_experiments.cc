@@ -2,7 +2,7 @@
 #include <map>
 
 #include "io/config/sections/config_sections.h"
-#include "io/results/result_files.h"
+#include "io/result_files.h"
 
 namespace howl {
 namespace {

@@ -1,11 +1,9 @@
 // A file as a table of columns. One format a file: text_table, mat_table, hdf5_table; the next
-// format is one more subclass and one more line in OpenTable (table_source.cc).
+// format is one more subclass and one more branch in OpenTable (io/records/open_table.cc).
 #ifndef HOWL_IO_RECORDS_COLUMNS_TABLE_SOURCE_H_
 #define HOWL_IO_RECORDS_COLUMNS_TABLE_SOURCE_H_
 
 #include <cstddef>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,11 +49,6 @@ class TableSource {
   // The line of a row (both from 0 and 1 respectively), or 0 where the format has no lines.
   virtual int LineOf(std::size_t /*row*/) const { return 0; }
 };
-
-// Recognises the format by the file's content. Throws UserError when it cannot be read, and where a
-// dialect is given for what is no text.
-std::unique_ptr<TableSource> OpenTable(const std::filesystem::path& file,
-                                       const TextDialect& dialect = {});
 
 // "column 2" for a number, the name itself otherwise: the key of an error.
 std::string DisplayName(const ColumnName& name);

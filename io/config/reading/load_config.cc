@@ -1,7 +1,6 @@
-#include "io/config/config.h"
-
 #include <nlohmann/json.hpp>
 
+#include "io/config/reading/config_reading.h"
 #include "io/config/schema/config_cursor.h"
 #include "io/config/schema/config_schema.h"
 #include "io/config/schema/config_tree.h"
@@ -14,6 +13,7 @@
 #include "io/config/yaml/yaml_tree.h"
 
 namespace howl {
+
 Config LoadConfig(const std::filesystem::path& path) {
   const std::string file = path.string();
   const LocatedNode tree = ParseYaml(file, ReadConfigText(path));

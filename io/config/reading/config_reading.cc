@@ -1,10 +1,11 @@
+#include "io/config/reading/config_reading.h"
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 #include <utility>
 
-#include "io/config/config.h"
 #include "io/config/schema/config_schema.h"
 #include "io/config/schema/config_tree.h"
 #include "io/config/schema/scalar_check.h"

@@ -1,7 +1,7 @@
 // The tables that commands write into a run's folder. `howl simulate` writes each experiment's
 // record there as NAME.csv, so that no experiment may have the name of one of these.
-#ifndef HOWL_IO_RESULTS_RESULT_FILES_H_
-#define HOWL_IO_RESULTS_RESULT_FILES_H_
+#ifndef HOWL_IO_RESULT_FILES_H_
+#define HOWL_IO_RESULT_FILES_H_
 
 #include <algorithm>
 #include <array>
@@ -37,4 +37,4 @@ inline bool IsResultsName(std::string_view name) {
 
 }  // namespace howl
 
-#endif  // HOWL_IO_RESULTS_RESULT_FILES_H_
+#endif  // HOWL_IO_RESULT_FILES_H_
