@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/measured_rig.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/gap/slack.h"
 #include "io/config/config.h"

@@ -2,9 +2,10 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/simulated_rig.h"
-#include "diagnosis/bootstrap/fitted_rig.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/fit/fitted_rig.h"
 #include "diagnosis/gap/slack.h"
 #include "diagnosis/samples/coherent_lines.h"
 #include "diagnosis/samples/gain_fluctuation.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/command_line/options.h"
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/records/cut_record.h"
 #include "io/config/config.h"
 
 namespace howl {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/input/record_input.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/records/cut_record.h"
 #include "io/user_error.h"
 

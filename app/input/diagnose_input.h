@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/records/cut_record.h"
 #include "estimation/analysis/analyse.h"
 #include "io/config/config.h"
 

@@ -3,7 +3,7 @@
 #ifndef HOWL_APP_TEXT_DIAGNOSE_TEXT_H_
 #define HOWL_APP_TEXT_DIAGNOSE_TEXT_H_
 
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/verdict/diagnosis_result.h"
 
 namespace howl {
 

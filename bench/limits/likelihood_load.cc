@@ -4,6 +4,7 @@
 
 #include "bench/limits/measured.h"
 #include "bench/simulated_rig.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/structure/structure_fit.h"
 

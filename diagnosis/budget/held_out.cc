@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/samples/coherent_lines.h"
 
 namespace howl {

@@ -10,11 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.h"
 #include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/fit/fit_memory.h"
 #include "diagnosis/reference/reference.h"
 #include "diagnosis/samples/coherent_lines.h"
 #include "diagnosis/samples/gain_fluctuation.h"
+#include "diagnosis/verdict/diagnosis_result.h"
 #include "model/effects/declared_effect.h"
 
 namespace howl {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/reference/reference.h"
 
 namespace howl {

@@ -4,11 +4,7 @@
 //   E_A = P - R Q,    R = K / (1 + leak K),    K = G PressureInstrument / HeatReleaseInstrument
 //
 // Where the acoustics move (acoustic_modulation.h), R is that of their mean, and what the movement
-// adds to p is subtracted too.
-//
-// G may have modes beside the base's, each with its own damping and a complex residue:
-//
-//   sum over k of (a_k s + b_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
+// adds to p is subtracted too. recorded_transfer.h has R.
 #ifndef HOWL_DIAGNOSIS_CUTS_ACOUSTIC_CUT_H_
 #define HOWL_DIAGNOSIS_CUTS_ACOUSTIC_CUT_H_
 
@@ -16,32 +12,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "diagnosis/cuts/acoustic_locals.h"
+#include "diagnosis/cuts/recorded_transfer.h"
 #include "diagnosis/records/cut_record.h"
 
 namespace howl {
-
-// One experiment's own parameters in cut A: log omega (Hz), log xi, N, M. With one mode M is zero.
-using AcousticLocals = Eigen::Vector4d;
-
-// Whether the local of this number is free in the model.
-inline bool IsFree(const BaseModel& model, Eigen::Index local) {
-  return local < 3 || model.modes > 1;
-}
-
-Acoustics<double> ToAcoustics(const BaseModel& model, const AcousticLocals& locals);
-
-struct FurtherMode {
-  double omega_hz = 0.0;
-  double xi = 0.0;
-  double a = 0.0;  // both in the unit of N
-  double b = 0.0;
-};
-Response FurtherResponse(const std::vector<FurtherMode>& modes, double frequency_hz);
-
-// R on the extended band.
-Eigen::VectorXcd RecordedTransfer(const CutRecord& record, const Effect& effect, EffectValues x,
-                                  const AcousticLocals& locals,
-                                  const std::vector<FurtherMode>& further = {});
 
 // E_A on the band.
 Eigen::VectorXcd AcousticResidual(const CutRecord& record, const Effect& effect, EffectValues x,

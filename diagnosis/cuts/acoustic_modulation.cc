@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/cuts/recorded_transfer.h"
 #include "diagnosis/records/band_signal.h"
 
 namespace howl {

@@ -20,7 +20,8 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/acoustic_locals.h"
+#include "diagnosis/records/cut_record.h"
 
 namespace howl {
 

@@ -12,11 +12,9 @@
 #include <vector>
 
 #include "diagnosis/candidates/attempt.h"
+#include "diagnosis/candidates/effect_forms.h"
 
 namespace howl {
-
-// One for each identifier of the catalogue: its forms.
-using EffectForms = std::vector<EffectPointer>;
 
 // The most probable combination first, then those that the data can hardly tell from it. Where the
 // second effect may be spurious (Attempt::may_be_spurious) the best alone comes before the pair.

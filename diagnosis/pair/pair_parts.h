@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/pair/pair.h"
+#include "diagnosis/candidates/effect_forms.h"
 
 namespace howl {
 

@@ -7,7 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "diagnosis/bootstrap/fitted_rig.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/fitted_rig.h"
 #include "diagnosis/fit/fitter.h"
 
 namespace howl {

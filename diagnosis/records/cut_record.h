@@ -14,8 +14,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -96,25 +94,6 @@ Eigen::VectorXcd ApplyWindow(const Eigen::Ref<const Eigen::VectorXcd>& extended,
 // or to its own; delay_s: as it was that long before.
 Eigen::ArrayXd SquaredAmplitude(const CutRecord& record, const AmplitudeSense& sense,
                                 double delay_s = 0.0);
-
-// Why a record of a rig cannot be cut, for the user to read.
-struct CutObstacle {
-  std::size_t experiment = 0;
-  std::string what;
-};
-std::optional<CutObstacle> FindCutObstacle(const std::vector<DiagnosisExperiment>& experiments);
-
-// Records of one rig, that nothing keeps from being cut. Both channels are needed, at one sampling
-// rate each. The band goes from 0.15 to 8 (cut A) and 6.4 (cut B) times the cycle's frequency, and
-// no further than 0.34 and 0.27 of the sampling rate.
-std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments,
-                                      const BaseModel& model = {});
-
-// Cut A's input without the shrinkage.
-void DriveAsRecorded(CutRecord* record);
-
-// The same of the flame's: s times the low-pass alone.
-Eigen::VectorXcd BareDerivativeFilter(const CutRecord& record);
 
 }  // namespace howl
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/gap/gap.h"
 #include "diagnosis/samples/gain_fluctuation.h"
 #include "diagnosis/samples/sample_limits.h"

@@ -1,6 +1,7 @@
 #include "diagnosis/search/choose_modes.h"
 
 #include "diagnosis/candidates/attempt.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/samples/coherent_lines.h"
 #include "diagnosis/verdict/verdict.h"

@@ -9,9 +9,10 @@
 #include <mutex>
 #include <string>
 
-#include "diagnosis/bootstrap/bootstrap.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/reference/reference_clipping.h"
 #include "diagnosis/samples/sample_limits.h"
+#include "diagnosis/search/bootstrap.h"
 #include "estimation/parallel.h"
 
 namespace howl {

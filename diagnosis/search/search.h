@@ -1,7 +1,7 @@
 // One diagnosis, from records to verdict: fit the base, try every effect, measure the gaps, weigh,
 // conclude. Inner workings of diagnosis.h: search.cc fits, search_repair.cc takes saturation out of
-// p first, search_evidence.cc measures, search_conclusion.cc concludes; diagnose.cc chooses the
-// base.
+// p first, search_evidence.cc measures, search_own_delays.cc asks whether the delays differ,
+// search_conclusion.cc concludes; diagnosis.cc chooses the base.
 #ifndef HOWL_DIAGNOSIS_SEARCH_SEARCH_H_
 #define HOWL_DIAGNOSIS_SEARCH_SEARCH_H_
 
@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/candidates/effect_forms.h"
 #include "diagnosis/gap/gap.h"
 #include "diagnosis/gap/slack.h"
 #include "diagnosis/pair/pair.h"
+#include "diagnosis/search/diagnosis_options.h"
+#include "diagnosis/verdict/diagnosis_result.h"
 #include "diagnosis/verdict/verdict.h"
 
 namespace howl {

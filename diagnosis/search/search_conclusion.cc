@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "diagnosis/diagnosis.h"
 #include "diagnosis/gap/gap_map.h"
 #include "diagnosis/localise/localise.h"
 #include "diagnosis/localise/place.h"

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/verdict/diagnosis_result.h"
 #include "estimation/analysis/loop/experiment.h"
 #include "estimation/analysis/spectra/statistics.h"
 #include "model/loop/acoustics.h"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/verdict/diagnosis_result.h"
 
 namespace howl {
 

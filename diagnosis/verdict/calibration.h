@@ -5,7 +5,7 @@
 #ifndef HOWL_DIAGNOSIS_VERDICT_CALIBRATION_H_
 #define HOWL_DIAGNOSIS_VERDICT_CALIBRATION_H_
 
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/verdict/diagnosis_result.h"
 
 namespace howl {
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/make_cut_records.h"
 
 namespace howl {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/search/choose_modes.h"
 #include "tests/diagnosis/simulated_rig.h"

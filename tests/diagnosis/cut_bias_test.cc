@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/gap/slack.h"
 #include "diagnosis/samples/sample_limits.h"

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "diagnosis/candidates/declared_fit.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
 #include "tests/diagnosis/simulated_rig.h"
 

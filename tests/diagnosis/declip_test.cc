@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/samples/sample_limits.h"
 #include "tests/diagnosis/simulated_rig.h"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "tests/diagnosis/simulated_rig.h"
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diagnosis/cuts/flame_basis.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/noise/noise_fit.h"
 #include "diagnosis/numerics/real_fft.h"
 #include "diagnosis/records/cut_record.h"

@@ -7,6 +7,7 @@
 #include <complex>
 #include <vector>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "model/noise/random_stream.h"
 #include "tests/diagnosis/simulated_rig.h"
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <random>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/localise/free_additive.h"
 #include "diagnosis/localise/free_factor.h"
 #include "diagnosis/localise/place.h"

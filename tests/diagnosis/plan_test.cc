@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "diagnosis/candidates/attempt.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/plan/effect_line.h"
 #include "diagnosis/plan/plan_gains.h"
 #include "model/effects/declared_effect.h"

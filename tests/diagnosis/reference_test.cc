@@ -11,6 +11,7 @@
 #include <string>
 
 #include "bench/measured_rig.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/noise/cut_noise.h"
 #include "diagnosis/reference/reference_clipping.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/records/band_signal.h"
 #include "model/cycles/harmonic_balance.h"

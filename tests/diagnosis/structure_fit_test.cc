@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/structure/point_scoring.h"
 #include "tests/diagnosis/simulated_rig.h"
 

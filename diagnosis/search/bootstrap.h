@@ -2,13 +2,13 @@
 // whole catalogue. Each replicate simulates every operating point from the refitted base
 // (fitted_rig.h) and goes through the same search as the records did. Many of the catalogue's null
 // values lie on a bound, so that chi-square tables do not apply; the replicates' gains do.
-#ifndef HOWL_DIAGNOSIS_BOOTSTRAP_BOOTSTRAP_H_
-#define HOWL_DIAGNOSIS_BOOTSTRAP_BOOTSTRAP_H_
+#ifndef HOWL_DIAGNOSIS_SEARCH_BOOTSTRAP_H_
+#define HOWL_DIAGNOSIS_SEARCH_BOOTSTRAP_H_
 
 #include <vector>
 
-#include "diagnosis/diagnosis.h"
 #include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/search/diagnosis_options.h"
 
 namespace howl {
 
@@ -34,4 +34,4 @@ double BootstrapDetectionGain(const std::vector<double>& gains);
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_BOOTSTRAP_BOOTSTRAP_H_
+#endif  // HOWL_DIAGNOSIS_SEARCH_BOOTSTRAP_H_

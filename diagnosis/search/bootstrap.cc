@@ -1,4 +1,4 @@
-#include "diagnosis/bootstrap/bootstrap.h"
+#include "diagnosis/search/bootstrap.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,8 @@
 #include <optional>
 #include <string>
 
-#include "diagnosis/bootstrap/fitted_rig.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/fitted_rig.h"
 #include "diagnosis/search/search.h"
 #include "estimation/parallel.h"
 #include "estimation/unit_seed.h"

@@ -8,8 +8,8 @@
 // c = 70 / 256 is the window's mean square (cut_record.h), N the record's samples and f_s its
 // sampling rate. Below cut B's band n has the density of the lowest bin, above it that of the
 // highest, falling as 1 / f^2.
-#ifndef HOWL_DIAGNOSIS_BOOTSTRAP_FITTED_RIG_H_
-#define HOWL_DIAGNOSIS_BOOTSTRAP_FITTED_RIG_H_
+#ifndef HOWL_DIAGNOSIS_FIT_FITTED_RIG_H_
+#define HOWL_DIAGNOSIS_FIT_FITTED_RIG_H_
 
 #include <cstdint>
 #include <vector>
@@ -36,4 +36,4 @@ SimulationCase FittedRig(const CutRecord& record, const EffectFit& base, std::si
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_BOOTSTRAP_FITTED_RIG_H_
+#endif  // HOWL_DIAGNOSIS_FIT_FITTED_RIG_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/bootstrap/fitted_rig.h"
+#include "diagnosis/fit/fitted_rig.h"
 
 #include <algorithm>
 #include <array>
