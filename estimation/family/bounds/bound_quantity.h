@@ -11,7 +11,7 @@
 #include <span>
 
 #include "estimation/family/bounds/cell.h"
-#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/cell_contractor.h"
 #include "estimation/family/bounds/expression.h"
 #include "estimation/family/problem/family_parameter.h"
 #include "estimation/family/problem/problem.h"

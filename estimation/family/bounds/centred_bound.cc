@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 
 #include "estimation/family/bounds/centred_response.h"
@@ -13,11 +14,9 @@ namespace howl {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr std::array<CellVariable, kResponseVariables> kCellOf = {
     kCellOmega, kCellXi, kCellTangent, kCellGain, kCellM, kCellLoopPhase};
-
-Interval Widened(double x) { return {Below(x), Above(x)}; }
 
 bool IsFinite(const Interval& x) { return std::isfinite(x.lower()) && std::isfinite(x.upper()); }
 

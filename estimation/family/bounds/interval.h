@@ -78,6 +78,8 @@ inline double Below(double value) {
 inline double Above(double value) {
   return value + (std::abs(value) * 9e-16 + std::numeric_limits<double>::min());
 }
+inline Interval Widened(double lo, double hi) { return {Below(lo), Above(hi)}; }
+inline Interval Widened(double value) { return Widened(value, value); }
 
 // The part of x outside the domain has no value: the enclosure is of the rest.
 inline Interval Logarithm(const Interval& x) {

@@ -9,7 +9,7 @@
 
 #include "estimation/family/bounds/bound_split.h"
 #include "estimation/family/bounds/cell.h"
-#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/cell_contractor.h"
 
 namespace howl {
 
