@@ -4,155 +4,17 @@
 #include <cmath>
 #include <complex>
 
+#include "estimation/analysis/cycle/cycle_blocks.h"
 #include "estimation/analysis/spectra/line_phase.h"
 #include "model/numerics/units.h"
 
 namespace howl {
 namespace {
 
-using Complexes = std::vector<std::complex<double>>;
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMinBlockPeriods = kFewestPeriods;
 constexpr double kBlocksPerRecord = 24.0;
 constexpr double kLeastDiffusion = 5e-12;  // rad^2 a period: a steadier phase counts as this steady
-
-// The incoherent share of the floor next to the peak: the median incoherent power of p over its
-// median power, over the bins of the floor's running median outside the peak's main lobe. With nu
-// averages a coherence of zero comes out as 1 / nu, which is corrected for.
-double IncoherentShare(const CrossSpectrum& spectrum, double frequency_hz) {
-  constexpr int kReach = 30;  // bins, as NoiseFloor's
-  const double nu = spectrum.degrees_of_freedom;
-  if (!spectrum.HasHeatRelease() || nu < 2.0) return 1.0;
-  const int peak = static_cast<int>(std::lround(frequency_hz / spectrum.bin_hz));
-  const int last = static_cast<int>(spectrum.pp.size()) - 1;
-  std::vector<double> power, incoherent;
-  for (int k = std::max(peak - kReach, 3); k <= std::min(peak + kReach, last); ++k) {
-    if (std::abs(k - peak) <= kBlackmanHarrisMainLobeBins) continue;
-    const auto i = static_cast<std::size_t>(k);
-    if (!(spectrum.qq[i] > 0.0)) return 1.0;
-    power.push_back(spectrum.pp[i]);
-    incoherent.push_back(
-        std::max(spectrum.pp[i] - std::norm(spectrum.qp[i]) / spectrum.qq[i], 0.0));
-  }
-  if (power.empty()) return 1.0;
-  return std::clamp(Median(incoherent) / Median(power) * nu / (nu - 1.0), 0.0, 1.0);
-}
-
-double MeanSquare(const Complexes& z) {
-  double sum = 0.0;
-  for (const auto& value : z) sum += std::norm(value);
-  return z.empty() ? 0.0 : sum / static_cast<double>(z.size());
-}
-
-double SecondDifferenceVariance(const std::vector<double>& x) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-    const double d = x[i + 1] - 2.0 * x[i] + x[i - 1];
-    sum += d * d;
-  }
-  return sum / static_cast<double>(x.size());
-}
-
-// The phase of the cycle from p's fundamental, improved by every other component that is locked to
-// it: component h of a channel has h times the fundamental's phase plus a constant.
-void ImprovePhase(std::span<const std::pair<int, Complexes>> others, std::vector<double>& phase) {
-  const std::vector<double> base = phase;
-  double total = 1.0 / std::max(SecondDifferenceVariance(base), 1e-30);
-  std::vector<double> sum(base.size());
-  for (std::size_t b = 0; b < base.size(); ++b) sum[b] = total * base[b];
-  for (const auto& [harmonic, blocks] : others) {
-    Complexes relative(base.size());
-    std::complex<double> mean = 0.0;
-    double size = 0.0;
-    for (std::size_t b = 0; b < base.size(); ++b) {
-      relative[b] = blocks[b] * std::polar(1.0, -harmonic * base[b]);
-      mean += relative[b];
-      size += std::abs(relative[b]);
-    }
-    if (std::abs(mean) < 0.9 * size) continue;  // too noisy, or not locked
-    std::vector<double> own(base.size());
-    for (std::size_t b = 0; b < base.size(); ++b) {
-      own[b] = base[b] + std::arg(relative[b] * std::conj(mean)) / harmonic;
-    }
-    const double weight = 1.0 / std::max(SecondDifferenceVariance(own), 1e-30);
-    total += weight;
-    for (std::size_t b = 0; b < base.size(); ++b) sum[b] += weight * own[b];
-  }
-  for (std::size_t b = 0; b < base.size(); ++b) phase[b] = sum[b] / total;
-}
-
-void EstimateRatio(const Complexes& p, const Complexes& q, Characteristics* result) {
-  std::complex<double> cross = 0.0;
-  double pp = 0.0, qq = 0.0;
-  for (std::size_t b = 0; b < p.size(); ++b) {
-    cross += std::conj(q[b]) * p[b];
-    pp += std::norm(p[b]);
-    qq += std::norm(q[b]);
-  }
-  if (!(qq > 0.0) || !(std::abs(cross) > 0.0)) return;
-  const std::complex<double> h = cross / qq;
-  const double mean_qq = qq / static_cast<double>(p.size());
-  Complexes scores(p.size());  // relative: real part gain, imaginary part phase
-  for (std::size_t b = 0; b < p.size(); ++b) {
-    scores[b] = std::conj(q[b]) * (p[b] - h * q[b]) / (mean_qq * h);
-  }
-  const MeanError error = ErrorOfMean(scores, kHannOverlapCorrelation);
-  const double inflation = StudentInflation(error.degrees_of_freedom);
-  result->coherence = std::min(std::norm(cross) / (pp * qq), 1.0);
-  result->gain_bias_bound = 0.5 * std::log(1.0 / result->coherence);
-  const double bias_variance = result->gain_bias_bound * result->gain_bias_bound / 3.0;
-  const double gain = std::abs(h) / std::sqrt(result->coherence);
-  result->gain = {gain,
-                  gain * std::sqrt(error.covariance(0, 0) * inflation * inflation + bias_variance)};
-  result->phase_deg = {std::arg(h) * kDegPerRad,
-                       std::sqrt(error.covariance(1, 1)) * inflation * kDegPerRad};
-}
-
-// Envelope statistics, with the noise floor's share of the blocks' power taken out:
-// E|s+n|^4 = E|s|^4 + 4 E|s|^2 v + 2 v^2 for circular noise of power v.
-void EstimateEnvelope(const Complexes& p, double hop_s, Characteristics* result) {
-  const double m2 = MeanSquare(p);
-  const double v = std::min(result->block_noise_power, 0.5 * m2);
-  const double signal = m2 - v;
-  std::vector<double> scores;
-  double m4 = 0.0, low = 0.0, mean_amplitude = 0.0;
-  for (const auto& z : p) {
-    const double power = std::norm(z);
-    m4 += power * power / static_cast<double>(p.size());
-    mean_amplitude += std::abs(z) / static_cast<double>(p.size());
-    low += power < 0.25 * m2 ? 1.0 : 0.0;
-    result->envelope.push_back(std::abs(z));
-  }
-  result->low_amplitude_share = low / static_cast<double>(p.size());
-  result->p_amplitude = std::sqrt(signal);
-  const double ratio = (m4 - 4.0 * signal * v - 2.0 * v * v) / (signal * signal);
-  for (const auto& z : p) {  // influence of each block on m4 / m2^2
-    const double power = std::norm(z);
-    scores.push_back((power * power - m4) / (m2 * m2) - 2.0 * m4 * (power - m2) / (m2 * m2 * m2));
-  }
-  const MeanError error = ErrorOfMean(scores, kHannOverlapCorrelation);
-  result->power_fluctuation = {
-      std::max(ratio - 1.0, 0.0),
-      std::sqrt(error.covariance(0, 0)) * StudentInflation(error.degrees_of_freedom)};
-
-  // Slope of the envelope as a mean of influences, relative to its own mean.
-  const double n = static_cast<double>(p.size());
-  double slope = 0.0;
-  for (std::size_t b = 0; b < p.size(); ++b) {
-    slope += (static_cast<double>(b) - 0.5 * (n - 1)) * std::abs(p[b]) * 12.0 / (n * (n * n - 1));
-  }
-  std::vector<double> influence;
-  for (std::size_t b = 0; b < p.size(); ++b) {
-    const double t = static_cast<double>(b) - 0.5 * (n - 1);
-    influence.push_back(12.0 * t / (n * n - 1) * (std::abs(p[b]) - mean_amplitude - slope * t));
-  }
-  const MeanError slope_error = ErrorOfMean(influence, kHannOverlapCorrelation);
-  const double scale = 1.0 / (mean_amplitude * hop_s);
-  result->amplitude_drift_per_s = {slope * scale,
-                                   std::sqrt(slope_error.covariance(0, 0)) * scale *
-                                       StudentInflation(slope_error.degrees_of_freedom)};
-}
 
 void Classify(const CharacteristicsOptions& options, double duration_s, Characteristics* result) {
   const double fluctuation = result->power_fluctuation.value;
@@ -183,33 +45,6 @@ std::string_view CycleStateName(CycleState state) {
       break;
   }
   return "no_limit_cycle";
-}
-
-Characteristics PaperCharacteristics(std::span<const double> p, std::span<const double> q,
-                                     double sampling_hz, double min_frequency_hz,
-                                     double max_frequency_hz) {
-  const Complexes fp = RealFft(p), fq = RealFft(q);
-  const double bin_hz = sampling_hz / static_cast<double>(p.size());
-  const auto first = static_cast<std::size_t>(std::ceil(min_frequency_hz / bin_hz));
-  const auto last = std::min(static_cast<std::size_t>(max_frequency_hz / bin_hz), fp.size() - 6);
-  std::size_t best = std::max<std::size_t>(first, 5);
-  for (std::size_t k = best; k <= last; ++k) {
-    if (std::norm(fp[k]) > std::norm(fp[best])) best = k;
-  }
-  double weights = 0.0, gain = 0.0, phase = 0.0;
-  const double reference = std::arg(fp[best] / fq[best]);
-  for (std::size_t k = best - 5; k <= best + 5; ++k) {
-    const double weight = std::abs(fp[k]);
-    const std::complex<double> ratio = fp[k] / fq[k];
-    weights += weight;
-    gain += weight * std::abs(ratio);
-    phase += weight * std::arg(ratio * std::polar(1.0, -reference));  // no jump at 180 degrees
-  }
-  Characteristics result;
-  result.frequency_hz.value = static_cast<double>(best) * bin_hz;
-  result.phase_deg.value = WrapDeg((reference + phase / weights) * kDegPerRad);
-  result.gain.value = gain / weights;
-  return result;
 }
 
 Characteristics CharacteristicsAt(const Record& record, const CrossSpectrum& spectrum,
@@ -261,7 +96,7 @@ Characteristics CharacteristicsAt(const Record& record, const CrossSpectrum& spe
     result.q_amplitude = std::sqrt(MeanSquare(q_blocks.amplitude));
   }
   if (phase.reliable) {
-    std::vector<std::pair<int, Complexes>> others;
+    std::vector<std::pair<int, BlockAmplitudes>> others;
     if (!q.empty()) others.emplace_back(1, q_blocks.amplitude);
     for (int h = 2; h <= 3 && h * frequency < 0.45 * record.sampling_hz; ++h) {
       for (const std::vector<double>* x : {&p, &q}) {
