@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
-#include "model/simulation/cycle_scale.h"
+#include "model/simulation/past_wave.h"
+#include "model/simulation/slow_amplitudes.h"
 
 namespace howl::internal {
 namespace {
 
-constexpr int kChunk = 16 * kLoopBlock;      // steps between visits of the recorders
-constexpr double kAmplitudeMemory_s = 0.02;  // of a first mode at the paper's 220 Hz
+constexpr int kChunk = 16 * kLoopBlock;  // steps between visits of the recorders
 
 bool SameLoop(const LoopParameters<double>& a, const LoopParameters<double>& b) {
   return a.acoustics.omega_hz == b.acoustics.omega_hz && a.acoustics.xi == b.acoustics.xi &&
@@ -47,7 +46,7 @@ class LaneGroup {
       most_delay_steps = std::max(most_delay_steps, c.delay_steps);
     }
     has_effects_ = W == 1 && !first.effects.empty();
-    memory_s_ /= CycleScale(first.model.loop.acoustics.omega_hz);
+    amplitudes_ = SlowAmplitudes(first.model.loop.acoustics.omega_hz);
     if (has_effects_) {
       most_delay_steps *= 4;
       for (const auto& effect : first.effects) {
@@ -128,32 +127,19 @@ class LaneGroup {
     return rows.data() + static_cast<std::ptrdiff_t>(row) * W;
   }
 
-  // The past as a sum of exponentials, each answered by the modes' transfer functions.
   void SetPast(int lane) {
     const RigParameters& rig = cases_[Member(lane)]->rig;
     const auto modes = Modes(rig, rig.model.loop);
     const auto l = static_cast<std::size_t>(lane);
     for (const InitialWave& wave : rig.past) {
-      const std::complex<double> s(wave.growth_rate, kRadPerSPerHz * wave.frequency_hz);
-      const std::complex<double> q = std::polar(wave.amplitude, wave.phase_rad);
-      std::complex<double> rate = 0.0;
-      std::complex<double> pressure = 0.0;
-      for (int k = 0; k < block_.modes; ++k) {
-        const ModeParameters& mode = modes[static_cast<std::size_t>(k)];
-        const std::complex<double> d =
-            s * s + 2.0 * mode.omega_rad_s * mode.xi * s + mode.omega_rad_s * mode.omega_rad_s;
-        const std::complex<double> integral = mode.coefficient * q / d;
-        block_.y[static_cast<std::size_t>(k)][l] += (mode.omega_rad_s * integral).real();
-        block_.p[static_cast<std::size_t>(k)][l] += (s * integral).real();
-        pressure += s * integral;
-        rate += s * s * integral;
+      const PastWave past(wave, {modes.data(), static_cast<std::size_t>(block_.modes)});
+      for (std::size_t k = 0; k < static_cast<std::size_t>(block_.modes); ++k) {
+        block_.y[k][l] += past.mode_integral[k];
+        block_.p[k][l] += past.mode_pressure[k];
       }
       for (int i = 0; i <= past_; ++i) {
-        const std::complex<double> turn = std::exp(s * (step_s_ * (i - past_)));
         const std::size_t at = static_cast<std::size_t>(i) * W + l;
-        rate_[at] += (rate * turn).real();
-        heat_[at] += (q * turn).real();
-        pressure_[at] += (pressure * turn).real();
+        past.AddAt(step_s_ * (i - past_), &rate_[at], &heat_[at], &pressure_[at]);
       }
     }
   }
@@ -236,7 +222,9 @@ class LaneGroup {
   // Slow changes: constant within a block, taken at its first sample.
   void UpdateParameters() {
     const RigParameters& rig = cases_[0]->rig;
-    UpdateAmplitudes();
+    const auto present = static_cast<std::size_t>(row_) + 1;
+    amplitudes_.Update({rate_.data(), present}, {pressure_.data(), present}, step_ == 0, step_s_,
+                       &context_);
     SetContextTime(kAhead);
     LoopParameters<double> loop = rig.model.loop;
     Flame<double> flame = rig.model.flame;
@@ -253,32 +241,6 @@ class LaneGroup {
     delay_steps_[0] = c.delay_steps;
     context_.loop = loop;
     context_.flame = flame;
-  }
-
-  void UpdateAmplitudes() {
-    double rate = 0.0;
-    double pressure = 0.0;
-    for (int i = row_ - kLoopBlock + 1; i <= row_; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      rate += rate_[at] * rate_[at];
-      pressure += pressure_[at] * pressure_[at];
-    }
-    const double keep = std::exp(-kLoopBlock * step_s_ / memory_s_);
-    if (step_ == 0) {  // the past is known
-      rate_square_ = pressure_square_ = 0.0;
-      for (int i = 0; i <= row_; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        rate_square_ += rate_[at] * rate_[at] / (row_ + 1);
-        pressure_square_ += pressure_[at] * pressure_[at] / (row_ + 1);
-      }
-    } else {
-      rate_square_ = keep * rate_square_ + (1.0 - keep) * rate / kLoopBlock;
-      pressure_square_ = keep * pressure_square_ + (1.0 - keep) * pressure / kLoopBlock;
-    }
-    context_.rate_square = step_ == 0 ? rate_square_ : rate / kLoopBlock;
-    context_.pressure_square = step_ == 0 ? pressure_square_ : pressure / kLoopBlock;
-    context_.rate_amplitude = std::sqrt(2.0 * rate_square_);
-    context_.pressure_amplitude = std::sqrt(2.0 * pressure_square_);
   }
 
   // Hands rows [row, row + count) to the recorders, less what settling throws away.
@@ -338,9 +300,7 @@ class LaneGroup {
   std::vector<std::unique_ptr<LoopEffect>> effects_;
   std::unique_ptr<Line> line_;
   LoopContext context_;
-  double rate_square_ = 0.0;
-  double pressure_square_ = 0.0;
-  double memory_s_ = kAmplitudeMemory_s;
+  SlowAmplitudes amplitudes_;
 };
 
 }  // namespace
