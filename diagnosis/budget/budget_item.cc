@@ -15,9 +15,9 @@ std::vector<BudgetItem> BudgetItems(const BaseModel& model,
                                     const std::vector<std::string>& withheld,
                                     const std::vector<EffectPointer>& further) {
   std::vector<BudgetItem> items;
-  for (const NoiseSource source :
-       {NoiseSource::kHeatReleaseSensor, NoiseSource::kPressureSensor, NoiseSource::kDuct}) {
-    items.push_back({std::string(NoiseSourceName(source)),
+  for (const LoopNoise source :
+       {LoopNoise::kHeatReleaseSensor, LoopNoise::kPressureSensor, LoopNoise::kDuct}) {
+    items.push_back({std::string(LoopNoiseName(source)),
                      ItemKind::kNoise,
                      {source, kColouredCoefficients},
                      {}});

@@ -201,10 +201,10 @@ class BudgetSearch {
   // What an item had to make up for when it was added may have moved it to a false place: with a
   // further item there, the search for each earlier effect's parameters is repeated.
   StructureFit SearchedAnew(StructureFit fit, const BudgetItem& added) const {
+    std::vector<BudgetItem> all = has_;
+    all.push_back(added);
     for (std::size_t i = 0; i < has_.size(); ++i) {
       if (has_[i].kind != ItemKind::kEffect) continue;
-      std::vector<BudgetItem> all = has_;
-      all.push_back(added);
       const StructureFit without = Without(fit, all, i);
       BudgetItem anew = has_[i];
       anew.fitted.clear();
@@ -220,31 +220,29 @@ class BudgetSearch {
 
   // Drops the item that is worth least to the others, if it no longer pays.
   bool DropLeast() {
+    without_.clear();
     std::optional<std::size_t> least;
-    StructureFit without;
     double margin = 0.0;
     for (std::size_t i = 0; i < has_.size(); ++i) {
       if (Stopped()) return false;
-      StructureFit fit = Converged(records_.whole, Without(found_.fit, has_, i));
-      const double above = -Gain(fit) - Price(has_[i]);
+      without_.push_back(Converged(records_.whole, Without(found_.fit, has_, i)));
+      const double above = -Gain(without_[i]) - Price(has_[i]);
       if (above >= margin) continue;
       margin = above;
       least = i;
-      without = std::move(fit);
     }
     if (!least) return false;
     VLOG(1) << "- " << has_[*least].id << ", which no longer pays";
-    found_.fit = std::move(without);
+    found_.fit = std::move(without_[*least]);
     score_ = ScoreHeldOut(records_, found_.fit);
     has_.erase(has_.begin() + static_cast<std::ptrdiff_t>(*least));
     found_.steps.erase(found_.steps.begin() + static_cast<std::ptrdiff_t>(*least));
     return true;
   }
 
-  // What is lost without each item.
+  // What is lost without each item, once none is dropped any more.
   void CountLosses() {
-    for (std::size_t i = 0; i < has_.size(); ++i) {
-      const StructureFit without = Converged(records_.whole, Without(found_.fit, has_, i));
+    for (const StructureFit& without : without_) {
       found_.losses.push_back({-Gain(without), ScoreHeldOut(records_, without)});
     }
   }
@@ -256,6 +254,7 @@ class BudgetSearch {
   std::vector<BudgetItem> has_;
   BudgetFound found_;
   HeldOutScore score_;
+  std::vector<StructureFit> without_;  // each of the items, the rest fitted anew
   int step_ = 0;
 };
 

@@ -12,19 +12,6 @@ namespace {
 constexpr std::size_t kLeastForSets = 4;
 constexpr int kIterations = 12;
 
-DiagnosisExperiment HalfOf(const DiagnosisExperiment& whole, int half) {
-  DiagnosisExperiment out = whole;
-  for (std::vector<double>* signal : {&out.record.pressure, &out.record.heat_release}) {
-    const auto middle = signal->begin() + static_cast<std::ptrdiff_t>(signal->size() / 2);
-    if (half == 0) {
-      signal->erase(middle, signal->end());
-    } else {
-      signal->erase(signal->begin(), middle);
-    }
-  }
-  return out;
-}
-
 std::vector<JointBand> BandsOf(const std::vector<JointBand>& bands,
                                const std::vector<std::size_t>& which) {
   std::vector<JointBand> out;
@@ -64,13 +51,11 @@ BudgetRecords MakeBudgetRecords(const std::vector<DiagnosisExperiment>& experime
   const std::vector<CoherentLine> lines = FindCoherentLines(out.records);
   MaskLines(lines, &out.records);
   for (const CutRecord& record : out.records) out.whole.push_back(MakeJointBand(record));
-  for (int half = 0; half < 2; ++half) {
-    std::vector<DiagnosisExperiment> halves;
-    for (const DiagnosisExperiment& each : experiments) halves.push_back(HalfOf(each, half));
-    std::vector<CutRecord> of_halves = MakeCutRecords(halves, model);
-    MaskLines(lines, &of_halves);
-    for (const CutRecord& record : of_halves) {
-      out.halves[static_cast<std::size_t>(half)].push_back(MakeJointBand(record));
+  for (const bool second : {false, true}) {
+    std::vector<CutRecord> halves = MakeCutRecords(HalfOfRecords(experiments, second), model);
+    MaskLines(lines, &halves);
+    for (const CutRecord& record : halves) {
+      out.halves[second ? 1 : 0].push_back(MakeJointBand(record));
     }
   }
   return out;
@@ -85,26 +70,26 @@ HeldOutScore ScoreHeldOut(const BudgetRecords& records, const StructureFit& fit)
   options.iterations = kIterations;
   for (std::size_t half = 0; half < 2; ++half) {
     const std::size_t other_half = 1 - half;
+    std::vector<std::vector<JointBand>> bands;
     std::vector<SharedLoop> shared;
     for (const std::vector<std::size_t>& set : sets) {
-      shared.push_back(
-          FitStructure(BandsOf(records.halves[half], set), OfPoints(fit, set), options).shared);
+      bands.push_back(BandsOf(records.halves[half], set));
+      shared.push_back(FitStructure(bands.back(), OfPoints(fit, set), options).shared);
     }
     for (std::size_t s = 0; s < sets.size(); ++s) {
       StructureFit own = OfPoints(fit, sets[s]);
       own.shared = shared[sets.size() - 1 - s];
       StructureOptions own_options = options;
       own_options.shared_fixed = true;
-      own = FitStructure(BandsOf(records.halves[half], sets[s]), own, own_options);
+      own = FitStructure(bands[s], own, own_options);
       const EffectPointer joined = own.structure.Joined();
       for (std::size_t i = 0; i < sets[s].size(); ++i) {
         const std::size_t e = sets[s][i];
         const JointBand& band = records.halves[other_half][e];
         PointLoop& point = own.points[i];
         const JointResiduals residuals = MakeJointResiduals(band, *joined, own.shared, point);
-        point.flame = Evaluate(band, own.structure.noise, own.shared, point, residuals).flame;
         const JointEvaluation at =
-            Evaluate(band, own.structure.noise, own.shared, point, residuals);
+            EvaluateWithItsFlame(band, own.structure.noise, own.shared, residuals, &point);
         out.nats[e][other_half] = at.log_likelihood;
         out.errors[e][other_half] = PredictionErrors(band, residuals, at);
       }

@@ -26,11 +26,9 @@ EstimatedParameter OverPoints(const std::string& name, const std::string& unit,
 double RelativeAmplitude(const JointBand& band, const StructureFit& fit, const PointLoop& point,
                          std::size_t term) {
   const NoiseTerm& noise = fit.structure.noise[term];
-  const Eigen::ArrayXd spectrum =
-      (ChebyshevColumns(band.log_frequency, noise.coefficients) * point.noise[term]).array().exp();
-  const bool in_pressure = noise.source == NoiseSource::kPressureSensor;
+  const bool in_pressure = noise.source == LoopNoise::kPressureSensor;
   const double signal = in_pressure ? band.pressure.squaredNorm() : band.heat_release.squaredNorm();
-  return std::sqrt(spectrum.sum() / signal);
+  return std::sqrt(LoopNoiseSpectrum(band.log_frequency, point.noise[term]).sum() / signal);
 }
 
 std::vector<EstimatedParameter> OfEffect(const StructureFit& fit, const EffectPlace& place) {

@@ -106,9 +106,9 @@ StructureFit StartWith(const std::vector<JointBand>& bands, const StructureFit& 
   StructureFit out = from;
   out.structure.effects.push_back(start.form);
   out.shared.values.insert(out.shared.values.end(), start.values.begin(), start.values.end());
-  std::vector<CutRecord> places(bands.size());
-  for (std::size_t e = 0; e < bands.size(); ++e) places[e].at = bands[e].record.at;
-  out.shared.tau_s = CorrectedDelay(places, *start.form, start.values, from.shared.tau_s);
+  std::vector<EffectContext> points;
+  for (const JointBand& band : bands) points.push_back(band.record.at);
+  out.shared.tau_s = CorrectedDelay(points, *start.form, start.values, from.shared.tau_s);
   if (!start.of_catalogue) return out;
   out.shared.eps_a *= kErrorAtStart;
   out.shared.eps_b *= kErrorAtStart;

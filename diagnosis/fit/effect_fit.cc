@@ -143,7 +143,9 @@ EffectFit StartOf(const std::vector<CutRecord>& records, const EffectPointer& ef
   fit.effect = effect;
   fit.values = values;
   if (effect->ChangesFlameCut()) {
-    fit.tau_s = CorrectedDelay(records, *effect, values, base.tau_s);
+    std::vector<EffectContext> points;
+    for (const CutRecord& record : records) points.push_back(record.at);
+    fit.tau_s = CorrectedDelay(points, *effect, values, base.tau_s);
   }
   if (effect->ChangesAcousticCut() && own_locals) {
     for (std::size_t e = 0; e < records.size(); ++e) {

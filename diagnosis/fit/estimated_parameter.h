@@ -21,7 +21,8 @@ struct EstimatedParameter {
 // With the interval of a normal error in the coordinate of the search (log x or x).
 EstimatedParameter WithError(const EffectParameter& parameter, double value, double error);
 
-// True if the value is so near to a bound of its search that the bound chose it.
+// True where the value lies within a millionth of the search's range from either end of the range;
+// in logarithms where the parameter's scale is logarithmic.
 bool StandsAtBound(const EffectParameter& parameter, double value);
 
 struct Place {

@@ -76,13 +76,13 @@ double StartDelay(const std::vector<CutRecord>& records, const std::vector<Flame
   return best_tau;
 }
 
-double CorrectedDelay(const std::vector<CutRecord>& records, const Effect& effect, EffectValues x,
-                      double tau_s) {
+double CorrectedDelay(const std::vector<EffectContext>& points, const Effect& effect,
+                      EffectValues x, double tau_s) {
   double factor = 0.0;
-  for (const CutRecord& record : records) {
-    factor += effect.DelayFactor(record.at, x) / static_cast<double>(records.size());
+  for (const EffectContext& point : points) {
+    factor += effect.DelayFactor(point, x) / static_cast<double>(points.size());
   }
-  const EffectContext& at = records[0].at;
+  const EffectContext& at = points[0];
   const double f0 = at.cycle_frequency_hz;
   const Response added = effect.HeatReleaseInstrument(f0, x) * effect.FlameOut(f0, at, x) *
                          effect.FlameIn(f0, at, x) / effect.PressureInstrument(f0, x);

@@ -18,8 +18,8 @@ std::vector<FlameColumns> BaseColumns(const std::vector<CutRecord>& records);
 double StartDelay(const std::vector<CutRecord>& records, const std::vector<FlameColumns>& columns);
 
 // The base's tau_s, less the lag that the effect adds at the cycle.
-double CorrectedDelay(const std::vector<CutRecord>& records, const Effect& effect, EffectValues x,
-                      double tau_s);
+double CorrectedDelay(const std::vector<EffectContext>& points, const Effect& effect,
+                      EffectValues x, double tau_s);
 
 // All combinations of the parameters' starts; the first parameters have the values in `first`.
 StartList StartValues(const Effect& effect, const std::vector<double>& first);

@@ -69,7 +69,7 @@ double GapFloor(const std::vector<CutRecord>& records) {
   return std::sqrt(0.5 * sum / static_cast<double>(records.size()));
 }
 
-Interval ShrinkageInterval(const GapParts& before, const GapParts& after) {
+ConfidenceInterval ShrinkageInterval(const GapParts& before, const GapParts& after) {
   const std::size_t n = before.acoustic.size();
   const auto shrinkage = [&](std::size_t without) {
     return 1.0 - Gap(after, without) / std::max(Gap(before, without), 1e-12);

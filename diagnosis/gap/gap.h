@@ -34,13 +34,13 @@ double Gap(const GapParts& parts);
 // The gap that noise alone has.
 double GapFloor(const std::vector<CutRecord>& records);
 
-struct Interval {
+struct ConfidenceInterval {
   double low = 0.0;
   double high = 0.0;
 };
 
 // 1 - after / before, 95 % over the experiments (jackknife).
-Interval ShrinkageInterval(const GapParts& before, const GapParts& after);
+ConfidenceInterval ShrinkageInterval(const GapParts& before, const GapParts& after);
 
 }  // namespace howl
 

@@ -136,10 +136,7 @@ Eigen::MatrixXd Spectra(const JointBand& band, const std::vector<NoiseTerm>& noi
                         const PointLoop& point) {
   Eigen::MatrixXd out(band.count, static_cast<Eigen::Index>(noise.size()));
   for (std::size_t j = 0; j < noise.size(); ++j) {
-    out.col(static_cast<Eigen::Index>(j)) =
-        (ChebyshevColumns(band.log_frequency, noise[j].coefficients) * point.noise[j])
-            .array()
-            .exp();
+    out.col(static_cast<Eigen::Index>(j)) = LoopNoiseSpectrum(band.log_frequency, point.noise[j]);
   }
   return out;
 }
@@ -243,6 +240,13 @@ JointEvaluation Evaluate(const JointBand& band, const std::vector<NoiseTerm>& no
   out.flame += moved / variance * along;
   out.log_likelihood = value + closed.LogLikelihood(likely) - moved * moved / variance;
   return out;
+}
+
+JointEvaluation EvaluateWithItsFlame(const JointBand& band, const std::vector<NoiseTerm>& noise,
+                                     const SharedLoop& shared, const JointResiduals& residuals,
+                                     PointLoop* point) {
+  point->flame = Evaluate(band, noise, shared, *point, residuals).flame;
+  return Evaluate(band, noise, shared, *point, residuals);
 }
 
 JointAdjoint AdjointOf(const JointBand& band, const std::vector<NoiseTerm>& noise,

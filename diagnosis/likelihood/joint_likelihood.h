@@ -97,6 +97,12 @@ JointEvaluation Evaluate(const JointBand& band, const std::vector<NoiseTerm>& no
                          const SharedLoop& shared, const PointLoop& point,
                          const JointResiduals& residuals);
 
+// The same once the point has the flame that an evaluation finds: the sources' directions follow
+// from it.
+JointEvaluation EvaluateWithItsFlame(const JointBand& band, const std::vector<NoiseTerm>& noise,
+                                     const SharedLoop& shared, const JointResiduals& residuals,
+                                     PointLoop* point);
+
 // d ln L of a bin is the real part of: r * dR + f * dF + acoustic * dE_A + flame * dE_B.
 struct JointAdjoint {
   Eigen::VectorXcd r;

@@ -2,43 +2,43 @@
 
 namespace howl {
 
-std::string_view NoiseSourceName(NoiseSource source) {
+std::string_view LoopNoiseName(LoopNoise source) {
   switch (source) {
-    case NoiseSource::kCombustion:
+    case LoopNoise::kCombustion:
       return "combustion_noise";
-    case NoiseSource::kPressureSensor:
+    case LoopNoise::kPressureSensor:
       return "p_sensor_noise";
-    case NoiseSource::kHeatReleaseSensor:
+    case LoopNoise::kHeatReleaseSensor:
       return "q_sensor_noise";
-    case NoiseSource::kDuct:
+    case LoopNoise::kDuct:
       return "duct_noise";
   }
   return "";
 }
 
-NoiseDirection DirectionOf(NoiseSource source, std::complex<double> r, std::complex<double> f) {
+NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f) {
   switch (source) {
-    case NoiseSource::kCombustion:
+    case LoopNoise::kCombustion:
       return {0.0, 1.0};
-    case NoiseSource::kPressureSensor:
+    case LoopNoise::kPressureSensor:
       return {1.0, -f};
-    case NoiseSource::kHeatReleaseSensor:
+    case LoopNoise::kHeatReleaseSensor:
       return {-r, 1.0};
-    case NoiseSource::kDuct:
+    case LoopNoise::kDuct:
       return {r, 0.0};
   }
   return {};
 }
 
-NoiseTurn TurnOf(NoiseSource source) {
+NoiseTurn TurnOf(LoopNoise source) {
   switch (source) {
-    case NoiseSource::kCombustion:
+    case LoopNoise::kCombustion:
       return {};
-    case NoiseSource::kPressureSensor:
+    case LoopNoise::kPressureSensor:
       return {0.0, -1.0};
-    case NoiseSource::kHeatReleaseSensor:
+    case LoopNoise::kHeatReleaseSensor:
       return {-1.0, 0.0};
-    case NoiseSource::kDuct:
+    case LoopNoise::kDuct:
       return {1.0, 0.0};
   }
   return {};
@@ -52,6 +52,10 @@ Eigen::MatrixXd ChebyshevColumns(const Eigen::VectorXd& x, Eigen::Index terms) {
     out.col(k) = 2.0 * x.cwiseProduct(out.col(k - 1)) - out.col(k - 2);
   }
   return out;
+}
+
+Eigen::VectorXd LoopNoiseSpectrum(const Eigen::VectorXd& x, const Eigen::VectorXd& coefficients) {
+  return (ChebyshevColumns(x, coefficients.size()) * coefficients).array().exp();
 }
 
 }  // namespace howl

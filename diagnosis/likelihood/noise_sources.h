@@ -18,12 +18,12 @@
 
 namespace howl {
 
-enum class NoiseSource : std::uint8_t { kCombustion, kPressureSensor, kHeatReleaseSensor, kDuct };
+enum class LoopNoise : std::uint8_t { kCombustion, kPressureSensor, kHeatReleaseSensor, kDuct };
 
-std::string_view NoiseSourceName(NoiseSource source);
+std::string_view LoopNoiseName(LoopNoise source);
 
 struct NoiseTerm {
-  NoiseSource source = NoiseSource::kCombustion;
+  LoopNoise source = LoopNoise::kCombustion;
   Eigen::Index coefficients = 1;
 };
 
@@ -32,17 +32,20 @@ struct NoiseDirection {
   std::complex<double> acoustic;
   std::complex<double> flame;
 };
-NoiseDirection DirectionOf(NoiseSource source, std::complex<double> r, std::complex<double> f);
+NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f);
 
 // How u_j moves: d u_j = (by_r dR, by_f dF).
 struct NoiseTurn {
   double by_r = 0.0;
   double by_f = 0.0;
 };
-NoiseTurn TurnOf(NoiseSource source);
+NoiseTurn TurnOf(LoopNoise source);
 
 // T_0 .. T_(terms - 1) at each x: rows are bins.
 Eigen::MatrixXd ChebyshevColumns(const Eigen::VectorXd& x, Eigen::Index terms);
+
+// S_j at each x.
+Eigen::VectorXd LoopNoiseSpectrum(const Eigen::VectorXd& x, const Eigen::VectorXd& coefficients);
 
 }  // namespace howl
 

@@ -25,24 +25,6 @@ bool Contains(const std::vector<DiagnosisExperiment>& reference, const Diagnosis
   });
 }
 
-std::vector<DiagnosisExperiment> Half(const std::vector<DiagnosisExperiment>& experiments,
-                                      bool second) {
-  std::vector<DiagnosisExperiment> out;
-  for (const DiagnosisExperiment& each : experiments) {
-    DiagnosisExperiment half = each;
-    for (std::vector<double>* signal : {&half.record.pressure, &half.record.heat_release}) {
-      const auto middle = signal->begin() + static_cast<std::ptrdiff_t>(signal->size() / 2);
-      if (second) {
-        signal->erase(signal->begin(), middle);
-      } else {
-        signal->erase(middle, signal->end());
-      }
-    }
-    out.push_back(std::move(half));
-  }
-  return out;
-}
-
 // The gain that a free complex factor in each band still has, added to the band's grid points.
 class BandGains {
  public:
@@ -217,7 +199,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
     std::vector<CutRecord> part[2];
     std::vector<ReferencePoint> described[2];
     for (const int i : {0, 1}) {
-      const std::vector<DiagnosisExperiment> half = Half(reference, i == 1);
+      const std::vector<DiagnosisExperiment> half = HalfOfRecords(reference, i == 1);
       part[i] = CutAsRecorded(half, (*records)[0].model);
       MaskLines(FindCoherentLines(part[i]), &part[i]);
       const EffectFit fit = FitBase(part[i]);

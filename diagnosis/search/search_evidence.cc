@@ -35,7 +35,7 @@ void Search::MeasureGap(Attempt* attempt) const {
   Candidate& candidate = attempt->candidate;
   candidate.gap_after = Gap(after);
   candidate.shrinkage = 1.0 - candidate.gap_after / std::max(Gap(gap_before_), 1e-12);
-  const Interval interval = ShrinkageInterval(gap_before_, after);
+  const ConfidenceInterval interval = ShrinkageInterval(gap_before_, after);
   candidate.shrinkage_low = interval.low;
   candidate.shrinkage_high = interval.high;
 }

@@ -104,9 +104,8 @@ double Scoring::Value(const SharedLoop& shared, std::vector<PointLoop>* points,
     JointResiduals& here = (*residuals)[e];
     here =
         MoveJointResiduals(bands_[e], *joined_, shared, point, here.input ? moves_ : Moves(), here);
-    // The sources' directions follow from the flame that was found.
-    point.flame = Evaluate(bands_[e], at_.structure.noise, shared, point, here).flame;
-    const JointEvaluation at = Evaluate(bands_[e], at_.structure.noise, shared, point, here);
+    const JointEvaluation at =
+        EvaluateWithItsFlame(bands_[e], at_.structure.noise, shared, here, &point);
     (*each)[e] = at.log_likelihood +
                  PointPrior(layout_, bands_[e], point, at_.centres[e], shared.delay_scatter);
   });

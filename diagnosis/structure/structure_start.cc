@@ -54,9 +54,9 @@ void SetErrorScale(const StructureFit& fit, std::vector<JointBand>* bands) {
 }
 
 std::vector<NoiseTerm> BaseNoise() {
-  return {{NoiseSource::kCombustion, kCombustionCoefficients},
-          {NoiseSource::kPressureSensor, 1},
-          {NoiseSource::kHeatReleaseSensor, 1}};
+  return {{LoopNoise::kCombustion, kCombustionCoefficients},
+          {LoopNoise::kPressureSensor, 1},
+          {LoopNoise::kHeatReleaseSensor, 1}};
 }
 
 StructureFit StartOf(std::vector<JointBand>* bands, const EffectFit& base,
@@ -86,16 +86,16 @@ StructureFit StartOf(std::vector<JointBand>* bands, const EffectFit& base,
     for (const NoiseTerm& term : noise) {
       Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(term.coefficients);
       switch (term.source) {
-        case NoiseSource::kCombustion:
+        case LoopNoise::kCombustion:
           coefficients = LogSpectrum(band, flame_power, term.coefficients);
           break;
-        case NoiseSource::kDuct:
+        case LoopNoise::kDuct:
           coefficients = LogSpectrum(band, duct_power, term.coefficients);
           break;
-        case NoiseSource::kPressureSensor:
+        case LoopNoise::kPressureSensor:
           coefficients[0] = std::log(SampleQuantile(acoustic_power, kQuiet) / kQuiet);
           break;
-        case NoiseSource::kHeatReleaseSensor:
+        case LoopNoise::kHeatReleaseSensor:
           coefficients[0] = std::log(SampleQuantile(flame_power, kQuiet) / kQuiet);
           break;
       }

@@ -17,8 +17,8 @@ namespace {
 
 using internal::LoopPhase;
 using internal::MakeLoopPhase;
+using internal::PhaseRange;
 using internal::Quadratic;
-using internal::Range;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -47,11 +47,11 @@ struct Root {
 
 // Multiples of a turn in the phase's range: pi - 2 pi turns.
 void Search(const LoopPhase& phase, double a, double b, std::vector<Root>* roots) {
-  const Range bounds = phase.Bounds(a, b);
+  const PhaseRange bounds = phase.Bounds(a, b);
   const int fewest = static_cast<int>(std::ceil((kPi - bounds.hi) / kTwoPi));
   const int most = static_cast<int>(std::floor((kPi - bounds.lo) / kTwoPi));
   if (fewest > most) return;
-  const Range rate = phase.RateBounds(a, b);
+  const PhaseRange rate = phase.RateBounds(a, b);
   if (rate.lo > 0.0 || rate.hi < 0.0) {
     for (int turns = fewest; turns <= most; ++turns) {
       const double target = kPi - kTwoPi * turns;
@@ -199,7 +199,7 @@ std::vector<NyquistPoint> NyquistCurve(const LoopParameters<double>& loop, doubl
     // The rate of the phase is bounded over the step, not only at its start.
     double step = std::min(largest, frequency_max_hz - f);
     for (;;) {
-      const Range rate = phase.RateBounds(kRadPerSPerHz * f, kRadPerSPerHz * (f + step));
+      const PhaseRange rate = phase.RateBounds(kRadPerSPerHz * f, kRadPerSPerHz * (f + step));
       const double fastest = std::max(std::abs(rate.lo), std::abs(rate.hi));
       if (fastest * kRadPerSPerHz * step <= max_angle_deg * kRadPerDeg) break;
       step *= 0.5;

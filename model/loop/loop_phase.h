@@ -20,7 +20,7 @@
 
 namespace howl::internal {
 
-struct Range {
+struct PhaseRange {
   double lo;
   double hi;
 };
@@ -39,7 +39,7 @@ struct Quadratic {
   }
   // Of the rate over [a, b]: it rises to one peak and falls. With x = w^2 c2 / c0 and
   // k = c1^2 / (c0 c2) the peak is at x = sqrt(4 - k) - 1, or at zero.
-  Range RateRange(double a, double b) const {
+  PhaseRange RateRange(double a, double b) const {
     const double k = c1 * c1 / (c0 * c2);
     const double x = k < 3.0 ? std::sqrt(4.0 - k) - 1.0 : 0.0;
     const double peak = std::sqrt(x * c0 / c2);
@@ -59,14 +59,14 @@ struct LoopPhase {
     return std::numbers::pi + numerator.Phase(w) - first.Phase(w) - second.Phase(w) - tau * w;
   }
   double Rate(double w) const { return numerator.Rate(w) - first.Rate(w) - second.Rate(w) - tau; }
-  Range Bounds(double a, double b) const {
+  PhaseRange Bounds(double a, double b) const {
     return {std::numbers::pi + numerator.Phase(a) - first.Phase(b) - second.Phase(b) - tau * b,
             std::numbers::pi + numerator.Phase(b) - first.Phase(a) - second.Phase(a) - tau * a};
   }
-  Range RateBounds(double a, double b) const {
-    const Range n = numerator.RateRange(a, b);
-    const Range f = first.RateRange(a, b);
-    const Range s = second.RateRange(a, b);
+  PhaseRange RateBounds(double a, double b) const {
+    const PhaseRange n = numerator.RateRange(a, b);
+    const PhaseRange f = first.RateRange(a, b);
+    const PhaseRange s = second.RateRange(a, b);
     return {n.lo - f.hi - s.hi - tau, n.hi - f.lo - s.lo - tau};
   }
 };

@@ -53,7 +53,7 @@ void Move(const PointLayout& layout, Eigen::Index k, double step, SharedLoop* sh
 
 TEST(JointLikelihood, ScoreIsTheLikelihoodsGradient) {
   Prepared at = Prepare(RigOfOwnDelays(11));
-  at.start.structure.noise.push_back({NoiseSource::kDuct, 2});
+  at.start.structure.noise.push_back({LoopNoise::kDuct, 2});
   const EffectPointer effect = QSensorLowPass()[0];
   at.start.shared.values = {900.0};
   PointLoop point = at.start.points[1];

@@ -19,20 +19,12 @@ namespace howl {
 namespace {
 
 using Bytes = std::vector<unsigned char>;
-using Words = Mat5Words;
-using Element = Mat5Element;
 
-constexpr std::uint32_t kMatrix = kMat5Matrix;
 constexpr std::uint32_t kCompressed = 15;
 constexpr std::size_t kStart = 4096;  // of a variable, that has its class, dimensions and name
-constexpr std::size_t kTag = kMat5Tag;
 
 constexpr const char* kDamagedHead =
     "a variable that does not begin as one does, expected a MATLAB file: damaged";
-
-std::optional<Element> ElementAt(Mat5Bytes bytes, std::size_t at, const Words& words) {
-  return Mat5ElementAt(bytes, at, words);
-}
 
 // 0 for a type that is no number.
 std::size_t SizeOfType(std::uint32_t type) {
@@ -42,16 +34,16 @@ std::size_t SizeOfType(std::uint32_t type) {
 
 // The fault of a variable, of which `bytes` has the start behind its own tag; empty if there is
 // none.
-std::string Fault(const Bytes& bytes, const Words& words, std::string* name) {
-  const auto flags = ElementAt(bytes, 0, words);
+std::string Fault(const Bytes& bytes, const Mat5Words& words, std::string* name) {
+  const auto flags = Mat5ElementAt(bytes, 0, words);
   if (!flags || flags->next > bytes.size() || flags->length < 4) return "";
   const std::uint32_t kind = words.At(bytes, flags->begin) & 0xff;
   if (kind < 6 || kind > 15) return "";  // a cell, a structure, text: refused elsewhere
-  const auto dimensions = ElementAt(bytes, flags->next, words);
+  const auto dimensions = Mat5ElementAt(bytes, flags->next, words);
   if (!dimensions || dimensions->begin + dimensions->length > bytes.size()) return "";
-  const auto label = ElementAt(bytes, dimensions->next, words);
+  const auto label = Mat5ElementAt(bytes, dimensions->next, words);
   if (!label || label->begin + label->length > bytes.size()) return "";
-  const auto numbers = ElementAt(bytes, label->next, words);
+  const auto numbers = Mat5ElementAt(bytes, label->next, words);
   if (!numbers || SizeOfType(numbers->type) == 0) return "";
   name->assign(bytes.begin() + static_cast<std::ptrdiff_t>(label->begin),
                bytes.begin() + static_cast<std::ptrdiff_t>(label->begin + label->length));
@@ -96,26 +88,26 @@ void CheckMat5(const std::filesystem::path& file) {
   };
   const Bytes header = read(0, 128);
   if (header.size() < 128) return;
-  const Words words{header[126] == 'M'};  // "MI" as seen from here: the other byte order
+  const Mat5Words words{header[126] == 'M'};  // "MI" as seen from here: the other byte order
   const std::uintmax_t size = std::filesystem::file_size(file);
   std::uintmax_t at = header.size();
-  while (at + kTag <= size) {
-    const Bytes tag = read(at, kTag);
+  while (at + kMat5Tag <= size) {
+    const Bytes tag = read(at, kMat5Tag);
     const std::uint32_t type = words.At(tag, 0);
     const std::size_t length = words.At(tag, 4);
-    Bytes start = read(at + kTag, std::min(length, kStart));
-    const std::uintmax_t begin = at + kTag;
+    Bytes start = read(at + kMat5Tag, std::min(length, kStart));
+    const std::uintmax_t begin = at + kMat5Tag;
     at = begin + length;
     if (at > size) break;
     std::size_t stated = length;
     if (type == kCompressed) {
       start = Inflated(start, kStart);
-      if (start.size() < kTag || words.At(start, 0) != kMatrix) {
+      if (start.size() < kMat5Tag || words.At(start, 0) != kMat5Matrix) {
         throw UserError(file.string(), 0, "", kDamagedHead);
       }
       stated = words.At(start, 4);
-      start.erase(start.begin(), start.begin() + kTag);
-    } else if (type != kMatrix) {
+      start.erase(start.begin(), start.begin() + kMat5Tag);
+    } else if (type != kMat5Matrix) {
       continue;
     }
     if (!HasHead(start, words)) throw UserError(file.string(), 0, "", kDamagedHead);
@@ -126,8 +118,8 @@ void CheckMat5(const std::filesystem::path& file) {
         throw UserError(file.string(), 0, name, kBombWords);
       }
       Bytes whole = read(begin, length);
-      if (type == kCompressed) whole = Inflated(whole, kTag + stated);
-      const std::size_t skipped = type == kCompressed ? std::min(kTag, whole.size()) : 0;
+      if (type == kCompressed) whole = Inflated(whole, kMat5Tag + stated);
+      const std::size_t skipped = type == kCompressed ? std::min(kMat5Tag, whole.size()) : 0;
       fault = FindNestedFault(Mat5Bytes(whole).subspan(skipped), words);
     }
     if (!fault.empty()) throw UserError(file.string(), 0, name, fault);
