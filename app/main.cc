@@ -11,8 +11,8 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/command_line.h"
-#include "app/command_line/help_topics.h"
 #include "app/command_line/negative_answer.h"
+#include "app/help/help_topics.h"
 #include "app/jobs/output_claim.h"
 #include "app/process/interruption.h"
 #include "app/process/progress_line.h"

@@ -34,7 +34,7 @@ LISTS = {
     "io": ["io/config/yaml", "io/config/schema", "io/records/columns", "io/records/text",
            "io/records/binary", "io/records", "io/config", "io/config/sections", "io/config/reading",
            "io/results", "io/inspect", "io/report"],
-    "app": ["app/files", "app/process", "app/text", "app/command_line", "app/jobs", "app/input",
+    "app": ["app/files", "app/process", "app/text", "app/command_line", "app/help", "app/jobs", "app/input",
             "app/simulate", "app/family", "app/diagnose", "app/check", "app/trial", "app/campaign",
             "app/commands", "app"],
 }

@@ -1,7 +1,7 @@
 // What `howl help` explains besides commands: "residuals", what a joint fit can ask for, and
 // "schema", the config's JSON schema, for editors that check and complete a config with it.
-#ifndef HOWL_APP_COMMAND_LINE_HELP_TOPICS_H_
-#define HOWL_APP_COMMAND_LINE_HELP_TOPICS_H_
+#ifndef HOWL_APP_HELP_HELP_TOPICS_H_
+#define HOWL_APP_HELP_HELP_TOPICS_H_
 
 #include <optional>
 #include <string>
@@ -13,4 +13,4 @@ std::optional<std::string> HelpTopic(const std::string& name);
 
 }  // namespace howl
 
-#endif  // HOWL_APP_COMMAND_LINE_HELP_TOPICS_H_
+#endif  // HOWL_APP_HELP_HELP_TOPICS_H_

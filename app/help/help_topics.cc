@@ -1,4 +1,4 @@
-#include "app/command_line/help_topics.h"
+#include "app/help/help_topics.h"
 
 #include <nlohmann/json.hpp>
 #include <sstream>
