@@ -7,11 +7,11 @@
 
 #include "app/command_line/command.h"
 #include "app/files/digest.h"
-#include "app/files/json_fields.h"
 #include "app/jobs/shard.h"
 #include "app/process/interruption.h"
 #include "app/trial/trial_run.h"
 #include "app/trial/trial_shards.h"
+#include "io/json_fields.h"
 #include "io/results/trial_sheet.h"
 #include "io/user_error.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "app/files/digest.h"
-#include "app/files/json_fields.h"
+#include "io/json_fields.h"
 
 namespace howl {
 namespace {

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "app/files/digest.h"
-#include "app/files/json_fields.h"
+#include "io/json_fields.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "app/files/digest.h"
-#include "app/files/json_fields.h"
 #include "app/trial/trial_run.h"
+#include "io/json_fields.h"
 #include "io/result_files.h"
 #include "io/results/trial_json.h"
 #include "io/results/trial_sheet.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/files/digest.h"
-#include "app/files/json_fields.h"
 #include "app/process/child_process.h"
 #include "app/trial/trial_seal.h"
+#include "io/json_fields.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

@@ -23,7 +23,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kMostHarmonic = 1000.0;
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 std::string FileText(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -189,19 +188,6 @@ void NoteAbsent(ReportInput& input) {
 }
 
 }  // namespace
-
-double NumberAt(const Json& json, const char* key) {
-  if (!json.is_object()) return kNotANumber;
-  const auto found = json.find(key);
-  return found != json.end() && found->is_number() ? found->get<double>() : kNotANumber;
-}
-
-const Json& ListAt(const Json& json, const char* key) {
-  static const Json empty = Json::array();
-  if (!json.is_object()) return empty;
-  const auto found = json.find(key);
-  return found != json.end() && found->is_array() ? *found : empty;
-}
 
 Estimate EstimateAt(const Json& json, const char* key) {
   if (!json.is_object() || !json.contains(key)) return {};

@@ -1,7 +1,8 @@
 // Fields of JSON that a user, or a fault, may have changed: of another type they are absent.
-#ifndef HOWL_APP_FILES_JSON_FIELDS_H_
-#define HOWL_APP_FILES_JSON_FIELDS_H_
+#ifndef HOWL_IO_JSON_FIELDS_H_
+#define HOWL_IO_JSON_FIELDS_H_
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -21,7 +22,9 @@ inline std::string TextAt(const nlohmann::json& json, const char* key) {
   return field != nullptr ? field->get<std::string>() : "";
 }
 
-inline double NumberAt(const nlohmann::json& json, const char* key, double otherwise) {
+// `otherwise` where there is none.
+inline double NumberAt(const nlohmann::json& json, const char* key,
+                       double otherwise = std::numeric_limits<double>::quiet_NaN()) {
   const nlohmann::json* const field = FieldAt(json, key, &nlohmann::json::is_number);
   return field != nullptr ? field->get<double>() : otherwise;
 }
@@ -32,6 +35,13 @@ inline nlohmann::json ObjectAt(const nlohmann::json& json, const char* key) {
   return field != nullptr ? *field : nlohmann::json::object();
 }
 
+// An empty list where there is none.
+inline const nlohmann::json& ListAt(const nlohmann::json& json, const char* key) {
+  static const nlohmann::json empty = nlohmann::json::array();
+  const nlohmann::json* const field = FieldAt(json, key, &nlohmann::json::is_array);
+  return field != nullptr ? *field : empty;
+}
+
 }  // namespace howl
 
-#endif  // HOWL_APP_FILES_JSON_FIELDS_H_
+#endif  // HOWL_IO_JSON_FIELDS_H_
