@@ -27,6 +27,7 @@ set(howl_included_headers
     model/loop/loop_effect.h
     model/noise/noise.h
     model/noise/random_stream.h
+    model/noise/split_mix.h
     model/numerics/units.h
     estimation/analysis/cycle/characteristics.h
     estimation/analysis/cycle/cycle_band.h

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "estimation/analysis/spectra/statistics.h"
+
 namespace howl {
 
 double LocalPower(const Eigen::VectorXd& power, Eigen::Index bin, Eigen::Index reach,
@@ -15,9 +17,7 @@ double LocalPower(const Eigen::VectorXd& power, Eigen::Index bin, Eigen::Index r
   for (Eigen::Index i = std::max<Eigen::Index>(0, bin - reach); i < to; ++i) {
     if (std::abs(i - bin) > gap) around.push_back(power[i]);
   }
-  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-  std::nth_element(around.begin(), middle, around.end());
-  return *middle / std::numbers::ln2;
+  return MedianInPlace(around) / std::numbers::ln2;
 }
 
 }  // namespace howl

@@ -4,6 +4,7 @@
 
 #include "diagnosis/search/search.h"
 #include "diagnosis/verdict/placebo.h"
+#include "estimation/analysis/spectra/statistics.h"
 #include "estimation/parallel.h"
 #include "model/noise/random_stream.h"
 
@@ -55,8 +56,7 @@ double Search::PlaceboShrinkage(const Attempt& best) const {
     MeasureGap(&attempt);
     shrinkage[i] = attempt.candidate.shrinkage;
   });
-  std::nth_element(shrinkage.begin(), shrinkage.begin() + kPlaceboDraws / 2, shrinkage.end());
-  return shrinkage[kPlaceboDraws / 2];
+  return MedianInPlace(shrinkage);
 }
 
 Evidence Search::Look(const Attempt* top, Slack* after) const {
@@ -84,7 +84,7 @@ Evidence Search::Look(const Attempt* top, Slack* after) const {
         return attempt.without_lines && attempt.candidate.gain > DetectionGain(false);
       });
   out.unexplained_samples =
-      (ShowsLimits(at_, true) || ShowsLimits(at_, false)) &&
+      (ShowsLimits(at_, Channel::kPressure) || ShowsLimits(at_, Channel::kHeatRelease)) &&
       std::none_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
         return attempt.model_free || (attempt.kind == EffectKind::kDeclaredMap &&
                                       attempt.candidate.gain > DetectionGain(false));

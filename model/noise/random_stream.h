@@ -13,14 +13,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace howl {
+#include "model/noise/split_mix.h"
 
-inline std::uint64_t SplitMix64(std::uint64_t* state) {
-  std::uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
+namespace howl {
 
 // A seed of its own for the unit of work `key` of a run.
 inline std::uint64_t DeriveSeed(std::uint64_t seed, std::uint64_t key) {

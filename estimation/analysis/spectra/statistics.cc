@@ -265,8 +265,13 @@ TrendFit FitTrend(std::span<const double> series) {
 double Median(std::span<const double> values) {
   CHECK(!values.empty());
   std::vector<double> copy(values.begin(), values.end());
-  const auto middle = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
-  std::nth_element(copy.begin(), middle, copy.end());
+  return MedianInPlace(copy);
+}
+
+double MedianInPlace(std::span<double> values) {
+  CHECK(!values.empty());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 

@@ -67,7 +67,10 @@ struct TrendFit {
 };
 TrendFit FitTrend(std::span<const double> series);
 
+// Of an even number of values the upper of the two in the middle. At least one value.
 double Median(std::span<const double> values);
+// The same without a copy: `values` are reordered.
+double MedianInPlace(std::span<double> values);
 
 }  // namespace howl
 
