@@ -9,6 +9,7 @@
 #include "app/family/bounds_run.h"
 #include "app/family/family_questions.h"
 #include "app/input/problem_input.h"
+#include "estimation/family/members/member_spread.h"
 #include "io/config/reading/config_reading.h"
 #include "io/user_error.h"
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "diagnosis/numerics/real_fft.h"
+#include "estimation/analysis/spectra/simulated_record.h"
 #include "estimation/unit_seed.h"
 #include "model/loop/loop_effect.h"
 #include "model/noise/random_stream.h"
@@ -168,11 +169,9 @@ std::vector<DiagnosisExperiment> Replicate(const std::vector<CutRecord>& records
                                            std::uint64_t seed) {
   std::vector<DiagnosisExperiment> out;
   for (std::size_t e = 0; e < records.size(); ++e) {
-    const SimulatedRecord record = Simulate(
-        FittedRig(records[e], base, e, UnitSeed(seed, "point", e)), FittedRigOptions(records[e]));
-    out.push_back({experiments[e].name,
-                   experiments[e].phi,
-                   {record.sampling_hz, record.pressure, record.heat_release}});
+    out.push_back({experiments[e].name, experiments[e].phi,
+                   ToRecord(Simulate(FittedRig(records[e], base, e, UnitSeed(seed, "point", e)),
+                                     FittedRigOptions(records[e])))});
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "estimation/analysis/analyse.h"
+#include "estimation/analysis/spectra/simulated_record.h"
 #include "model/cycles/harmonic_balance.h"
 #include "model/simulation/simulate.h"
 
@@ -29,7 +30,7 @@ Analysis AnalyseRig(const RigParameters& rig, std::uint64_t seed, int max_harmon
       Simulate({rig, seed}, {.duration_s = 3.2, .sampling_hz = 5000.0, .settle_s = 0.5});
   AnalysisOptions options;
   options.flame_curve.max_harmonic = max_harmonic;
-  const NamedRecord named{"rig", 0.5, {record.sampling_hz, record.pressure, record.heat_release}};
+  const NamedRecord named{"rig", 0.5, ToRecord(record)};
   return AnalyseRecords(std::span(&named, 1), options).analyses.front();
 }
 

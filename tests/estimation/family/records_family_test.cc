@@ -9,6 +9,7 @@
 
 #include "estimation/analysis/analyse.h"
 #include "estimation/analysis/loop/closed_form.h"
+#include "estimation/analysis/spectra/simulated_record.h"
 #include "estimation/family/bounds/enclose.h"
 #include "estimation/family/bounds/feasible.h"
 #include "estimation/unit_seed.h"
@@ -73,10 +74,7 @@ std::vector<Experiment> Recorded(const Member& rig, const ModelSpec& model,
       SimulateBatch(cases, {.duration_s = 3.2, .sampling_hz = 5000.0, .settle_s = 1.0});
   std::vector<NamedRecord> records;
   for (std::size_t i = 0; i < simulated.size(); ++i) {
-    const SimulatedRecord& record = simulated[i];
-    records.push_back({published[i].name,
-                       published[i].phi,
-                       {record.sampling_hz, record.pressure, record.heat_release}});
+    records.push_back({published[i].name, published[i].phi, ToRecord(simulated[i])});
   }
   const AnalysisSet set = AnalyseRecords(records, {.model = model});
   *delay_periods = set.delay.branch;
