@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/records/channel_signal.h"
 #include "diagnosis/reference/reference.h"
 
 namespace howl {
@@ -74,7 +75,8 @@ std::optional<Repaired> Repair(const std::vector<DiagnosisExperiment>& experimen
   Repaired out;
   for (std::size_t e = 0; e < repaired.size(); ++e) {
     Record& record = repaired[e].record;
-    std::vector<double>& signal = pressure ? record.pressure : record.heat_release;
+    std::vector<double>& signal =
+        SignalOf(record, pressure ? Channel::kPressure : Channel::kHeatRelease);
     std::optional<Inverse> inverse = TakeBack(effect, values, signal);
     if (!inverse) return std::nullopt;
     signal = std::move(inverse->signal);

@@ -25,6 +25,10 @@ std::optional<CutObstacle> FindCutObstacle(const std::vector<DiagnosisExperiment
 std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments,
                                       const BaseModel& model = {});
 
+// The first or the second half of each record.
+std::vector<DiagnosisExperiment> HalfOfRecords(const std::vector<DiagnosisExperiment>& experiments,
+                                               bool second);
+
 // Cut A's input without the shrinkage.
 void DriveAsRecorded(CutRecord* record);
 

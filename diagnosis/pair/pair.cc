@@ -25,7 +25,7 @@ constexpr double kSpuriousShare = 0.45;
 constexpr double kBiasGainAtThirtyLevels = 300.0;
 constexpr double kBiasInAcoustics = 0.02;  // of that
 
-bool IsLine(const Attempt& attempt) { return attempt.kind == EffectKind::kLine; }
+bool IsLine(const Attempt& attempt) { return IsLineKind(attempt.kind); }
 
 bool Detected(const Attempt& attempt) {
   return attempt.model_free || attempt.candidate.gain > DetectionGain(ShowsInFlameAlone(attempt));

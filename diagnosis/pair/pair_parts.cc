@@ -82,7 +82,7 @@ std::vector<Attempt> FluctuationsGiven(const AttemptContext& at, const EffectFit
   const GainFluctuation fluctuation = EstimateGainFluctuation(*at.records, fit);
   std::vector<std::optional<Attempt>> tried;
   for (const EffectForms& forms : units) {
-    if (forms[0]->kind() == EffectKind::kGain) tried.push_back(TryGain(at, *forms[0], fluctuation));
+    if (IsGainKind(forms[0]->kind())) tried.push_back(TryGain(at, *forms[0], fluctuation));
   }
   return NearBestPaid(std::move(tried));
 }

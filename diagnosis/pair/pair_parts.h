@@ -13,7 +13,7 @@
 
 namespace howl {
 
-inline bool IsGain(const Attempt& attempt) { return attempt.kind == EffectKind::kGain; }
+inline bool IsGain(const Attempt& attempt) { return IsGainKind(attempt.kind); }
 inline bool IsTransfer(const Attempt& attempt) { return attempt.fit.has_value(); }
 inline bool ChangesAcousticCut(const Attempt& attempt) {
   return attempt.fit && attempt.fit->effect->ChangesAcousticCut();

@@ -7,6 +7,7 @@
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/fitter.h"
 #include "diagnosis/numerics/real_fft.h"
+#include "diagnosis/records/channel_signal.h"
 #include "diagnosis/samples/gain_fluctuation.h"
 #include "diagnosis/samples/sample_limits.h"
 #include "diagnosis/samples/static_map.h"
@@ -87,10 +88,10 @@ SampleFinding SeeFluctuation(const PlanRecords& at, bool coloured, double time_s
                   : PricedFinding(of_switching, of_coloured, 2.0);
 }
 
-SampleFinding SeeClipping(const PlanRecords& at, bool pressure, double fraction) {
+SampleFinding SeeClipping(const PlanRecords& at, Channel channel, double fraction) {
   std::vector<DiagnosisExperiment> changed = *at.experiments;
   for (DiagnosisExperiment& each : changed) {
-    std::vector<double>& x = pressure ? each.record.pressure : each.record.heat_release;
+    std::vector<double>& x = SignalOf(each.record, channel);
     const double mean = Mean(x);
     const double most = fraction * SampleAmplitude(x);
     for (double& value : x) value = mean + std::clamp(value - mean, -most, most);
@@ -98,13 +99,12 @@ SampleFinding SeeClipping(const PlanRecords& at, bool pressure, double fraction)
   // Edges are those of the samples, for which nothing need be cut.
   std::vector<CutRecord> samples = *at.records;
   for (std::size_t e = 0; e < samples.size(); ++e) {
-    const Record& record = changed[e].record;
-    (pressure ? samples[e].pressure : samples[e].heat_release) = Eigen::Map<const Eigen::VectorXd>(
-        (pressure ? record.pressure : record.heat_release).data(), samples[e].samples);
+    SignalOf(samples[e], channel) = Eigen::Map<const Eigen::VectorXd>(
+        SignalOf(changed[e].record, channel).data(), samples[e].samples);
   }
-  if (HasSharpEdge(samples, pressure)) return {true, 0.0, 0.0, true};
+  if (HasSharpEdge(samples, channel)) return {true, 0.0, 0.0, true};
   const std::vector<CutRecord> records = MakeCutRecords(changed, (*at.records)[0].model);
-  const double gain = FitClipping(records, pressure, EvaluatedBase(records, *at.base)).gain;
+  const double gain = FitClipping(records, channel, EvaluatedBase(records, *at.base)).gain;
   return PricedFinding(gain, 0.0, kClippingShapes * static_cast<double>(records.size()));
 }
 

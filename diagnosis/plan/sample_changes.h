@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/plan/plan_records.h"
+#include "model/loop/instrument.h"
 
 namespace howl {
 
@@ -40,7 +41,7 @@ SampleFinding SeeTone(const PlanRecords& at, double hz, double rel);
 SampleFinding SeeFluctuation(const PlanRecords& at, bool coloured, double time_s, double size);
 
 // At this fraction of the amplitude.
-SampleFinding SeeClipping(const PlanRecords& at, bool pressure, double fraction);
+SampleFinding SeeClipping(const PlanRecords& at, Channel channel, double fraction);
 
 // p with so many levels.
 SampleFinding SeeLevels(const PlanRecords& at, double levels);

@@ -36,10 +36,6 @@ struct DiagnosisExperiment {
   Record record;
 };
 
-// The first or the second half of each record.
-std::vector<DiagnosisExperiment> HalfOfRecords(const std::vector<DiagnosisExperiment>& experiments,
-                                               bool second);
-
 // What another record of the same loop, the reference, already has in addition to the base
 // (reference.h). An empty vector stands for ones.
 struct CutReference {

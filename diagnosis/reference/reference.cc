@@ -247,8 +247,8 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
   if (test.fluctuation_gains.empty()) {
     out.fluctuation_gain = 2.0 * fluctuation_scale * EstimateGainFluctuation(own, absorbed).gain;
   }
-  const ClippingFit p = FitClipping(own, true, absorbed);
-  const ClippingFit q = FitClipping(own, false, absorbed);
+  const ClippingFit p = FitClipping(own, Channel::kPressure, absorbed);
+  const ClippingFit q = FitClipping(own, Channel::kHeatRelease, absorbed);
   out.pressure_clipping_gain = data_ratio * p.gain;
   out.heat_release_clipping_gain = data_ratio * q.gain;
   out.pressure_sharp_edge = p.sharp_edge;

@@ -2,21 +2,22 @@
 
 #include <algorithm>
 
+#include "diagnosis/records/channel_signal.h"
 #include "diagnosis/samples/sample_limits.h"
 
 namespace howl {
 
 std::vector<DiagnosisExperiment> ClippedAlike(std::vector<DiagnosisExperiment> reference,
-                                              const std::vector<CutRecord>& rig, bool pressure) {
+                                              const std::vector<CutRecord>& rig, Channel channel) {
   double upper = 0.0;
   double lower = 0.0;
   for (const CutRecord& record : rig) {
-    const Plateaus plateaus = FindPlateaus(pressure ? record.pressure : record.heat_release);
+    const Plateaus plateaus = FindPlateaus(SignalOf(record, channel));
     upper += plateaus.upper.mean() / static_cast<double>(rig.size());
     lower += plateaus.lower.mean() / static_cast<double>(rig.size());
   }
   for (DiagnosisExperiment& each : reference) {
-    std::vector<double>& samples = pressure ? each.record.pressure : each.record.heat_release;
+    std::vector<double>& samples = SignalOf(each.record, channel);
     const auto x = Eigen::Map<const Eigen::VectorXd>(samples.data(),
                                                      static_cast<Eigen::Index>(samples.size()));
     const double low = SampleQuantile(x, lower);

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "diagnosis/records/cut_record.h"
+#include "model/loop/instrument.h"
 
 namespace howl {
 
 // The reference with one signal clipped at either end, so that the share of its samples on the
 // plateaus is the mean share of the rig's. rig: as recorded.
 std::vector<DiagnosisExperiment> ClippedAlike(std::vector<DiagnosisExperiment> reference,
-                                              const std::vector<CutRecord>& rig, bool pressure);
+                                              const std::vector<CutRecord>& rig, Channel channel);
 
 }  // namespace howl
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "diagnosis/records/channel_signal.h"
 #include "estimation/analysis/spectra/statistics.h"
 
 namespace howl {
@@ -139,9 +140,9 @@ Plateaus FindPlateaus(const Eigen::VectorXd& x) {
   return {SamplesOn(upper, x), SamplesOn(lower, -x), upper.level, -lower.level};
 }
 
-bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure) {
+bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel) {
   const auto edges = std::count_if(records.begin(), records.end(), [&](const CutRecord& record) {
-    return SharpEdge(pressure ? record.pressure : record.heat_release);
+    return SharpEdge(SignalOf(record, channel));
   });
   return 2 * static_cast<std::size_t>(edges) > records.size();
 }

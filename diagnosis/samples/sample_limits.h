@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/records/cut_record.h"
+#include "model/loop/instrument.h"
 
 namespace howl {
 
@@ -24,7 +25,7 @@ struct Plateaus {
 Plateaus FindPlateaus(const Eigen::VectorXd& x);
 
 // True if in most records the density of the signal's values ends in an edge.
-bool HasSharpEdge(const std::vector<CutRecord>& records, bool pressure);
+bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel);
 
 struct FewLevels {
   bool found = false;

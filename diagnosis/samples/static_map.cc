@@ -8,6 +8,7 @@
 #include "diagnosis/numerics/real_gram.h"
 #include "diagnosis/numerics/scaled_solve.h"
 #include "diagnosis/records/band_signal.h"
+#include "diagnosis/records/channel_signal.h"
 #include "diagnosis/samples/sample_limits.h"
 
 namespace howl {
@@ -28,9 +29,10 @@ struct Bumps {
   Eigen::ArrayXd on;       // one on either plateau
 };
 
-Bumps MakeBumps(const CutRecord& record, bool pressure) {
-  const Eigen::VectorXd& x = pressure ? record.pressure : record.heat_release;
-  Eigen::VectorXcd near = pressure ? record.pressure_spectrum : record.heat_release_spectrum;
+Bumps MakeBumps(const CutRecord& record, Channel channel) {
+  const Eigen::VectorXd& x = SignalOf(record, channel);
+  Eigen::VectorXcd near =
+      channel == Channel::kPressure ? record.pressure_spectrum : record.heat_release_spectrum;
   for (Eigen::Index k = 0; k < near.size(); ++k) {
     const double f = static_cast<double>(k) * record.bin_hz;
     if (std::abs(f - record.at.cycle_frequency_hz) > 0.4 * record.at.cycle_frequency_hz)
@@ -77,8 +79,9 @@ Eigen::ArrayXd FlameResidualInTime(const CutRecord& record, const EffectFit& bas
 
 }  // namespace
 
-ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
+ClippingFit FitClipping(const std::vector<CutRecord>& records, Channel channel,
                         const EffectFit& base) {
+  const bool pressure = channel == Channel::kPressure;
   ClippingFit out;
   out.fit = base;
   double cost = 0.0;
@@ -88,7 +91,7 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
   for (std::size_t e = 0; e < records.size(); ++e) {
     const CutRecord& record = records[e];
     ExperimentFit& at = out.fit.experiments[e];
-    const Bumps bumps = MakeBumps(record, pressure);
+    const Bumps bumps = MakeBumps(record, channel);
     Eigen::VectorXd c = Eigen::VectorXd::Zero(kBumps);
     const auto columns = [&]() {
       Eigen::MatrixXcd windowed(record.acoustic_count, kBumps);
@@ -122,7 +125,7 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
       at.acoustic_noise = FitAcousticNoise(record, at.acoustic_residual,
                                            r.segment(kTapReach, record.acoustic_count).cwiseAbs2());
     }
-    out.repaired.push_back((pressure ? record.pressure : record.heat_release) + bumps.signal * c);
+    out.repaired.push_back(SignalOf(record, channel) + bumps.signal * c);
     if (!pressure) {
       const Eigen::ArrayXd noise = FlameResidualInTime(record, base, e);
       const double on = (noise.square() * bumps.on).sum() / std::max(bumps.on.sum(), 1.0);
@@ -139,7 +142,7 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
   // A bump's top is half as high again as its mean.
   out.fraction = 1.0 / (1.0 + 1.5 * std::max(expansion, 0.0));
   if (!pressure) out.plateau_noise = plateau_noise;
-  out.sharp_edge = HasSharpEdge(records, pressure);
+  out.sharp_edge = HasSharpEdge(records, channel);
   return out;
 }
 

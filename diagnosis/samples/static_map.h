@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "diagnosis/fit/effect_fit.h"
+#include "model/loop/instrument.h"
 
 namespace howl {
 
@@ -28,7 +29,7 @@ struct ClippingFit {
   bool sharp_edge = false;  // the amplitude density ends in an edge, which needs no model
 };
 
-ClippingFit FitClipping(const std::vector<CutRecord>& records, bool pressure,
+ClippingFit FitClipping(const std::vector<CutRecord>& records, Channel channel,
                         const EffectFit& base);
 
 }  // namespace howl

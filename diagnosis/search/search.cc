@@ -91,12 +91,12 @@ void Search::TakeLinesLeftOver() {
 
 // A gain is the square of a misfit. The spurious misfit that clipping gives may add to a chance
 // misfit in phase, so it is subtracted from the misfit and not from the gain.
-void Search::SubtractSpuriousGain(bool pressure) {
+void Search::SubtractSpuriousGain(Channel channel) {
   DiagnosisOptions options = options_;
   options.memory = nullptr;
   options.progress = {};
   const std::vector<DiagnosisExperiment> clipped =
-      ClippedAlike(options.reference, AsRecorded(at_), pressure);
+      ClippedAlike(options.reference, AsRecorded(at_), channel);
   Search alike(clipped, options);
   alike.TryEach();
   const double ratio = DataRatio(*at_.experiments, clipped);
@@ -114,9 +114,9 @@ void Search::SubtractSpuriousGain(bool pressure) {
 void Search::TryAll() {
   TryEach();
   if (!reference_ || Stopped()) return;
-  if (repair_) SubtractSpuriousGain(true);
-  if (!reference_->heat_release_sharp_edge && HasSharpEdge(records_, false)) {
-    SubtractSpuriousGain(false);
+  if (repair_) SubtractSpuriousGain(Channel::kPressure);
+  if (!reference_->heat_release_sharp_edge && HasSharpEdge(records_, Channel::kHeatRelease)) {
+    SubtractSpuriousGain(Channel::kHeatRelease);
   }
 }
 
@@ -186,9 +186,11 @@ Attempt Search::Try(const EffectForms& forms) const {
   switch (effect.kind()) {
     case EffectKind::kTransfer:
       return TryTransfer(at_, "effect." + std::string(effect.id()), forms);
-    case EffectKind::kGain:
+    case EffectKind::kColouredGain:
+    case EffectKind::kSwitchingGain:
       return TryGain(at_, effect, fluctuation_);
-    case EffectKind::kLine:
+    case EffectKind::kHum:
+    case EffectKind::kTone:
       return TryLines(at_, effect, lines_, origin_);
     case EffectKind::kClipping:
       return TryClipping(at_, effect);

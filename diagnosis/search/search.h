@@ -57,7 +57,7 @@ class Search {
   void TryEach();
   // With a reference, the gain that saturation alone gives a transfer function is no evidence of
   // it.
-  void SubtractSpuriousGain(bool pressure);
+  void SubtractSpuriousGain(Channel channel);
   void TryAll();
   void Bootstrap();
   // From the bootstrap if there was one; else, where the best is weak, from a few replicates with

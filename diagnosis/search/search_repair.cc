@@ -16,7 +16,6 @@
 namespace howl {
 namespace {
 
-constexpr const char* kPressureClipping = "p_clipping";
 constexpr int kMostDeclippings = 10;
 constexpr double kConvergedGain = 0.5;  // change of log-likelihood below which it ends
 
@@ -64,10 +63,11 @@ std::vector<Place> MergedPlaces(std::vector<Place> places, std::vector<Place> ot
 
 void Search::RepairPressure() {
   const auto unit = std::find_if(units_.begin(), units_.end(), [](const EffectForms& forms) {
-    return forms[0]->id() == kPressureClipping;
+    return forms[0]->kind() == EffectKind::kClipping &&
+           forms[0]->block() == LoopBlock::kPressureInstrument;
   });
   if (unit == units_.end() || (reference_ && reference_->pressure_sharp_edge) ||
-      !HasSharpEdge(records_, true)) {
+      !HasSharpEdge(records_, Channel::kPressure)) {
     return;
   }
   PressureRepair repair{

@@ -58,6 +58,7 @@ class Dependence final : public NamedEffect {
                     {{"rel_at_cycle", "", 0.0, -0.6, 0.6, {0.01}},
                      {"memory_s", "s", 0.02, 1e-3, 0.3, {0.02}, ParameterScale::kLogarithmic}}),
         of_rate_(of_rate) {}
+  Separation SeparatedBy() const override { return Separation::kCycleAmplitude; }
   bool ChangesFlameCut() const override { return true; }
   bool ModulatesDelay() const override { return true; }
   double DelayFactor(const EffectContext& at, EffectValues x) const override {

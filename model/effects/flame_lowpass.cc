@@ -36,6 +36,7 @@ class Lag final : public NamedEffect {
                       1e6,
                       {250.0, 700.0, 2000.0},
                       ParameterScale::kLogarithmic}}) {}
+  Separation SeparatedBy() const override { return Separation::kHighFrequencies; }
   bool ChangesFlameCut() const override { return true; }
   Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
                     EffectValues x) const override {

@@ -50,7 +50,7 @@ class Hum final : public NamedEffect {
                                                   : LoopBlock::kHeatReleaseInstrument,
                     {{"rel", "", 0.0, 0.0, 10.0, {}}, {"hz", "Hz", 50.0, 50.0, 60.0, {}}}),
         channel_(channel) {}
-  EffectKind kind() const override { return EffectKind::kLine; }
+  EffectKind kind() const override { return EffectKind::kHum; }
   bool ChangesAcousticCut() const override { return true; }
   bool ChangesFlameCut() const override { return true; }
   EffectForm form() const override {

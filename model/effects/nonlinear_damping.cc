@@ -38,6 +38,7 @@ class Damping final : public NamedEffect {
                      {"memory_s", "s", 0.02, 1e-3, 0.3, {0.015}, ParameterScale::kLogarithmic}}),
         lags_(lags),
         over_own_(over_own) {}
+  Separation SeparatedBy() const override { return Separation::kCycleAmplitude; }
   bool ChangesAcousticCut() const override { return true; }
   bool ModulatesAcoustics() const override { return true; }
   void ModulateAcoustics(double /*position*/, double amplitude, EffectValues x,

@@ -37,7 +37,8 @@ class Fluctuation final : public NamedEffect {
       : NamedEffect(
             "parametric_noise", LoopBlock::kFlame,
             {{"rel_rms", "", 0.0, 0.0, 2.0, {}}, {"correlation_s", "s", 0.03, 1e-3, 10.0, {}}}) {}
-  EffectKind kind() const override { return EffectKind::kGain; }
+  EffectKind kind() const override { return EffectKind::kColouredGain; }
+  Separation SeparatedBy() const override { return Separation::kLongRecord; }
   bool ChangesFlameCut() const override { return true; }
   bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
     rig->effects.push_back(std::make_shared<WanderingGain>(x[0], x[1]));

@@ -54,6 +54,7 @@ class Path final : public NamedEffect {
                       {6e-4, 1.2e-3, 2e-3, 3e-3, 5e-3},
                       ParameterScale::kLogarithmic}}),
         before_(before) {}
+  Separation SeparatedBy() const override { return Separation::kHighFrequencies; }
   bool ChangesFlameCut() const override { return true; }
   bool ChangesFlameInput() const override { return before_; }
   Response FlameIn(double frequency_hz, const EffectContext& /*at*/,

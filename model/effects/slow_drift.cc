@@ -33,6 +33,7 @@ class Drift final : public NamedEffect {
   Drift()
       : NamedEffect("slow_drift", LoopBlock::kAcoustics,
                     {{"rel_span", "", 0.0, -0.5, 0.5, {-0.01, 0.01}}}) {}
+  Separation SeparatedBy() const override { return Separation::kLongRecord; }
   bool ChangesAcousticCut() const override { return true; }
   bool ModulatesAcoustics() const override { return true; }
   void ModulateAcoustics(double position, double /*amplitude*/, EffectValues x,

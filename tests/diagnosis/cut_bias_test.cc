@@ -69,7 +69,7 @@ TEST(Clipping, RepeatedExtremesAreSeenHoweverFewAreCutOff) {
   std::vector<DiagnosisExperiment> experiments = SimulateRig();
   const auto edge = [&](const std::vector<DiagnosisExperiment>& of) {
     const std::vector<CutRecord> records = MakeCutRecords(of);
-    return FitClipping(records, true, FitBase(records)).sharp_edge;
+    return FitClipping(records, Channel::kPressure, FitBase(records)).sharp_edge;
   };
   EXPECT_FALSE(edge(experiments));
   std::vector<DiagnosisExperiment> coarse = experiments;

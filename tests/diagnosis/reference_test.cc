@@ -83,7 +83,7 @@ TEST(Reference, IsClippedAsOftenAsTheRig) {
   CutOff(0.85, &Record::heat_release, &rig);
   const std::vector<DiagnosisExperiment> reference = SimulateRig({}, 70);
   const std::vector<DiagnosisExperiment> alike =
-      ClippedAlike(reference, MakeCutRecords(rig), false);
+      ClippedAlike(reference, MakeCutRecords(rig), Channel::kHeatRelease);
   for (std::size_t e = 0; e < alike.size(); ++e) {
     const std::vector<double>& q = alike[e].record.heat_release;
     EXPECT_NEAR(ShareAt(q, *std::max_element(q.begin(), q.end())), 0.15, 0.01);
