@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "estimation/family/bounds/carrying_mode_bound.h"
+#include "estimation/family/bounds/cell_contractor.h"
 #include "estimation/family/members/enumerate.h"
 #include "tests/r228.h"
 

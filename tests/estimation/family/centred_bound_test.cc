@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "estimation/family/bounds/cell_contractor.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -9,6 +9,7 @@
 #include <random>
 #include <vector>
 
+#include "estimation/family/bounds/cell_contractor.h"
 #include "estimation/family/bounds/contract.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "estimation/family/answers/conflict.h"
+#include "estimation/family/bounds/cell_contractor.h"
 #include "estimation/family/bounds/contract.h"
 #include "estimation/family/bounds/feasible.h"
 #include "estimation/family/bounds/second_mode_bound.h"
