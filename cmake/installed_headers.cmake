@@ -47,9 +47,9 @@ set(howl_included_headers
     estimation/analysis/transfer/transfer.h
     estimation/analysis/transfer/transfer_ellipsoid.h
     estimation/analysis/loop/vanishing_phi.h
-    estimation/family/bounds/cell.h
+    estimation/family/bounds/contract/cell.h
     estimation/family/bounds/expression.h
-    estimation/family/bounds/interval.h
+    estimation/family/bounds/contract/interval.h
     estimation/family/problem/family_parameter.h
     estimation/family/problem/membership.h
     estimation/family/problem/problem.h

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "estimation/analysis/loop/experiment.h"
-#include "estimation/family/bounds/cell.h"
+#include "estimation/family/bounds/contract/cell.h"
 #include "estimation/family/problem/problem.h"
 #include "model/numerics/formula.h"
 

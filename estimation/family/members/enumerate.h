@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "estimation/family/members/member_drawer.h"
+#include "estimation/family/members/drawer/member_drawer.h"
 #include "estimation/family/problem/problem.h"
 
 namespace howl {

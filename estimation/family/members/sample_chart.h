@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "estimation/family/members/chain.h"
+#include "estimation/family/members/drawer/chain.h"
 #include "estimation/family/problem/member_chart.h"
 #include "estimation/family/problem/problem.h"
 #include "estimation/family/problem/random.h"
