@@ -9,6 +9,7 @@
 #include "diagnosis/gap/slack.h"
 #include "diagnosis/samples/coherent_lines.h"
 #include "diagnosis/samples/gain_fluctuation.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {

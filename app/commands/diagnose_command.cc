@@ -25,6 +25,7 @@
 #include "io/config/schema/nearest_key.h"
 #include "io/results/diagnosis_json.h"
 #include "io/whole_file.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "model/effects/catalogue.h"
+#include "model/effects/effect.h"
 
 namespace howl {
 

@@ -17,7 +17,7 @@
 
 #include "diagnosis/cuts/acoustic_cut.h"
 #include "diagnosis/cuts/flame_cut.h"
-#include "model/effects/catalogue.h"
+#include "model/effects/effect.h"
 
 namespace howl {
 

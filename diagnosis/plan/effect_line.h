@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "diagnosis/records/cut_record.h"
-#include "model/effects/catalogue.h"
+#include "model/effects/effect.h"
 
 namespace howl {
 

@@ -10,6 +10,7 @@
 #include "diagnosis/plan/plan_samples.h"
 #include "diagnosis/samples/coherent_lines.h"
 #include "estimation/parallel.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {

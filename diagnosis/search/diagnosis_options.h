@@ -10,7 +10,7 @@
 
 #include "diagnosis/fit/fit_memory.h"
 #include "diagnosis/records/cut_record.h"
-#include "model/effects/catalogue.h"
+#include "model/effects/effect.h"
 
 namespace howl {
 

@@ -14,6 +14,7 @@
 #include "diagnosis/samples/sample_limits.h"
 #include "diagnosis/search/bootstrap.h"
 #include "estimation/parallel.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {

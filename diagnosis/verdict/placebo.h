@@ -12,7 +12,6 @@
 
 #include <cstdint>
 
-#include "model/effects/catalogue.h"
 #include "model/effects/effect.h"
 
 namespace howl {

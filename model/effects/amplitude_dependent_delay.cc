@@ -82,7 +82,7 @@ class Dependence final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> AmplitudeDependentDelay() {
+std::vector<EffectPointer> AmplitudeDependentDelay(const CatalogueBase& /*base*/) {
   return {std::make_shared<Dependence>(false), std::make_shared<Dependence>(true)};
 }
 

@@ -76,6 +76,8 @@ class Skew final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ChannelSkew() { return {std::make_shared<Skew>()}; }
+std::vector<EffectPointer> ChannelSkew(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Skew>()};
+}
 
 }  // namespace howl

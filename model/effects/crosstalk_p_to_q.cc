@@ -52,7 +52,7 @@ class Crosstalk final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> CrosstalkPToQ() {
+std::vector<EffectPointer> CrosstalkPToQ(const CatalogueBase& /*base*/) {
   return {std::make_shared<Crosstalk>(false), std::make_shared<Crosstalk>(true)};
 }
 

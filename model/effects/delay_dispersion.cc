@@ -101,7 +101,7 @@ class Dispersion final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> DelayDispersion() {
+std::vector<EffectPointer> DelayDispersion(const CatalogueBase& /*base*/) {
   return {std::make_shared<Dispersion>(true), std::make_shared<Dispersion>(false)};
 }
 

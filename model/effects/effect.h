@@ -19,6 +19,7 @@
 
 #include <complex>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -202,6 +203,8 @@ class Effect {
   Effect(const Effect&) = default;
   Effect& operator=(const Effect&) = default;
 };
+
+using EffectPointer = std::shared_ptr<const Effect>;
 
 // An identifier and a table of parameters: what all effects of the catalogue share.
 class NamedEffect : public Effect {

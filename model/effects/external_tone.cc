@@ -45,6 +45,8 @@ class Tone final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ExternalTone() { return {std::make_shared<Tone>()}; }
+std::vector<EffectPointer> ExternalTone(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Tone>()};
+}
 
 }  // namespace howl

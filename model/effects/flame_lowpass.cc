@@ -50,6 +50,8 @@ class Lag final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> FlameLowPass() { return {std::make_shared<Lag>()}; }
+std::vector<EffectPointer> FlameLowPass(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Lag>()};
+}
 
 }  // namespace howl

@@ -50,6 +50,8 @@ class Dropout final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> Intermittency() { return {std::make_shared<Dropout>()}; }
+std::vector<EffectPointer> Intermittency(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Dropout>()};
+}
 
 }  // namespace howl

@@ -69,7 +69,9 @@ class Hum final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> MainsHum() { return {std::make_shared<Hum>(Channel::kHeatRelease)}; }
+std::vector<EffectPointer> MainsHum(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Hum>(Channel::kHeatRelease)};
+}
 
 std::vector<EffectPointer> MainsHumInPressure() {
   return {std::make_shared<Hum>(Channel::kPressure)};

@@ -66,7 +66,7 @@ class Damping final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> NonlinearDamping() {
+std::vector<EffectPointer> NonlinearDamping(const CatalogueBase& /*base*/) {
   std::vector<EffectPointer> forms;
   for (const bool over_own : {false, true}) {
     for (const int lags : {1, 2}) forms.push_back(std::make_shared<Damping>(lags, over_own));

@@ -48,6 +48,8 @@ class Fluctuation final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ParametricNoise() { return {std::make_shared<Fluctuation>()}; }
+std::vector<EffectPointer> ParametricNoise(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Fluctuation>()};
+}
 
 }  // namespace howl

@@ -46,6 +46,8 @@ class Levels final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> Quantisation() { return {std::make_shared<Levels>()}; }
+std::vector<EffectPointer> Quantisation(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Levels>()};
+}
 
 }  // namespace howl

@@ -82,7 +82,7 @@ class Path final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> SecondDelayPath() {
+std::vector<EffectPointer> SecondDelayPath(const CatalogueBase& /*base*/) {
   return {std::make_shared<Path>(true), std::make_shared<Path>(false)};
 }
 

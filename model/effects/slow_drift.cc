@@ -48,6 +48,8 @@ class Drift final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> SlowDrift() { return {std::make_shared<Drift>()}; }
+std::vector<EffectPointer> SlowDrift(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Drift>()};
+}
 
 }  // namespace howl

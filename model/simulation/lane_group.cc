@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/simulation/lane_effects.h"
 #include "model/simulation/past_wave.h"
 #include "model/simulation/slow_amplitudes.h"
 
@@ -12,16 +13,6 @@ namespace howl::internal {
 namespace {
 
 constexpr int kChunk = 16 * kLoopBlock;  // steps between visits of the recorders
-
-bool SameLoop(const LoopParameters<double>& a, const LoopParameters<double>& b) {
-  return a.acoustics.omega_hz == b.acoustics.omega_hz && a.acoustics.xi == b.acoustics.xi &&
-         a.acoustics.N == b.acoustics.N && a.acoustics.M == b.acoustics.M &&
-         a.acoustics.harmonic_ratio == b.acoustics.harmonic_ratio && a.tau_s == b.tau_s;
-}
-
-bool SameFlame(const Flame<double>& a, const Flame<double>& b) {
-  return a.slope == b.slope && a.saturation == b.saturation && a.offset == b.offset;
-}
 
 template <int W>
 class LaneGroup {
@@ -151,14 +142,12 @@ class LaneGroup {
     std::array<double, kLoopBlock> tau;
     const std::span<double> taus(tau.data(), static_cast<std::size_t>(count));
     if (has_effects_) {
-      std::fill(taus.begin(), taus.end(), context_.loop.tau_s);
-      context_.tau_s = taus;
+      std::fill(taus.begin(), taus.end(), effects_.at.loop.tau_s);
+      effects_.at.tau_s = taus;
       SetContextTime(first);
     }
-    if (has_effects_ && moves_delay_) {
-      for (const auto& effect : effects_) {
-        if (effect->MovesDelay()) effect->Delay(context_, taus);
-      }
+    if (has_effects_ && effects_.MovesDelay()) {
+      effects_.Delay(taus);
       Line(*this).Read(taus, {heat, static_cast<std::size_t>(count)});
     } else {
       for (int l = 0; l < W; ++l) {
@@ -173,16 +162,14 @@ class LaneGroup {
     }
     if (has_effects_) {
       const std::span<double> signal(heat, static_cast<std::size_t>(count));
-      for (const auto& effect : effects_) effect->FlameIn(context_, signal);
+      effects_.FlameIn(signal);
       ApplyFlame(block_, count, heat);
-      for (const auto& effect : effects_) effect->FlameOut(context_, signal);
+      effects_.FlameOut(signal);
       AddNoise(count, heat);
-      for (const auto& effect : effects_) effect->Source(context_, signal);
+      effects_.Source(signal);
       if (drives_) {
         std::copy(signal.begin(), signal.end(), released_.begin() + fill_row_);
-        for (const auto& effect : effects_) {
-          if (effect->Drives()) effect->Drive(context_, signal);
-        }
+        effects_.Drive(signal);
       }
     } else {
       ApplyFlame(block_, count, heat);
@@ -199,24 +186,13 @@ class LaneGroup {
   }
 
   void StartEffects() {
-    const SimulationCase& one = *cases_[0];
-    context_.step_s = step_s_;
-    context_.loop = one.rig.model.loop;
-    context_.flame = one.rig.model.flame;
     line_ = std::make_unique<Line>(*this);
-    context_.delay_line = line_.get();
-    for (const auto& effect : one.rig.effects) {
-      effects_.push_back(effect->Clone());
-      effects_.back()->Start(
-          one.rig, step_s_,
-          DeriveSeed(one.seed, static_cast<std::uint64_t>(StreamKey::kEffects) + effects_.size()));
-      moves_delay_ = moves_delay_ || effects_.back()->MovesDelay();
-    }
+    effects_.Start(*cases_[0], step_s_, line_.get());
   }
 
   void SetContextTime(int steps_ahead) {
     const auto steps = static_cast<double>(step_ + steps_ahead - settle_steps_ - half_length_);
-    context_.time_s = steps * step_s_;
+    effects_.at.time_s = steps * step_s_;
   }
 
   // Slow changes: constant within a block, taken at its first sample.
@@ -224,14 +200,13 @@ class LaneGroup {
     const RigParameters& rig = cases_[0]->rig;
     const auto present = static_cast<std::size_t>(row_) + 1;
     amplitudes_.Update({rate_.data(), present}, {pressure_.data(), present}, step_ == 0, step_s_,
-                       &context_);
+                       &effects_.at);
     SetContextTime(kAhead);
-    LoopParameters<double> loop = rig.model.loop;
-    Flame<double> flame = rig.model.flame;
-    for (const auto& effect : effects_) effect->Parameters(context_, &loop, &flame);
-    if (SameLoop(loop, context_.loop) && SameFlame(flame, context_.flame)) return;
-    const LaneCoefficients c = MakeCoefficients(rig, loop, flame, step_s_);
-    CHECK(moves_delay_ || (c.delay_steps >= kMinDelaySteps && c.delay_steps + kOrder < past_))
+    if (!effects_.MoveParameters(rig)) return;
+    const LoopParameters<double>& loop = effects_.at.loop;
+    const LaneCoefficients c = MakeCoefficients(rig, loop, effects_.at.flame, step_s_);
+    CHECK(effects_.MovesDelay() ||
+          (c.delay_steps >= kMinDelaySteps && c.delay_steps + kOrder < past_))
         << "delay of " << loop.tau_s << " s";
     // p and its integral go on without a jump: y = omega times the integral changes its unit.
     for (std::size_t k = 0; k < kMaxModes; ++k) {
@@ -239,8 +214,6 @@ class LaneGroup {
     }
     block_.Set(0, c);
     delay_steps_[0] = c.delay_steps;
-    context_.loop = loop;
-    context_.flame = flame;
   }
 
   // Hands rows [row, row + count) to the recorders, less what settling throws away.
@@ -295,11 +268,9 @@ class LaneGroup {
   int fill_row_ = 0;
   std::int64_t step_ = 0;
   bool has_effects_ = false;
-  bool moves_delay_ = false;
   bool drives_ = false;
-  std::vector<std::unique_ptr<LoopEffect>> effects_;
+  LaneEffects effects_;
   std::unique_ptr<Line> line_;
-  LoopContext context_;
   SlowAmplitudes amplitudes_;
 };
 

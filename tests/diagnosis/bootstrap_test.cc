@@ -12,6 +12,7 @@
 
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/fitted_rig.h"
+#include "model/effects/catalogue.h"
 #include "model/loop/instrument.h"
 #include "tests/diagnosis/simulated_rig.h"
 

@@ -9,6 +9,7 @@
 
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
+#include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {
@@ -136,7 +137,7 @@ TEST(LongDelayScatter, WhereNoScopeIsStatedALawOfSixDelaysIsNamed) {
 TEST(DelayScatter, AnEffectThatLeavesTheFlameAloneDoesNotTakeOffTheDelaysCost) {
   const std::vector<CutRecord> records = MakeCutRecords(RigWithDelays(Scattered()), kOwnDelays);
   const EffectFit base = FitBase(records);
-  const EffectFit fit = FitEffect(records, ExtraAcousticMode(2, kPaperHarmonicRatio)[0], base);
+  const EffectFit fit = FitEffect(records, ExtraAcousticMode()[0], base);
   EXPECT_GT(base.delay_cost, 10.0);
   EXPECT_EQ(fit.delay_cost, base.delay_cost);
 }

@@ -13,6 +13,7 @@
 #include "diagnosis/cuts/flame_cut.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/pair/pair_parts.h"
+#include "model/effects/catalogue.h"
 #include "model/effects/combined.h"
 #include "tests/diagnosis/simulated_rig.h"
 

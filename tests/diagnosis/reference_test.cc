@@ -15,6 +15,7 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/noise/cut_noise.h"
 #include "diagnosis/reference/reference_clipping.h"
+#include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

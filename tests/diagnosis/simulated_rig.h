@@ -10,6 +10,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "estimation/analysis/spectra/simulated_record.h"
+#include "model/effects/catalogue.h"
 #include "model/simulation/simulate.h"
 
 namespace howl {

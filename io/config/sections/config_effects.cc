@@ -9,6 +9,7 @@
 
 #include "io/config/schema/nearest_key.h"
 #include "io/config/sections/config_sections.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {
