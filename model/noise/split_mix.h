@@ -1,5 +1,5 @@
-// SplitMix64 (Steele, Lea, Flood 2014): its step, and its finaliser, in which every input bit reaches
-// every output bit.
+// SplitMix64 (Steele, Lea, Flood 2014): its step, and its finaliser, in which every input bit
+// reaches every output bit.
 #ifndef HOWL_MODEL_NOISE_SPLIT_MIX_H_
 #define HOWL_MODEL_NOISE_SPLIT_MIX_H_
 
