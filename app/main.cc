@@ -10,16 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "app/command.h"
-#include "app/command_line.h"
+#include "app/command_line/command.h"
+#include "app/command_line/command_line.h"
+#include "app/command_line/negative_answer.h"
 #include "app/help/completion.h"
 #include "app/help/help_text.h"
 #include "app/help/help_topics.h"
-#include "app/interruption.h"
-#include "app/negative_answer.h"
-#include "app/output_claim.h"
-#include "app/progress_line.h"
-#include "app/standard_streams.h"
+#include "app/jobs/output_claim.h"
+#include "app/process/interruption.h"
+#include "app/process/progress_line.h"
+#include "app/process/standard_streams.h"
 #include "estimation/parallel.h"
 #include "io/report/run_file.h"
 #include "io/user_error.h"

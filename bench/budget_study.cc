@@ -14,6 +14,7 @@
 #include "bench/measured_rig.h"
 #include "diagnosis/budget/budget.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/records/records.h"
 
 namespace howl {
@@ -36,7 +37,8 @@ int Run(int argc, char** argv) {
   }
   if (const double hz = Number("LOWPASS_Q_HZ"); hz > 0.0) LowPassQ(&rig, hz);
   if (const double skew_s = Number("SKEW_Q_S"); skew_s != 0.0) SkewQ(&rig, skew_s);
-  if (const double fraction = Number("CLIP_P"); fraction > 0.0) ClipSignal(&rig, true, fraction);
+  if (const double fraction = Number("CLIP_P"); fraction > 0.0)
+    ClipSignal(&rig, Channel::kPressure, fraction);
   if (const double rel = Number("HUM_Q"); rel > 0.0) HumInQ(&rig, rel);
   if (const double rel = Number("CROSSTALK"); rel != 0.0) CrosstalkToQ(&rig, rel);
   BaseModel model;

@@ -6,9 +6,11 @@
 #include <string>
 
 #include "bench/measured_rig.h"
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/slack.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/gap/slack.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/records/records.h"
 
 namespace howl {

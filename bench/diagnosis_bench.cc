@@ -2,12 +2,14 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/simulated_rig.h"
-#include "diagnosis/bootstrap/fitted_rig.h"
-#include "diagnosis/coherent_lines.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/gain_fluctuation.h"
-#include "diagnosis/slack.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/fit/fitted_rig.h"
+#include "diagnosis/gap/slack.h"
+#include "diagnosis/samples/coherent_lines.h"
+#include "diagnosis/samples/gain_fluctuation.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {

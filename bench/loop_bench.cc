@@ -1,11 +1,11 @@
 // Time of each analysis of one loop: the paper's, two modes, M/N = 0.6, up to 2 kHz.
 #include <benchmark/benchmark.h>
 
-#include "model/continuation.h"
-#include "model/crossings.h"
-#include "model/floquet.h"
-#include "model/harmonic_balance.h"
-#include "model/poles.h"
+#include "model/cycles/continuation.h"
+#include "model/cycles/floquet.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/loop/crossings.h"
+#include "model/loop/poles.h"
 
 namespace {
 

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/real_fft.h"
+#include "diagnosis/numerics/real_fft.h"
+#include "diagnosis/records/channel_signal.h"
 
 namespace howl {
 
@@ -74,9 +75,9 @@ inline void SkewQ(MeasuredRig* rig, double skew_s) {
 }
 
 // At `fraction` of the amplitude.
-inline void ClipSignal(MeasuredRig* rig, bool pressure, double fraction) {
+inline void ClipSignal(MeasuredRig* rig, Channel channel, double fraction) {
   for (DiagnosisExperiment& each : *rig) {
-    std::vector<double>& x = pressure ? each.record.pressure : each.record.heat_release;
+    std::vector<double>& x = SignalOf(each.record, channel);
     const double mean = MeanOf(x);
     const double limit = fraction * AmplitudeOf(x);
     for (double& value : x) value = mean + std::clamp(value - mean, -limit, limit);

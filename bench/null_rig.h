@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "model/random_stream.h"
-#include "model/simulate.h"
+#include "estimation/analysis/spectra/simulated_record.h"
+#include "model/noise/random_stream.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 
@@ -79,14 +80,8 @@ inline std::vector<DiagnosisExperiment> Recorded(const NullRig& rig) {
   SimulationOptions how;
   how.duration_s = 3.2;
   how.settle_s = 1.0;
-  std::vector<DiagnosisExperiment> experiments;
-  for (const SimulatedRecord& record : SimulateBatch(rig.cases, how)) {
-    const std::size_t e = experiments.size();
-    experiments.push_back({"exp" + std::to_string(e + 1),
-                           0.56 - 0.02 * static_cast<double>(e),
-                           {record.sampling_hz, record.pressure, record.heat_release}});
-  }
-  return experiments;
+  return RecordedPoints<DiagnosisExperiment>(
+      rig.cases, how, [](std::size_t i) { return 0.56 - 0.02 * static_cast<double>(i); });
 }
 
 }  // namespace howl

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <vector>
 
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace {
 

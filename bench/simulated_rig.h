@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "model/simulate.h"
+#include "estimation/analysis/spectra/simulated_record.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 
@@ -26,13 +27,8 @@ inline std::vector<DiagnosisExperiment> SimulatedPoints(int count) {
   SimulationOptions options;
   options.duration_s = 3.2;
   options.settle_s = 0.5;
-  std::vector<DiagnosisExperiment> points;
-  for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
-    points.push_back({"exp" + std::to_string(points.size() + 1),
-                      0.56 - 0.02 * static_cast<double>(points.size()),
-                      {record.sampling_hz, record.pressure, record.heat_release}});
-  }
-  return points;
+  return RecordedPoints<DiagnosisExperiment>(
+      cases, options, [](std::size_t i) { return 0.56 - 0.02 * static_cast<double>(i); });
 }
 
 }  // namespace howl

@@ -2,53 +2,54 @@
 # front headers; the others are what those include. tests/structure/check_installed_headers.py holds
 # the two lists together. All else is a part of the program, free to change.
 set(howl_front_headers
-    model/continuation.h
-    model/crossings.h
-    model/duct_flame.h
-    model/floquet.h
-    model/harmonic_balance.h
-    model/hopf_point.h
-    model/poles.h
-    model/simulate.h
+    model/cycles/continuation.h
+    model/loop/crossings.h
+    model/delay_systems/duct_flame.h
+    model/cycles/floquet.h
+    model/cycles/harmonic_balance.h
+    model/delay_systems/hopf_point.h
+    model/loop/poles.h
+    model/simulation/simulate.h
     estimation/analysis/analyse.h
     estimation/family/bounds/enclose.h
     estimation/family/members/sample.h
     estimation/fit/joint_fit.h)
 set(howl_included_headers
-    model/acoustics.h
-    model/complex.h
-    model/delay.h
-    model/delay_system.h
-    model/flame.h
-    model/formula.h
-    model/instrument.h
-    model/laplace.h
-    model/loop.h
-    model/loop_effect.h
-    model/noise.h
-    model/random_stream.h
-    model/units.h
-    estimation/analysis/characteristics.h
-    estimation/analysis/cycle_band.h
-    estimation/analysis/delay.h
-    estimation/analysis/experiment.h
-    estimation/analysis/flame_curve.h
-    estimation/analysis/growth.h
-    estimation/analysis/lines.h
-    estimation/analysis/loop_gain_reason.h
+    model/loop/acoustics.h
+    model/numerics/complex.h
+    model/loop/delay.h
+    model/delay_systems/delay_system.h
+    model/loop/flame.h
+    model/numerics/formula.h
+    model/loop/instrument.h
+    model/loop/laplace.h
+    model/loop/loop.h
+    model/loop/loop_effect.h
+    model/noise/noise.h
+    model/noise/random_stream.h
+    model/noise/split_mix.h
+    model/numerics/units.h
+    estimation/analysis/cycle/characteristics.h
+    estimation/analysis/cycle/cycle_band.h
+    estimation/analysis/loop/delay.h
+    estimation/analysis/loop/experiment.h
+    estimation/analysis/flame/flame_curve.h
+    estimation/analysis/cycle/growth.h
+    estimation/analysis/spectra/lines.h
+    estimation/analysis/loop/loop_gain_reason.h
     estimation/analysis/oscillations/notch.h
     estimation/analysis/oscillations/oscillations.h
-    estimation/analysis/record.h
-    estimation/analysis/oscillations/slow_modulation.h
-    estimation/analysis/spectral_peak.h
-    estimation/analysis/spectrum.h
-    estimation/analysis/statistics.h
-    estimation/analysis/transfer.h
-    estimation/analysis/transfer_ellipsoid.h
-    estimation/analysis/vanishing_phi.h
-    estimation/family/bounds/cell.h
+    estimation/analysis/spectra/record.h
+    estimation/analysis/spectra/slow_modulation.h
+    estimation/analysis/spectra/spectral_peak.h
+    estimation/analysis/spectra/spectrum.h
+    estimation/analysis/spectra/statistics.h
+    estimation/analysis/transfer/transfer.h
+    estimation/analysis/transfer/transfer_ellipsoid.h
+    estimation/analysis/loop/vanishing_phi.h
+    estimation/family/bounds/contract/cell.h
     estimation/family/bounds/expression.h
-    estimation/family/bounds/interval.h
+    estimation/family/bounds/contract/interval.h
     estimation/family/problem/family_parameter.h
     estimation/family/problem/membership.h
     estimation/family/problem/problem.h

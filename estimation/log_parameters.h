@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-#include "model/acoustics.h"
+#include "model/loop/acoustics.h"
 
 namespace howl {
 

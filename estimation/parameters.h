@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/loop.h"
+#include "model/loop/loop.h"
 
 namespace howl {
 

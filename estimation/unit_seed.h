@@ -7,16 +7,10 @@
 #include <cstdint>
 #include <string_view>
 
+#include "model/noise/split_mix.h"
+
 namespace howl {
 
-// Splitmix64 (Steele, Lea, Flood 2014): its step, and its finaliser, in which every input bit
-// reaches every output bit.
-inline constexpr std::uint64_t kSplitMixStep = 0x9e3779b97f4a7c15u;
-constexpr std::uint64_t FinaliseBits(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
 constexpr std::uint64_t MixBits(std::uint64_t x) { return FinaliseBits(x + kSplitMixStep); }
 
 constexpr std::uint64_t UnitSeed(std::uint64_t run_seed, std::string_view key,

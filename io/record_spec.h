@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "estimation/analysis/instrument_response.h"
+#include "estimation/analysis/instruments/instrument_response.h"
 
 namespace howl {
 

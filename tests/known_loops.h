@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/parameters.h"
-#include "model/loop.h"
-#include "model/units.h"
+#include "model/loop/loop.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

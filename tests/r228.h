@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 
 namespace howl {
 

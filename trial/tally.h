@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "estimation/analysis/statistics.h"
+#include "estimation/analysis/spectra/statistics.h"
 
 namespace howl {
 

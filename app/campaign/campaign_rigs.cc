@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "app/campaign/derived_config.h"
-#include "io/config/config_text.h"
-#include "io/config/yaml_text.h"
-#include "io/config/yaml_tree.h"
+#include "io/config/yaml/config_text.h"
+#include "io/config/yaml/yaml_text.h"
+#include "io/config/yaml/yaml_tree.h"
 #include "io/report/csv_table.h"
 #include "io/user_error.h"
 

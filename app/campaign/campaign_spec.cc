@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/config/config_cursor.h"
-#include "io/config/config_text.h"
-#include "io/config/schema_check.h"
-#include "io/config/yaml_tree.h"
+#include "io/config/schema/config_cursor.h"
+#include "io/config/schema/schema_check.h"
+#include "io/config/yaml/config_text.h"
+#include "io/config/yaml/yaml_tree.h"
 #include "io/user_error.h"
 
 namespace howl {

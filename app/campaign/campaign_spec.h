@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "io/config/located_node.h"
+#include "io/config/yaml/located_node.h"
 
 namespace howl {
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "app/campaign/rig_row.h"
-#include "app/command.h"
+#include "app/command_line/command.h"
 #include "io/results/csv_writer.h"
 
 namespace howl {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/text_table.h"
+#include "app/text/text_table.h"
 #include "io/report/csv_table.h"
-#include "io/results/result_files.h"
+#include "io/result_files.h"
 
 namespace howl {
 namespace {

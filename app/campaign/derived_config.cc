@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "io/config/config_cursor.h"
-#include "io/config/config_sections.h"
-#include "io/config/table_name.h"
+#include "io/config/schema/config_cursor.h"
+#include "io/config/sections/config_sections.h"
+#include "io/config/sections/table_name.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/digest.h"
+#include "app/files/digest.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/campaign/rig_row.h"
-#include "app/child_process.h"
-#include "app/command.h"
-#include "app/digest.h"
-#include "app/interruption.h"
+#include "app/command_line/command.h"
+#include "app/files/digest.h"
+#include "app/process/child_process.h"
+#include "app/process/interruption.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "app/command.h"
-#include "app/command_line.h"
+#include "app/command_line/command.h"
+#include "app/command_line/command_line.h"
 #include "app/help/completion_values.h"
 #include "app/help/help_topics.h"
 

@@ -1,6 +1,6 @@
 #include "app/help/completion_script.h"
 
-#include "app/options.h"
+#include "app/command_line/options.h"
 
 namespace howl {
 namespace {

@@ -7,12 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command_line.h"
+#include "app/command_line/command_line.h"
 #include "app/trial/trial_rig.h"
 #include "diagnosis/diagnosis.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
+#include "io/result_files.h"
 #include "io/results/family_csv.h"
-#include "io/results/result_files.h"
 
 namespace howl {
 namespace {

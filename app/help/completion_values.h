@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "app/command.h"
+#include "app/command_line/command.h"
+#include "app/command_line/options.h"
 #include "app/help/completion.h"
-#include "app/options.h"
 
 namespace howl {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/command_line.h"
+#include "app/command_line/command_line.h"
 #include "model/version.h"
 
 namespace howl {

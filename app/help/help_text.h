@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command.h"
+#include "app/command_line/command.h"
 
 namespace howl {
 

@@ -6,12 +6,12 @@
 #include <optional>
 #include <sstream>
 
-#include "app/command.h"
-#include "app/command_line.h"
+#include "app/command_line/command.h"
+#include "app/command_line/command_line.h"
 #include "app/help/completion_script.h"
 #include "app/help/man_page.h"
 #include "estimation/residuals/registry.h"
-#include "io/config/config_schema.h"
+#include "io/config/schema/config_schema.h"
 
 namespace howl {
 namespace {

@@ -5,7 +5,7 @@
 #include <ctime>
 #include <string_view>
 
-#include "app/command_line.h"
+#include "app/command_line/command_line.h"
 #include "app/help/help_text.h"
 #include "app/help/roff.h"
 #include "model/version.h"

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "app/command.h"
+#include "app/command_line/command.h"
 
 namespace howl {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/digest.h"
+#include "app/files/digest.h"
 
 namespace howl {
 

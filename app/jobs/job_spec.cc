@@ -6,13 +6,13 @@
 #include <string_view>
 #include <system_error>
 
-#include "app/command.h"
-#include "app/command_line.h"
+#include "app/command_line/command.h"
+#include "app/command_line/command_line.h"
 #include "app/jobs/shard.h"
-#include "io/config/config_cursor.h"
-#include "io/config/config_text.h"
-#include "io/config/schema_check.h"
-#include "io/config/yaml_tree.h"
+#include "io/config/schema/config_cursor.h"
+#include "io/config/schema/schema_check.h"
+#include "io/config/yaml/config_text.h"
+#include "io/config/yaml/yaml_tree.h"
 #include "io/user_error.h"
 
 namespace howl {

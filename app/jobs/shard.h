@@ -16,9 +16,9 @@
 #include <optional>
 #include <string>
 
-#include "app/command.h"
+#include "app/command_line/command.h"
+#include "app/command_line/options.h"
 #include "app/jobs/unit_store.h"
-#include "app/options.h"
 
 namespace howl {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/options.h"
 #include "app/jobs/unit_store.h"
-#include "app/options.h"
 
 namespace howl {
 

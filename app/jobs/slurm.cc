@@ -7,7 +7,7 @@
 #include <optional>
 #include <sstream>
 
-#include "app/child_process.h"
+#include "app/process/child_process.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "app/digest.h"
+#include "app/files/digest.h"
 #include "app/jobs/shard.h"
 #include "app/jobs/slurm.h"
 #include "io/user_error.h"

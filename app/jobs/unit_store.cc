@@ -4,7 +4,7 @@
 #include <system_error>
 #include <utility>
 
-#include "app/digest.h"
+#include "app/files/digest.h"
 #include "estimation/unit_seed.h"
 #include "model/version.h"
 

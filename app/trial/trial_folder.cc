@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "app/digest.h"
-#include "app/json_fields.h"
+#include "app/files/digest.h"
+#include "io/json_fields.h"
 
 namespace howl {
 namespace {

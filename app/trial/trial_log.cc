@@ -9,8 +9,8 @@
 #include <ctime>
 #include <fstream>
 
-#include "app/digest.h"
-#include "app/json_fields.h"
+#include "app/files/digest.h"
+#include "io/json_fields.h"
 #include "io/user_error.h"
 
 namespace howl {

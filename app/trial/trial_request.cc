@@ -1,8 +1,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "app/digest.h"
+#include "app/files/digest.h"
 #include "app/trial/trial_run.h"
+#include "io/config/reading/config_reading.h"
 
 namespace howl {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "app/child_process.h"
-#include "app/problem_input.h"
-#include "app/record_input.h"
+#include "app/input/problem_input.h"
+#include "app/input/record_input.h"
+#include "app/process/child_process.h"
 #include "io/user_error.h"
 
 namespace howl {

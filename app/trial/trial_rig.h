@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/options.h"
-#include "estimation/analysis/experiment.h"
+#include "app/command_line/options.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "io/config/config.h"
 #include "trial/case_plan.h"
 

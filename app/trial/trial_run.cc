@@ -7,11 +7,11 @@
 #include <set>
 #include <thread>
 
-#include "app/child_process.h"
-#include "app/digest.h"
-#include "app/interruption.h"
-#include "app/json_fields.h"
+#include "app/files/digest.h"
+#include "app/process/child_process.h"
+#include "app/process/interruption.h"
 #include "app/trial/trial_seal.h"
+#include "io/json_fields.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

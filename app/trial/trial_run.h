@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line/options.h"
 #include "app/jobs/shard.h"
-#include "app/options.h"
 #include "app/trial/trial_folder.h"
 #include "app/trial/trial_rig.h"
 #include "trial/score.h"

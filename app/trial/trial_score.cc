@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "app/digest.h"
-#include "app/json_fields.h"
+#include "app/files/digest.h"
 #include "app/trial/trial_run.h"
-#include "io/results/result_files.h"
+#include "io/json_fields.h"
+#include "io/result_files.h"
 #include "io/results/trial_json.h"
 #include "io/results/trial_sheet.h"
 #include "io/whole_file.h"

@@ -2,8 +2,8 @@
 
 #include <sys/stat.h>
 
-#include "app/child_process.h"
-#include "app/digest.h"
+#include "app/files/digest.h"
+#include "app/process/child_process.h"
 #include "io/whole_file.h"
 #include "model/version.h"
 

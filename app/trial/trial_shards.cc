@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "app/child_process.h"
-#include "app/digest.h"
-#include "app/json_fields.h"
+#include "app/files/digest.h"
+#include "app/process/child_process.h"
 #include "app/trial/trial_seal.h"
+#include "io/json_fields.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <string>
 
+#include "app/command_line/options.h"
 #include "app/jobs/shard.h"
 #include "app/jobs/unit_store.h"
-#include "app/options.h"
 #include "app/trial/trial_run.h"
 
 namespace howl {

@@ -4,7 +4,7 @@
 
 #include "bench/limits/measured.h"
 #include "bench/r228_family.h"
-#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/contract/cell_contractor.h"
 
 namespace howl::limits {
 namespace {

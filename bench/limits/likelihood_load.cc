@@ -4,7 +4,8 @@
 
 #include "bench/limits/measured.h"
 #include "bench/simulated_rig.h"
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/structure/structure_fit.h"
 
 namespace howl::limits {

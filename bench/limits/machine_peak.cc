@@ -2,8 +2,8 @@
 // fused or not, are two.
 //
 // The project's libraries are built with -O3 for any x86-64 machine, so with scalar numbers or two
-// lanes; some of its loops (model/lane_loop.cc) have copies for four and eight lanes as well, in
-// which products and sums are never fused.
+// lanes; some of its loops (model/simulation/lane_loop.cc) have copies for four and eight lanes as
+// well, in which products and sums are never fused.
 #include <cstddef>
 #include <utility>
 

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "bench/limits/measured.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl::limits {
 namespace {

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/cut_record.h"
-#include "diagnosis/estimated_parameter.h"
-#include "diagnosis/fit_memory.h"
+#include "diagnosis/fit/estimated_parameter.h"
+#include "diagnosis/fit/fit_memory.h"
+#include "diagnosis/records/cut_record.h"
 
 namespace howl {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/effects/catalogue.h"
+
 namespace howl {
 namespace {
 

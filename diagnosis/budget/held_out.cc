@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/coherent_lines.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/samples/coherent_lines.h"
 
 namespace howl {
 namespace {

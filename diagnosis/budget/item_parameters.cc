@@ -9,7 +9,7 @@
 #include <string>
 
 #include "diagnosis/budget/item_removal.h"
-#include "diagnosis/fitter.h"
+#include "diagnosis/fit/fitter.h"
 
 namespace howl {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "diagnosis/budget/budget_item.h"
-#include "diagnosis/estimated_parameter.h"
+#include "diagnosis/fit/estimated_parameter.h"
 
 namespace howl {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "diagnosis/budget/mode_starts.h"
-#include "diagnosis/fit_starts.h"
+#include "diagnosis/fit/fit_starts.h"
 
 namespace howl {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "diagnosis/budget/held_out.h"
-#include "diagnosis/estimated_parameter.h"
+#include "diagnosis/fit/estimated_parameter.h"
 
 namespace howl {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/sample_limits.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/samples/sample_limits.h"
+#include "diagnosis/verdict/verdict.h"
 
 namespace howl {
 namespace {
@@ -40,12 +40,13 @@ const std::vector<CutRecord>& AsRecorded(const AttemptContext& at) {
 
 double NoiseGivenReference(const AttemptContext& at) { return at.reference ? kNearNoise : 0.0; }
 
-bool ShowsLimits(const AttemptContext& at, bool pressure) {
+bool ShowsLimits(const AttemptContext& at, Channel channel) {
+  const bool pressure = channel == Channel::kPressure;
   const ReferenceModel* known = at.reference;
   const bool known_edge =
       known && (pressure ? known->pressure_sharp_edge : known->heat_release_sharp_edge);
   const bool known_levels = known && known->quantisation_levels > 0.0;
-  return (!known_edge && HasSharpEdge(*at.records, pressure)) ||
+  return (!known_edge && HasSharpEdge(*at.records, channel)) ||
          (pressure && !known_levels && FindQuantisation(AsRecorded(at)).found);
 }
 

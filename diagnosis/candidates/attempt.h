@@ -10,12 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/coherent_lines.h"
-#include "diagnosis/diagnosis.h"
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/gain_fluctuation.h"
-#include "diagnosis/reference.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/fit/fit_memory.h"
+#include "diagnosis/reference/reference.h"
+#include "diagnosis/samples/coherent_lines.h"
+#include "diagnosis/samples/gain_fluctuation.h"
+#include "diagnosis/verdict/diagnosis_result.h"
 #include "model/effects/declared_effect.h"
+#include "model/loop/instrument.h"
 
 namespace howl {
 
@@ -95,7 +97,7 @@ double NoiseGivenReference(const AttemptContext& at);
 
 // True where the channel's samples have a sharp edge in their density, or p's samples few levels,
 // and the reference's have not.
-bool ShowsLimits(const AttemptContext& at, bool pressure);
+bool ShowsLimits(const AttemptContext& at, Channel channel);
 
 // Half the logarithm of the data's size for each parameter, as in the BIC.
 double PriceOfParameters(double parameters);

@@ -1,7 +1,8 @@
 #include <glog/logging.h>
 
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/static_map.h"
+#include "diagnosis/records/channel_signal.h"
+#include "diagnosis/samples/static_map.h"
 
 namespace howl {
 namespace {
@@ -12,8 +13,9 @@ constexpr double kPlateauNoise = 0.45;
 
 Attempt TryClipping(const AttemptContext& at, const Effect& effect) {
   Attempt out = Named(at, effect);
-  const bool pressure = effect.id() == "p_clipping";
-  ClippingFit clipping = FitClipping(*at.records, pressure, *at.base);
+  const Channel channel = ChannelOf(effect.block());
+  const bool pressure = channel == Channel::kPressure;
+  ClippingFit clipping = FitClipping(*at.records, channel, *at.base);
   if (at.reference) {
     clipping.gain =
         std::max(0.0, clipping.gain - 2.0 * (pressure ? at.reference->pressure_clipping_gain

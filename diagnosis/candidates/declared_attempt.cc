@@ -1,7 +1,7 @@
 #include <utility>
 
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/declared_fit.h"
+#include "diagnosis/candidates/declared_fit.h"
 
 namespace howl {
 

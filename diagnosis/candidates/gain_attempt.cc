@@ -8,7 +8,7 @@ namespace howl {
 Attempt TryGain(const AttemptContext& at, const Effect& effect,
                 const GainFluctuation& fluctuation) {
   Attempt out = Named(at, effect);
-  const bool coloured = effect.id() == "parametric_noise";
+  const bool coloured = effect.kind() == EffectKind::kColouredGain;
   const double worse = coloured ? fluctuation.coloured_cost - fluctuation.switching_cost
                                 : fluctuation.switching_cost - fluctuation.coloured_cost;
   out.candidate.gain = fluctuation.gain - std::max(0.0, worse);

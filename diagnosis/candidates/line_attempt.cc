@@ -8,7 +8,7 @@ Attempt TryLines(const AttemptContext& at, const Effect& effect,
                  const std::vector<CoherentLine>& lines, const LineOrigin& origin) {
   Attempt out = Named(at, effect);
   if (lines.empty()) return out;
-  const bool hum = effect.id() == "mains_hum";
+  const bool hum = effect.kind() == EffectKind::kHum;
   const double in_channel = std::max(origin.heat_release_hum, origin.pressure_hum);
   if (hum) {
     out.candidate.gain = origin.mains ? in_channel : 0.0;

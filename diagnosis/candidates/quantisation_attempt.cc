@@ -1,5 +1,5 @@
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/sample_limits.h"
+#include "diagnosis/samples/sample_limits.h"
 
 namespace howl {
 

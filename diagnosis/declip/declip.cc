@@ -4,11 +4,11 @@
 #include <limits>
 #include <utility>
 
-#include "diagnosis/cut_noise.h"
 #include "diagnosis/declip/unclipped_samples.h"
-#include "diagnosis/real_fft.h"
-#include "diagnosis/real_gram.h"
-#include "diagnosis/scaled_solve.h"
+#include "diagnosis/noise/cut_noise.h"
+#include "diagnosis/numerics/real_fft.h"
+#include "diagnosis/numerics/real_gram.h"
+#include "diagnosis/numerics/scaled_solve.h"
 #include "estimation/parallel.h"
 
 namespace howl {

@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/fit/effect_fit.h"
 
 namespace howl {
 

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
-#include "diagnosis/acoustic_modulation.h"
-#include "diagnosis/band_signal.h"
-#include "diagnosis/fitter.h"
-#include "diagnosis/scaled_solve.h"
+#include "diagnosis/cuts/acoustic_modulation.h"
+#include "diagnosis/fit/fitter.h"
+#include "diagnosis/numerics/scaled_solve.h"
+#include "diagnosis/records/band_signal.h"
 #include "estimation/parallel.h"
 
 namespace howl {

@@ -12,8 +12,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/sample_limits.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/samples/sample_limits.h"
 
 namespace howl {
 

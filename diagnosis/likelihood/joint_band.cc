@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/cuts/make_cut_records.h"
+
 namespace howl {
 namespace {
 

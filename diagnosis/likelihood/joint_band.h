@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/cut_record.h"
+#include "diagnosis/records/cut_record.h"
 
 namespace howl {
 

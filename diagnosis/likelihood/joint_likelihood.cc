@@ -5,9 +5,9 @@
 #include <cmath>
 #include <complex>
 
-#include "diagnosis/acoustic_modulation.h"
-#include "diagnosis/flame_basis.h"
-#include "diagnosis/real_gram.h"
+#include "diagnosis/cuts/acoustic_modulation.h"
+#include "diagnosis/cuts/flame_basis.h"
+#include "diagnosis/numerics/real_gram.h"
 
 namespace howl {
 namespace {

@@ -22,8 +22,8 @@
 #include <memory>
 #include <vector>
 
-#include "diagnosis/acoustic_cut.h"
-#include "diagnosis/flame_cut.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/flame_cut.h"
 #include "diagnosis/likelihood/joint_band.h"
 #include "diagnosis/likelihood/noise_sources.h"
 

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <memory>
 
-#include "diagnosis/band_signal.h"
-#include "diagnosis/cut_noise.h"
-#include "diagnosis/real_fft.h"
-#include "diagnosis/real_gram.h"
-#include "diagnosis/scaled_solve.h"
+#include "diagnosis/noise/cut_noise.h"
+#include "diagnosis/numerics/real_fft.h"
+#include "diagnosis/numerics/real_gram.h"
+#include "diagnosis/numerics/scaled_solve.h"
+#include "diagnosis/records/band_signal.h"
+#include "diagnosis/records/channel_signal.h"
 
 namespace howl {
 namespace {
@@ -18,10 +19,6 @@ constexpr int kIterations = 5;
 constexpr int kHalvings = 5;
 constexpr double kDamping = 1e-9;
 constexpr double kLeastGain = 25.0;  // what six coefficients cost, and a little
-
-const Eigen::VectorXd& Channel(const CutRecord& record, bool pressure) {
-  return pressure ? record.pressure : record.heat_release;
-}
 
 // The spectra of A T_j(x / A) on the extended band.
 Eigen::MatrixXcd MapSpectra(const CutRecord& record, const Eigen::VectorXd& signal,
@@ -43,8 +40,9 @@ Eigen::VectorXd PredictedPressure(const CutRecord& record, const Eigen::VectorXc
   return InTime(record, transfer.cwiseProduct(record.driving_heat_release));
 }
 
-Eigen::MatrixXcd Columns(const CutRecord& record, bool pressure, double largest,
+Eigen::MatrixXcd Columns(const CutRecord& record, Channel channel, double largest,
                          const AcousticLocals& locals) {
+  const bool pressure = channel == Channel::kPressure;
   Eigen::MatrixXcd out(record.acoustic_count, kMapTerms);
   const Eigen::VectorXcd r = RecordedTransfer(record, *BaseEffect(), {}, locals);
   // A predicted p may be larger than any that was recorded.
@@ -84,12 +82,13 @@ void DriveFlame(const std::vector<CutRecord>& records, EffectFit* fit) {
 
 }  // namespace
 
-EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const EffectFit& base) {
+EffectFit FitFreeMap(const std::vector<CutRecord>& records, Channel channel,
+                     const EffectFit& base) {
   EffectFit fit = base;
   const Effect& none = *base.effect;
   double largest = 0.0;
   for (const CutRecord& record : records) {
-    largest = std::max(largest, Channel(record, pressure).cwiseAbs().maxCoeff());
+    largest = std::max(largest, SignalOf(record, channel).cwiseAbs().maxCoeff());
   }
   Eigen::VectorXd c = Eigen::VectorXd::Zero(kMapTerms);
   const auto residual = [&](std::size_t e, const Eigen::MatrixXcd& columns) {
@@ -109,7 +108,7 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
       for (std::size_t e = 0; e < records.size(); ++e) {
         const ExperimentFit& at = fit.experiments[e];
         const Eigen::VectorXd weight = AcousticWeights(records[e], at.acoustic_noise);
-        const Eigen::MatrixXcd columns = Columns(records[e], pressure, largest, at.acoustics);
+        const Eigen::MatrixXcd columns = Columns(records[e], channel, largest, at.acoustics);
         const Eigen::VectorXcd error = residual(e, columns);
         now += squares(e, error);
         const Eigen::MatrixXcd jacobian =
@@ -136,7 +135,7 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
           move[1] = std::clamp(move[1], -0.5, 0.5);
           AcousticLocals& locals = fit.experiments[e].acoustics;
           locals = was.experiments[e].acoustics + share * move;
-          moved += squares(e, residual(e, Columns(records[e], pressure, largest, locals)));
+          moved += squares(e, residual(e, Columns(records[e], channel, largest, locals)));
         }
         if (moved < now) break;
         if (half + 1 == kHalvings) {
@@ -148,7 +147,7 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
     fit.acoustic_cost = 0.0;
     for (std::size_t e = 0; e < records.size(); ++e) {
       ExperimentFit& at = fit.experiments[e];
-      at.acoustic_residual = residual(e, Columns(records[e], pressure, largest, at.acoustics));
+      at.acoustic_residual = residual(e, Columns(records[e], channel, largest, at.acoustics));
       const Eigen::VectorXcd r = RecordedTransfer(records[e], none, {}, at.acoustics);
       at.acoustic_noise =
           FitAcousticNoise(records[e], at.acoustic_residual,
@@ -159,7 +158,7 @@ EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const
   }
   // A flame that is driven by predicted p is free of p's sensor noise too, which is no evidence of
   // a static map.
-  if (pressure && best.acoustic_cost < base.acoustic_cost - kLeastGain) {
+  if (channel == Channel::kPressure && best.acoustic_cost < base.acoustic_cost - kLeastGain) {
     DriveFlame(records, &best);
   }
   return best;

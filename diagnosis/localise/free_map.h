@@ -11,14 +11,15 @@
 
 #include <vector>
 
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "model/loop/instrument.h"
 
 namespace howl {
 
 inline constexpr Eigen::Index kMapTerms = 6;
 
 // The base's fit with the map: costs and residuals include it.
-EffectFit FitFreeMap(const std::vector<CutRecord>& records, bool pressure, const EffectFit& base);
+EffectFit FitFreeMap(const std::vector<CutRecord>& records, Channel channel, const EffectFit& base);
 
 }  // namespace howl
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "model/effects/catalogue.h"
+#include "model/effects/effect.h"
 
 namespace howl {
 

@@ -63,12 +63,13 @@ BlockSlack OfForm(const AttemptContext& at, const EffectFit& fit) {
               static_cast<double>(fit.values.size()));
 }
 
-BlockSlack OfMap(const AttemptContext& at, bool pressure) {
-  const EffectFit fit = FitFreeMap(*at.records, pressure, *at.base);
+BlockSlack OfMap(const AttemptContext& at, Channel channel) {
+  const bool pressure = channel == Channel::kPressure;
+  const EffectFit fit = FitFreeMap(*at.records, channel, *at.base);
   BlockSlack out =
       Paid(at, fit, pressure ? LoopBlock::kPressureInstrument : LoopBlock::kHeatReleaseInstrument,
            pressure ? "slack_p_map" : "slack_q_map", static_cast<double>(kMapTerms));
-  out.model_free = ShowsLimits(at, pressure);
+  out.model_free = ShowsLimits(at, channel);
   return out;
 }
 
@@ -112,7 +113,7 @@ std::vector<BlockSlack> Localise(const AttemptContext& at, const std::vector<Coh
   std::vector<BlockSlack> out(forms.size() + 2);
   RunUnits(out.size(), threads, [&](std::size_t i) {
     if (i >= forms.size()) {
-      out[i] = OfMap(at, i == forms.size());
+      out[i] = OfMap(at, i == forms.size() ? Channel::kPressure : Channel::kHeatRelease);
       return;
     }
     fits[i] = FitEffect(*at.records, forms[i], *at.base);

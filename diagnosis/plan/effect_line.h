@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "diagnosis/cut_record.h"
-#include "model/effects/catalogue.h"
+#include "diagnosis/records/cut_record.h"
+#include "model/effects/effect.h"
 
 namespace howl {
 

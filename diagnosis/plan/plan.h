@@ -18,7 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/records/cut_record.h"
+#include "model/effects/effect.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "diagnosis/delay_scatter.h"
+#include "diagnosis/fit/delay_scatter.h"
 
 namespace howl {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "diagnosis/delay_scatter.h"
+#include "diagnosis/fit/delay_scatter.h"
 #include "diagnosis/plan/effect_line.h"
 #include "diagnosis/plan/plan_point.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "diagnosis/cut_noise.h"
-#include "diagnosis/real_gram.h"
-#include "diagnosis/scaled_solve.h"
+#include "diagnosis/noise/cut_noise.h"
+#include "diagnosis/numerics/real_gram.h"
+#include "diagnosis/numerics/scaled_solve.h"
 
 namespace howl {
 namespace {

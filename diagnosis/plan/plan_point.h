@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/fit/effect_fit.h"
 
 namespace howl {
 

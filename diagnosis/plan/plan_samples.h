@@ -5,20 +5,11 @@
 #define HOWL_DIAGNOSIS_PLAN_PLAN_SAMPLES_H_
 
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "diagnosis/effect_fit.h"
 #include "diagnosis/plan/plan.h"
+#include "diagnosis/plan/plan_records.h"
 
 namespace howl {
-
-// Everything that an effect is put into.
-struct PlanRecords {
-  const std::vector<DiagnosisExperiment>* experiments = nullptr;
-  const std::vector<CutRecord>* records = nullptr;  // cut from them
-  const EffectFit* base = nullptr;
-};
 
 // The size at which the effect is found, and from which on it is told from the other of its kind.
 // Nothing for a kind that a plan does not know.

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "diagnosis/candidates/attempt.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/verdict/verdict.h"
 #include "estimation/parallel.h"
 
 namespace howl {

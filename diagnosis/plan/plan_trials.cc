@@ -7,8 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "diagnosis/bootstrap/fitted_rig.h"
-#include "diagnosis/fitter.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/fitted_rig.h"
+#include "diagnosis/fit/fitter.h"
+#include "estimation/analysis/spectra/simulated_record.h"
 
 namespace howl {
 namespace {
@@ -30,9 +32,8 @@ double Rms(const std::vector<double>& x) {
 DiagnosisExperiment Simulated(const PlanRecords& at, const EffectFit& fit, std::size_t e,
                               const std::string& name, double phi) {
   const CutRecord& record = (*at.records)[e];
-  const SimulatedRecord samples =
-      Simulate(FittedRig(record, fit, e, kSeed), FittedRigOptions(record));
-  return {name, phi, {samples.sampling_hz, samples.pressure, samples.heat_release}};
+  return {name, phi,
+          ToRecord(Simulate(FittedRig(record, fit, e, kSeed), FittedRigOptions(record)))};
 }
 
 // Cut with the present records, but with amplitudes and operating parameter on their scales, so

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "diagnosis/fitter.h"
+#include "diagnosis/fit/fitter.h"
 #include "diagnosis/structure/structure_priors.h"
 
 namespace howl {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/likelihood/joint_likelihood.h"
 #include "model/effects/combined.h"
 

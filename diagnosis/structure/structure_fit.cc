@@ -11,7 +11,7 @@
 #include <numbers>
 #include <utility>
 
-#include "diagnosis/fitter.h"
+#include "diagnosis/fit/fitter.h"
 #include "diagnosis/structure/point_scoring.h"
 #include "diagnosis/structure/structure_priors.h"
 

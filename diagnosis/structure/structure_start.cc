@@ -2,7 +2,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "diagnosis/sample_limits.h"
+#include "diagnosis/samples/sample_limits.h"
 #include "diagnosis/structure/structure_fit.h"
 
 namespace howl {

@@ -10,19 +10,19 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/characteristics.h"
-#include "estimation/analysis/cycle_band.h"
-#include "estimation/analysis/delay.h"
-#include "estimation/analysis/experiment.h"
-#include "estimation/analysis/flame_curve.h"
-#include "estimation/analysis/growth.h"
-#include "estimation/analysis/lines.h"
-#include "estimation/analysis/loop_gain_reason.h"
+#include "estimation/analysis/cycle/characteristics.h"
+#include "estimation/analysis/cycle/cycle_band.h"
+#include "estimation/analysis/cycle/growth.h"
+#include "estimation/analysis/flame/flame_curve.h"
+#include "estimation/analysis/loop/delay.h"
+#include "estimation/analysis/loop/experiment.h"
+#include "estimation/analysis/loop/loop_gain_reason.h"
+#include "estimation/analysis/loop/vanishing_phi.h"
 #include "estimation/analysis/oscillations/notch.h"
 #include "estimation/analysis/oscillations/oscillations.h"
-#include "estimation/analysis/record.h"
-#include "estimation/analysis/transfer.h"
-#include "estimation/analysis/vanishing_phi.h"
+#include "estimation/analysis/spectra/lines.h"
+#include "estimation/analysis/spectra/record.h"
+#include "estimation/analysis/transfer/transfer.h"
 #include "estimation/residual_spec.h"
 
 namespace howl {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "estimation/analysis/characteristics.h"
+#include "estimation/analysis/cycle/characteristics.h"
 
 namespace howl {
 
@@ -22,7 +22,7 @@ struct AnalysisSpec {
   CharacteristicsMethod method = CharacteristicsMethod::kLocal;
   // The range of frequencies in which the limit cycle is looked for.
   std::optional<double>
-      min_frequency_hz;  // absent: LowestSearched (estimation/analysis/characteristics.h)
+      min_frequency_hz;  // absent: LowestSearched (estimation/analysis/cycle/characteristics.h)
   std::optional<double> max_frequency_hz;  // absent: four tenths of the sampling rate
   // Whole periods added to the delay of (3); absent: by consistency over the experiments.
   std::optional<int> delay_branch;

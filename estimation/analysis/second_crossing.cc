@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

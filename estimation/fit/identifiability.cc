@@ -11,7 +11,7 @@
 
 #include "estimation/fit/connected_columns.h"
 #include "estimation/fit/substructure.h"
-#include "model/dense_algebra.h"
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {

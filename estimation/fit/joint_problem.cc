@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/residuals/registry.h"
 #include "estimation/residuals/residual_adder.h"
 #include "estimation/residuals/search_range.h"

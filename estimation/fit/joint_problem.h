@@ -16,7 +16,7 @@
 #include <memory>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/parameters.h"
 #include "estimation/residual_spec.h"
 #include "estimation/residuals/problem_blocks.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "estimation/analysis/transfer.h"
-#include "model/units.h"
+#include "estimation/analysis/transfer/transfer.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

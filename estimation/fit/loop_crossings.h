@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/parameters.h"
-#include "model/crossings.h"
+#include "model/loop/crossings.h"
 
 namespace howl {
 
@@ -22,7 +22,7 @@ struct ObservedCrossing {
 };
 
 // The crossings in the order of frequency, up to the end of the transfer's band
-// (estimation/analysis/transfer.h) or a little beyond the highest line.
+// (estimation/analysis/transfer/transfer.h) or a little beyond the highest line.
 std::vector<ObservedCrossing> LoopCrossings(const Experiment& experiment, const LoopModel& model,
                                             const ModelSpec& spec);
 

@@ -7,7 +7,7 @@
 
 #include "estimation/fit/two_mode_solve.h"
 #include "estimation/parallel.h"
-#include "model/second_mode.h"
+#include "model/loop/second_mode.h"
 
 namespace howl {
 namespace {

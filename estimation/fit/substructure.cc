@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/dense_algebra.h"
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {

@@ -9,7 +9,7 @@
 // y_r <= xi t <= y: omega lies between the one-mode solution and its r-th part. With M (or M / N)
 // given instead, omega is a root of the first equation (or of the ratio of the two). There may be
 // several: next to the one-mode solution the first mode carries the fundamental, next to its r-th
-// part the second mode does. Units: Hz, rad, N and M as in model/acoustics.h.
+// part the second mode does. Units: Hz, rad, N and M as in model/loop/acoustics.h.
 #ifndef HOWL_ESTIMATION_FIT_TWO_MODE_SOLVE_H_
 #define HOWL_ESTIMATION_FIT_TWO_MODE_SOLVE_H_
 
@@ -19,8 +19,8 @@
 #include <array>
 #include <cmath>
 
-#include "estimation/analysis/closed_form.h"
-#include "model/loop.h"
+#include "estimation/analysis/loop/closed_form.h"
+#include "model/loop/loop.h"
 
 namespace howl {
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
-#include "estimation/analysis/statistics.h"
+#include "estimation/analysis/spectra/statistics.h"
 #include "estimation/health/number_words.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

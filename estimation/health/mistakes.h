@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 
 namespace howl {
 

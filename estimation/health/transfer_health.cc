@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "estimation/analysis/transfer_search.h"
+#include "estimation/analysis/transfer/transfer_search.h"
 #include "estimation/health/analysis_health.h"
 #include "estimation/health/mistake_search.h"
 #include "estimation/health/number_words.h"

@@ -14,7 +14,7 @@
 
 #include "estimation/log_parameters.h"
 #include "estimation/residuals/residual_adder.h"
-#include "model/loop.h"
+#include "model/loop/loop.h"
 
 namespace howl {
 

@@ -12,7 +12,7 @@
 // the record had.
 #include <cmath>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/residuals/acoustic_residual.h"
 
 namespace howl {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/parameters.h"
 #include "estimation/residual_spec.h"
 
@@ -26,8 +26,8 @@ struct ParameterBlock {
   ParameterKind kind = ParameterKind::kOmega;
   bool is_mean = false;  // the common value of a prior
   // True for a nuisance parameter: how far the level of q's own noise moves the experiment's
-  // transfer, in standard deviations (estimation/analysis/transfer_point_residual.h). It enters as
-  // it is, where model parameters enter as logarithms. These blocks come last.
+  // transfer, in standard deviations (estimation/analysis/transfer/transfer_point_residual.h). It
+  // enters as it is, where model parameters enter as logarithms. These blocks come last.
   bool is_q_noise = false;
   double min_log = 0.0;
   double max_log = 0.0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <span>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/parameters.h"
 
 namespace howl {

@@ -5,7 +5,7 @@
 // share_max: the share up to which the second mode hardly matters; std: standard deviation of the
 // share.
 #include "estimation/residuals/acoustic_residual.h"
-#include "model/second_mode.h"
+#include "model/loop/second_mode.h"
 
 namespace howl {
 namespace {

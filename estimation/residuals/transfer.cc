@@ -5,12 +5,12 @@
 //
 // The level of q's noise is one unknown of a record. If each point had such an error of its own,
 // fifty of them would leave a seventh of it, but it does not average out.
-#include "estimation/analysis/transfer.h"
+#include "estimation/analysis/transfer/transfer.h"
 
 #include <utility>
 #include <vector>
 
-#include "estimation/analysis/transfer_point_residual.h"
+#include "estimation/analysis/transfer/transfer_point_residual.h"
 #include "estimation/residuals/residual_adder.h"
 
 namespace howl {

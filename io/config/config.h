@@ -1,6 +1,7 @@
 // The config: one YAML file that states a problem. Only `experiments` is needed; all else has the
-// defaults of the structs below, which the schema (io/config_schema.json) repeats. Keys carry their
-// unit; what the options of a command set (seed, threads, output folder) is not here.
+// defaults of the structs below, which the schema (io/config/schema/config_schema.json) repeats.
+// Keys carry their unit; what the options of a command set (seed, threads, output folder) is not
+// here.
 #ifndef HOWL_IO_CONFIG_CONFIG_H_
 #define HOWL_IO_CONFIG_CONFIG_H_
 
@@ -10,16 +11,15 @@
 #include <vector>
 
 #include "estimation/analysis/analysis_spec.h"
-#include "estimation/analysis/cycle_band.h"
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/cycle/cycle_band.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/family/problem/family_spec.h"
 #include "estimation/fit/solver_spec.h"
 #include "estimation/parameters.h"
 #include "estimation/residual_spec.h"
-#include "io/config/located_node.h"
 #include "io/config/simulation_spec.h"
+#include "io/config/yaml/located_node.h"
 #include "io/record_spec.h"
-#include "io/user_error.h"
 #include "model/effects/declared_effect.h"
 
 namespace howl {
@@ -46,22 +46,6 @@ struct Config {
   std::vector<EffectDeclaration> effects;  // of the user's own
   LocatedNode tree;                        // the file as it was written
 };
-
-// A config that is read on after its mistakes.
-struct ConfigReading {
-  std::vector<UserError> mistakes;  // in the order of the file where they have lines
-  // Absent where the mistakes leave nothing to read. Experiments with a mistake are left out; of a
-  // section with one, the defaults hold.
-  std::optional<Config> config;
-  std::size_t experiments = 0;   // with those left out
-  bool points_are_known = true;  // false: operating parameters are still to be filled in
-};
-
-ConfigReading ReadConfigOn(const std::filesystem::path& path);
-
-// Throws UserError at the first mistake, in the order of the file's lines for what the schema
-// states; then come the rules that join several keys.
-Config LoadConfig(const std::filesystem::path& path);
 
 }  // namespace howl
 

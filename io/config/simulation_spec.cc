@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/cycle_scale.h"
+#include "model/simulation/cycle_scale.h"
 
 namespace howl {
 

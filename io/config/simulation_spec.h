@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "model/effects/effect.h"
-#include "model/flame_shapes.h"
-#include "model/noise_source.h"
-#include "model/sweep.h"
+#include "model/loop/flame_shapes.h"
+#include "model/simulation/noise_source.h"
+#include "model/simulation/sweep.h"
 
 namespace howl {
 
@@ -78,8 +78,8 @@ struct SimulationSpec {
   std::vector<SimulatedNoise> noise;
 };
 
-// Times that the config does not state follow the cycle (model/cycle_scale.h): the number of
-// periods, and of samples in a period, is the same whatever its frequency.
+// Times that the config does not state follow the cycle (model/simulation/cycle_scale.h): the
+// number of periods, and of samples in a period, is the same whatever its frequency.
 struct SimulationTimes {
   double duration_s = 3.2;  // the paper's 16 000 samples at 5 kHz, of a cycle at 220 Hz
   double sampling_hz = 5000.0;

@@ -5,16 +5,16 @@
 #include <set>
 #include <utility>
 
-#include "estimation/analysis/characteristics.h"
+#include "estimation/analysis/cycle/characteristics.h"
 #include "estimation/health/number_words.h"
-#include "io/config/config_sections.h"
-#include "io/config/placeholder.h"
+#include "io/config/sections/config_sections.h"
+#include "io/config/yaml/placeholder.h"
 #include "io/inspect/role_guess.h"
 #include "io/inspect/time_guess.h"
 #include "io/inspect/yaml_text.h"
-#include "io/records/number_text.h"
-#include "io/records/time_unit.h"
-#include "io/results/result_files.h"
+#include "io/records/columns/number_text.h"
+#include "io/records/columns/time_unit.h"
+#include "io/result_files.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -8,7 +8,8 @@
 
 #include "io/inspect/text_start.h"
 #include "io/inspect/time_guess.h"
-#include "io/records/number_text.h"
+#include "io/records/columns/number_text.h"
+#include "io/records/open_table.h"
 #include "io/records/records.h"
 #include "io/user_error.h"
 

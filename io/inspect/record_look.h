@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/inspect/column_words.h"
-#include "io/records/table_source.h"
+#include "io/records/columns/table_source.h"
 
 namespace howl {
 

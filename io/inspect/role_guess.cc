@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "estimation/analysis/statistics.h"
-#include "io/records/number_text.h"
+#include "estimation/analysis/spectra/statistics.h"
+#include "io/records/columns/number_text.h"
 
 namespace howl {
 namespace {

@@ -4,10 +4,10 @@
 #include <system_error>
 #include <vector>
 
-#include "io/records/labview_header.h"
-#include "io/records/line_blocks.h"
-#include "io/records/text_dialect.h"
-#include "io/records/utf16_bytes.h"
+#include "io/records/text/labview_header.h"
+#include "io/records/text/line_blocks.h"
+#include "io/records/text/text_dialect.h"
+#include "io/records/text/utf16_bytes.h"
 
 namespace howl {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/records/number_text.h"
-#include "io/records/time_column.h"
-#include "io/records/time_unit.h"
+#include "io/records/columns/number_text.h"
+#include "io/records/columns/time_column.h"
+#include "io/records/columns/time_unit.h"
 
 namespace howl {
 namespace {

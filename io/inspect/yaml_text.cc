@@ -3,8 +3,8 @@
 #include <cctype>
 #include <sstream>
 
-#include "io/config/config_text.h"
-#include "io/config/located_node.h"
+#include "io/config/yaml/config_text.h"
+#include "io/config/yaml/located_node.h"
 
 namespace howl {
 namespace {

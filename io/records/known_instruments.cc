@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "estimation/analysis/remove_instruments.h"
+#include "estimation/analysis/instruments/remove_instruments.h"
 #include "io/number_range.h"
-#include "io/records/number_text.h"
+#include "io/records/columns/number_text.h"
 #include "io/records/response_table.h"
 #include "io/user_error.h"
 

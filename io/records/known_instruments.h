@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 #include "io/record_spec.h"
 
 namespace howl {

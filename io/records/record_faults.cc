@@ -6,8 +6,8 @@
 #include <memory>
 #include <set>
 
+#include "io/records/open_table.h"
 #include "io/records/records.h"
-#include "io/records/table_source.h"
 
 namespace howl {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 #include "io/record_spec.h"
 #include "io/user_error.h"
 

@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "io/number_range.h"
+#include "io/records/columns/number_text.h"
+#include "io/records/columns/table_source.h"
+#include "io/records/columns/time_column.h"
+#include "io/records/columns/time_unit.h"
 #include "io/records/file_state.h"
 #include "io/records/known_instruments.h"
-#include "io/records/number_text.h"
-#include "io/records/table_source.h"
-#include "io/records/time_column.h"
-#include "io/records/time_unit.h"
+#include "io/records/open_table.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 #include "io/record_spec.h"
 
 namespace howl {

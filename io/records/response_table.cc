@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/number_range.h"
-#include "io/records/number_text.h"
-#include "io/records/table_source.h"
+#include "io/records/columns/number_text.h"
+#include "io/records/open_table.h"
 #include "io/user_error.h"
 
 namespace howl {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "estimation/analysis/instrument_response.h"
+#include "estimation/analysis/instruments/instrument_response.h"
 
 namespace howl {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "io/report/figures/curves.h"
 
 namespace howl {

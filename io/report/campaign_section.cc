@@ -6,7 +6,7 @@
 #include "io/report/html_table.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
-#include "io/results/result_files.h"
+#include "io/result_files.h"
 
 namespace howl {
 namespace {

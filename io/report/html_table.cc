@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "io/records/number_text.h"
+#include "io/records/columns/number_text.h"
 #include "io/report/page.h"
 #include "io/report/script.h"
 #include "io/report/spelled_interval.h"

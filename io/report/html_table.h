@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "estimation/analysis/statistics.h"
+#include "estimation/analysis/spectra/statistics.h"
 
 namespace howl {
 

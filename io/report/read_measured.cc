@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "estimation/analysis/delay.h"
+#include "estimation/analysis/loop/delay.h"
 
 namespace howl {
 namespace {

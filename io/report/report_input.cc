@@ -9,10 +9,11 @@
 #include <limits>
 #include <sstream>
 
+#include "io/config/reading/config_reading.h"
 #include "io/records/records.h"
 #include "io/report/fault_words.h"
 #include "io/report/read_measured.h"
-#include "io/results/result_files.h"
+#include "io/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -22,7 +23,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kMostHarmonic = 1000.0;
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 std::string FileText(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -191,29 +191,11 @@ void NoteAbsent(ReportInput& input) {
 
 }  // namespace
 
-double NumberAt(const Json& json, const char* key) {
-  if (!json.is_object()) return kNotANumber;
-  const auto found = json.find(key);
-  return found != json.end() && found->is_number() ? found->get<double>() : kNotANumber;
-}
-
-std::string TextAt(const Json& json, const char* key) {
-  const Json& found = JsonAt(json, key);
-  return found.is_string() ? found.get<std::string>() : std::string();
-}
-
 const Json& JsonAt(const Json& json, const char* key) {
   static const Json null;
   if (!json.is_object()) return null;
   const auto found = json.find(key);
   return found != json.end() ? *found : null;
-}
-
-const Json& ListAt(const Json& json, const char* key) {
-  static const Json empty = Json::array();
-  if (!json.is_object()) return empty;
-  const auto found = json.find(key);
-  return found != json.end() && found->is_array() ? *found : empty;
 }
 
 Estimate EstimateAt(const Json& json, const char* key) {

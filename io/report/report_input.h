@@ -15,6 +15,7 @@
 #include "estimation/family/answers/tradeoff.h"
 #include "estimation/parameters.h"
 #include "io/config/config.h"
+#include "io/json_fields.h"
 #include "io/report/csv_table.h"
 #include "io/report/family_members.h"
 #include "io/report/run_file.h"
@@ -84,15 +85,9 @@ struct ReportInput {
 // Throws UserError where the folder is missing or holds nothing that a command wrote.
 ReportInput ReadReportInput(const std::filesystem::path& folder, int threads);
 
-// A number of a JSON tree, NaN where there is none.
-double NumberAt(const nlohmann::json& json, const char* key);
-// A text of a JSON tree, empty where there is none.
-std::string TextAt(const nlohmann::json& json, const char* key);
 // What stands under the key; null where nothing does.
 const nlohmann::json& JsonAt(const nlohmann::json& json, const char* key);
 Estimate EstimateAt(const nlohmann::json& json, const char* key);
-// A list of a JSON tree, empty where there is none.
-const nlohmann::json& ListAt(const nlohmann::json& json, const char* key);
 
 }  // namespace howl
 

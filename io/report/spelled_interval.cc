@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "io/report/script.h"
 
 namespace howl {

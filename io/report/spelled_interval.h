@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "estimation/analysis/statistics.h"
+#include "estimation/analysis/spectra/statistics.h"
 
 namespace howl {
 

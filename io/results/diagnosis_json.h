@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "diagnosis/diagnosis.h"
-#include "diagnosis/table_diagnosis.h"
+#include "diagnosis/table/table_diagnosis.h"
+#include "diagnosis/verdict/diagnosis_result.h"
 
 namespace howl {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/parameters.h"
 
 namespace howl {

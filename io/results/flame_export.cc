@@ -15,7 +15,7 @@
 #include "io/results/csv_writer.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
-#include "model/acoustics.h"
+#include "model/loop/acoustics.h"
 
 namespace howl {
 namespace {

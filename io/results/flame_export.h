@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "estimation/parameters.h"
-#include "model/flame.h"
+#include "model/loop/flame.h"
 
 namespace howl {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/config/yaml_text.h"
+#include "io/config/yaml/yaml_text.h"
 
 namespace howl {
 namespace {

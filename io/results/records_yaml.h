@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "io/config/config.h"
 
 namespace howl {

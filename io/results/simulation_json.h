@@ -5,8 +5,8 @@
 //    "experiments": [{"name", "loop_gain", "loop_gain_simulated", "flame_slope", "slope_raised",
 //                     "flame": {"shape", "saturation", "offset"}, "cycle_hz": number | null}]}
 //
-// flame_slope is Phi'(0); flame.offset in (units of p) / s (model/flame.h). cycle_hz: of the cycle
-// on which the record begins, by harmonic balance; null where it begins at rest.
+// flame_slope is Phi'(0); flame.offset in (units of p) / s (model/loop/flame.h). cycle_hz: of the
+// cycle on which the record begins, by harmonic balance; null where it begins at rest.
 #ifndef HOWL_IO_RESULTS_SIMULATION_JSON_H_
 #define HOWL_IO_RESULTS_SIMULATION_JSON_H_
 
@@ -15,7 +15,7 @@
 #include <span>
 #include <string>
 
-#include "model/flame.h"
+#include "model/loop/flame.h"
 
 namespace howl {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "estimation/analysis/vanishing_phi.h"
+#include "estimation/analysis/loop/vanishing_phi.h"
 #include "estimation/fit/joint_fit.h"
 #include "estimation/fit/mode_branch.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/result_files.h"
 #include "io/results/csv_writer.h"
-#include "io/results/result_files.h"
 
 namespace howl {
 namespace {

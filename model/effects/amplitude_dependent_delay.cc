@@ -5,7 +5,7 @@
 
 #include "model/effects/catalogue.h"
 #include "model/effects/lagged_amplitude.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -58,6 +58,7 @@ class Dependence final : public NamedEffect {
                     {{"rel_at_cycle", "", 0.0, -0.6, 0.6, {0.01}},
                      {"memory_s", "s", 0.02, 1e-3, 0.3, {0.02}, ParameterScale::kLogarithmic}}),
         of_rate_(of_rate) {}
+  Separation SeparatedBy() const override { return Separation::kCycleAmplitude; }
   bool ChangesFlameCut() const override { return true; }
   bool ModulatesDelay() const override { return true; }
   double DelayFactor(const EffectContext& at, EffectValues x) const override {
@@ -81,7 +82,7 @@ class Dependence final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> AmplitudeDependentDelay() {
+std::vector<EffectPointer> AmplitudeDependentDelay(const CatalogueBase& /*base*/) {
   return {std::make_shared<Dependence>(false), std::make_shared<Dependence>(true)};
 }
 

@@ -3,29 +3,14 @@
 namespace howl {
 
 std::vector<EffectPointer> Catalogue(int modes, double harmonic_ratio) {
+  const CatalogueBase base{modes, harmonic_ratio};
   std::vector<EffectPointer> all;
-  for (const auto& form : {QSensorLowPass(),
-                           FlameLowPass(),
-                           PSensorResonance(),
-                           ChannelSkew(),
-                           ExtraAcousticMode(modes, harmonic_ratio),
-                           modes == 1 ? std::vector<EffectPointer>() : ModeDetuning(harmonic_ratio),
-                           DelayDispersion(),
-                           DelayVariesWithPhi(),
-                           AmplitudeDependentDelay(),
-                           NonlinearDamping(),
-                           ParametricNoise(),
-                           SlowDrift(),
-                           Intermittency(),
-                           PClipping(),
-                           QClipping(),
-                           Quantisation(),
-                           MainsHum(),
-                           CrosstalkPToQ(),
-                           SecondDelayPath(),
-                           ExternalTone()}) {
-    all.insert(all.end(), form.begin(), form.end());
-  }
+  const auto add = [&](const std::vector<EffectPointer>& forms) {
+    all.insert(all.end(), forms.begin(), forms.end());
+  };
+#define HOWL_ADD_EFFECT(Name) add(Name(base));
+  HOWL_EFFECTS(HOWL_ADD_EFFECT)
+#undef HOWL_ADD_EFFECT
   return all;
 }
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/lagrange.h"
-#include "model/simulate.h"
+#include "model/numerics/lagrange.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -76,6 +76,8 @@ class Skew final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ChannelSkew() { return {std::make_shared<Skew>()}; }
+std::vector<EffectPointer> ChannelSkew(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Skew>()};
+}
 
 }  // namespace howl

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -52,7 +52,7 @@ class Crosstalk final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> CrosstalkPToQ() {
+std::vector<EffectPointer> CrosstalkPToQ(const CatalogueBase& /*base*/) {
   return {std::make_shared<Crosstalk>(false), std::make_shared<Crosstalk>(true)};
 }
 

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "model/effects/catalogue.h"
-#include "model/formula.h"
+#include "model/numerics/formula.h"
 
 namespace howl {
 

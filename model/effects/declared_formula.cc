@@ -2,7 +2,7 @@
 #include <array>
 
 #include "model/effects/declared_effect.h"
-#include "model/formula_complex.h"
+#include "model/numerics/formula_complex.h"
 
 namespace howl {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -67,6 +67,7 @@ class Dispersion final : public NamedEffect {
       : NamedEffect("delay_dispersion", LoopBlock::kDelay,
                     {{"sigma_s", "s", 0.0, 1e-6, 2e-3, {1e-4, 3e-4}}}),
         before_(before) {}
+  Separation SeparatedBy() const override { return Separation::kHighFrequencies; }
   bool ChangesFlameCut() const override { return true; }
   bool ChangesFlameInput() const override { return before_; }
   Response FlameIn(double frequency_hz, const EffectContext& /*at*/,
@@ -100,7 +101,7 @@ class Dispersion final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> DelayDispersion() {
+std::vector<EffectPointer> DelayDispersion(const CatalogueBase& /*base*/) {
   return {std::make_shared<Dispersion>(true), std::make_shared<Dispersion>(false)};
 }
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -25,6 +25,8 @@ class Variation final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> DelayVariesWithPhi() { return {std::make_shared<Variation>()}; }
+std::vector<EffectPointer> DelayVariesWithPhi(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Variation>()};
+}
 
 }  // namespace howl

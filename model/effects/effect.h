@@ -19,13 +19,14 @@
 
 #include <complex>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "model/acoustics.h"
+#include "model/loop/acoustics.h"
 
 namespace howl {
 
@@ -43,13 +44,31 @@ std::string_view LoopBlockName(LoopBlock block);
 
 // How the effect is recognised in records.
 enum class EffectKind : std::uint8_t {
-  kTransfer,      // a transfer function or a slow modulation: fitted
-  kGain,          // the flame's gain fluctuates
-  kLine,          // a coherent line that is no harmonic
-  kClipping,      // a recorded signal saturates
-  kQuantisation,  // a recorded signal has few levels
-  kDeclaredMap,   // declared_effect.h: a static map of a recorded signal
-  kDeclaredLine   // and a coherent line between two frequencies
+  kTransfer,       // a transfer function or a slow modulation: fitted
+  kColouredGain,   // the flame's gain fluctuates as coloured noise does
+  kSwitchingGain,  // or between two levels
+  kHum,            // coherent lines of the mains in a recorded signal
+  kTone,           // a coherent line of a source, no harmonic of the cycle
+  kClipping,       // a recorded signal saturates
+  kQuantisation,   // a recorded signal has few levels
+  kDeclaredMap,    // declared_effect.h: a static map of a recorded signal
+  kDeclaredLine    // and a coherent line between two frequencies
+};
+
+// One estimator finds both of these kinds, and says which of the two it is.
+inline bool IsGainKind(EffectKind kind) {
+  return kind == EffectKind::kColouredGain || kind == EffectKind::kSwitchingGain;
+}
+inline bool IsLineKind(EffectKind kind) {
+  return kind == EffectKind::kHum || kind == EffectKind::kTone;
+}
+
+// The further measurement that best separates an effect from those like it.
+enum class Separation : std::uint8_t {
+  kOperatingPoint,   // another one, far away
+  kHighFrequencies,  // the flame's response above three times the cycle
+  kCycleAmplitude,   // a weaker cycle
+  kLongRecord        // the statistics of the slow envelope
 };
 
 enum class ParameterScale : std::uint8_t { kLinear, kLogarithmic };
@@ -115,6 +134,7 @@ class Effect {
   virtual LoopBlock block() const = 0;
   virtual const std::vector<EffectParameter>& parameters() const = 0;
   virtual EffectKind kind() const { return EffectKind::kTransfer; }
+  virtual Separation SeparatedBy() const { return Separation::kOperatingPoint; }
 
   // Which cuts of the loop it changes: p from q (acoustics), q from p (delay and flame).
   virtual bool ChangesAcousticCut() const { return false; }
@@ -183,6 +203,8 @@ class Effect {
   Effect(const Effect&) = default;
   Effect& operator=(const Effect&) = default;
 };
+
+using EffectPointer = std::shared_ptr<const Effect>;
 
 // An identifier and a table of parameters: what all effects of the catalogue share.
 class NamedEffect : public Effect {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -35,7 +35,7 @@ class Tone final : public NamedEffect {
   Tone()
       : NamedEffect("external_tone", LoopBlock::kSource,
                     {{"rel", "", 0.0, 0.0, 10.0, {}}, {"hz", "Hz", 100.0, 1.0, 1e5, {}}}) {}
-  EffectKind kind() const override { return EffectKind::kLine; }
+  EffectKind kind() const override { return EffectKind::kTone; }
   bool ChangesAcousticCut() const override { return true; }
   bool AddTo(const SimulationScale& scale, EffectValues x, RigParameters* rig) const override {
     rig->effects.push_back(std::make_shared<Source>(x[0] * scale.heat_release_amplitude, x[1]));
@@ -45,6 +45,8 @@ class Tone final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ExternalTone() { return {std::make_shared<Tone>()}; }
+std::vector<EffectPointer> ExternalTone(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Tone>()};
+}
 
 }  // namespace howl

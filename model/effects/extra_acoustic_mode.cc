@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -71,8 +71,8 @@ class Mode final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ExtraAcousticMode(int modes, double harmonic_ratio) {
-  return {std::make_shared<Mode>(modes, harmonic_ratio)};
+std::vector<EffectPointer> ExtraAcousticMode(const CatalogueBase& base) {
+  return {std::make_shared<Mode>(base.modes, base.harmonic_ratio)};
 }
 
 }  // namespace howl

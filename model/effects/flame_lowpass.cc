@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -36,6 +36,7 @@ class Lag final : public NamedEffect {
                       1e6,
                       {250.0, 700.0, 2000.0},
                       ParameterScale::kLogarithmic}}) {}
+  Separation SeparatedBy() const override { return Separation::kHighFrequencies; }
   bool ChangesFlameCut() const override { return true; }
   Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
                     EffectValues x) const override {
@@ -49,6 +50,8 @@ class Lag final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> FlameLowPass() { return {std::make_shared<Lag>()}; }
+std::vector<EffectPointer> FlameLowPass(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Lag>()};
+}
 
 }  // namespace howl

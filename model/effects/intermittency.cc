@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -39,7 +39,8 @@ class Dropout final : public NamedEffect {
       : NamedEffect("intermittency", LoopBlock::kFlame,
                     {{"gain_drop", "", 0.0, 0.0, 1.0, {}}, {"dwell_s", "s", 0.2, 1e-2, 10.0, {}}}) {
   }
-  EffectKind kind() const override { return EffectKind::kGain; }
+  EffectKind kind() const override { return EffectKind::kSwitchingGain; }
+  Separation SeparatedBy() const override { return Separation::kLongRecord; }
   bool ChangesFlameCut() const override { return true; }
   bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
     rig->effects.push_back(std::make_shared<Switching>(x[0], x[1]));
@@ -49,6 +50,8 @@ class Dropout final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> Intermittency() { return {std::make_shared<Dropout>()}; }
+std::vector<EffectPointer> Intermittency(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Dropout>()};
+}
 
 }  // namespace howl

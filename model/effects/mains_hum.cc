@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -50,7 +50,7 @@ class Hum final : public NamedEffect {
                                                   : LoopBlock::kHeatReleaseInstrument,
                     {{"rel", "", 0.0, 0.0, 10.0, {}}, {"hz", "Hz", 50.0, 50.0, 60.0, {}}}),
         channel_(channel) {}
-  EffectKind kind() const override { return EffectKind::kLine; }
+  EffectKind kind() const override { return EffectKind::kHum; }
   bool ChangesAcousticCut() const override { return true; }
   bool ChangesFlameCut() const override { return true; }
   EffectForm form() const override {
@@ -69,7 +69,9 @@ class Hum final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> MainsHum() { return {std::make_shared<Hum>(Channel::kHeatRelease)}; }
+std::vector<EffectPointer> MainsHum(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Hum>(Channel::kHeatRelease)};
+}
 
 std::vector<EffectPointer> MainsHumInPressure() {
   return {std::make_shared<Hum>(Channel::kPressure)};

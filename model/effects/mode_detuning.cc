@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -40,8 +40,9 @@ class Detuning final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ModeDetuning(double harmonic_ratio) {
-  return {std::make_shared<Detuning>(harmonic_ratio)};
+std::vector<EffectPointer> ModeDetuning(const CatalogueBase& base) {
+  if (base.modes == 1) return {};
+  return {std::make_shared<Detuning>(base.harmonic_ratio)};
 }
 
 }  // namespace howl

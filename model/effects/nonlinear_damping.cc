@@ -5,7 +5,7 @@
 
 #include "model/effects/catalogue.h"
 #include "model/effects/lagged_amplitude.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -38,6 +38,7 @@ class Damping final : public NamedEffect {
                      {"memory_s", "s", 0.02, 1e-3, 0.3, {0.015}, ParameterScale::kLogarithmic}}),
         lags_(lags),
         over_own_(over_own) {}
+  Separation SeparatedBy() const override { return Separation::kCycleAmplitude; }
   bool ChangesAcousticCut() const override { return true; }
   bool ModulatesAcoustics() const override { return true; }
   void ModulateAcoustics(double /*position*/, double amplitude, EffectValues x,
@@ -65,7 +66,7 @@ class Damping final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> NonlinearDamping() {
+std::vector<EffectPointer> NonlinearDamping(const CatalogueBase& /*base*/) {
   std::vector<EffectPointer> forms;
   for (const bool over_own : {false, true}) {
     for (const int lags : {1, 2}) forms.push_back(std::make_shared<Damping>(lags, over_own));

@@ -3,7 +3,7 @@
 
 namespace howl {
 
-std::vector<EffectPointer> PClipping() {
+std::vector<EffectPointer> PClipping(const CatalogueBase& /*base*/) {
   return {
       std::make_shared<Clipping>("p_clipping", LoopBlock::kPressureInstrument, Channel::kPressure)};
 }

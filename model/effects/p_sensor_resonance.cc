@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -39,6 +39,8 @@ class Resonance final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> PSensorResonance() { return {std::make_shared<Resonance>()}; }
+std::vector<EffectPointer> PSensorResonance(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Resonance>()};
+}
 
 }  // namespace howl

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -37,7 +37,8 @@ class Fluctuation final : public NamedEffect {
       : NamedEffect(
             "parametric_noise", LoopBlock::kFlame,
             {{"rel_rms", "", 0.0, 0.0, 2.0, {}}, {"correlation_s", "s", 0.03, 1e-3, 10.0, {}}}) {}
-  EffectKind kind() const override { return EffectKind::kGain; }
+  EffectKind kind() const override { return EffectKind::kColouredGain; }
+  Separation SeparatedBy() const override { return Separation::kLongRecord; }
   bool ChangesFlameCut() const override { return true; }
   bool AddTo(const SimulationScale& /*scale*/, EffectValues x, RigParameters* rig) const override {
     rig->effects.push_back(std::make_shared<WanderingGain>(x[0], x[1]));
@@ -47,6 +48,8 @@ class Fluctuation final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> ParametricNoise() { return {std::make_shared<Fluctuation>()}; }
+std::vector<EffectPointer> ParametricNoise(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Fluctuation>()};
+}
 
 }  // namespace howl

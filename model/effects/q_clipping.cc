@@ -3,7 +3,7 @@
 
 namespace howl {
 
-std::vector<EffectPointer> QClipping() {
+std::vector<EffectPointer> QClipping(const CatalogueBase& /*base*/) {
   return {std::make_shared<Clipping>("q_clipping", LoopBlock::kHeatReleaseInstrument,
                                      Channel::kHeatRelease)};
 }

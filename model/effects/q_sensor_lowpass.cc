@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -46,7 +46,7 @@ class Filter final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> QSensorLowPass() {
+std::vector<EffectPointer> QSensorLowPass(const CatalogueBase& /*base*/) {
   return {std::make_shared<Filter>(1), std::make_shared<Filter>(2)};
 }
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -46,6 +46,8 @@ class Levels final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> Quantisation() { return {std::make_shared<Levels>()}; }
+std::vector<EffectPointer> Quantisation(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Levels>()};
+}
 
 }  // namespace howl

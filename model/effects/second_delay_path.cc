@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -54,6 +54,7 @@ class Path final : public NamedEffect {
                       {6e-4, 1.2e-3, 2e-3, 3e-3, 5e-3},
                       ParameterScale::kLogarithmic}}),
         before_(before) {}
+  Separation SeparatedBy() const override { return Separation::kHighFrequencies; }
   bool ChangesFlameCut() const override { return true; }
   bool ChangesFlameInput() const override { return before_; }
   Response FlameIn(double frequency_hz, const EffectContext& /*at*/,
@@ -81,7 +82,7 @@ class Path final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> SecondDelayPath() {
+std::vector<EffectPointer> SecondDelayPath(const CatalogueBase& /*base*/) {
   return {std::make_shared<Path>(true), std::make_shared<Path>(false)};
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "model/effects/catalogue.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -33,6 +33,7 @@ class Drift final : public NamedEffect {
   Drift()
       : NamedEffect("slow_drift", LoopBlock::kAcoustics,
                     {{"rel_span", "", 0.0, -0.5, 0.5, {-0.01, 0.01}}}) {}
+  Separation SeparatedBy() const override { return Separation::kLongRecord; }
   bool ChangesAcousticCut() const override { return true; }
   bool ModulatesAcoustics() const override { return true; }
   void ModulateAcoustics(double position, double /*amplitude*/, EffectValues x,
@@ -47,6 +48,8 @@ class Drift final : public NamedEffect {
 
 }  // namespace
 
-std::vector<EffectPointer> SlowDrift() { return {std::make_shared<Drift>()}; }
+std::vector<EffectPointer> SlowDrift(const CatalogueBase& /*base*/) {
+  return {std::make_shared<Drift>()};
+}
 
 }  // namespace howl

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "estimation/residual_spec.h"
-#include "io/config/config_schema.h"
+#include "io/config/schema/config_schema.h"
 #include "tests/app/program.h"
 
 namespace howl {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/crossings.h"
+#include "model/loop/crossings.h"
 #include "tests/app/program.h"
 
 namespace howl {

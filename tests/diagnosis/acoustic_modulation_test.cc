@@ -7,7 +7,8 @@
 #include <complex>
 #include <numbers>
 
-#include "diagnosis/acoustic_cut.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/make_cut_records.h"
 
 namespace howl {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/advice.h"
+#include "diagnosis/verdict/advice.h"
 
 #include <gtest/gtest.h>
 

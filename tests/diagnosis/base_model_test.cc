@@ -1,13 +1,15 @@
 // The base is the config's loop: one mode or two, the second at the config's ratio.
-#include "diagnosis/base_model.h"
+#include "diagnosis/records/base_model.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "diagnosis/acoustic_cut.h"
-#include "diagnosis/choose_modes.h"
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/search/choose_modes.h"
+#include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {
@@ -121,7 +123,7 @@ TEST(BaseModel, TheRatioIsTheNullOfItsDetuning) {
   const BaseModel model{.modes = 2, .harmonic_ratio = kOtherRatio};
   const CutRecord record = MakeCutRecords({SimulateRig()[0]}, model)[0];
   const AcousticLocals locals(std::log(206.0), std::log(0.17), 6400.0, 1700.0);
-  const EffectPointer detuning = ModeDetuning(kOtherRatio)[0];
+  const EffectPointer detuning = ModeDetuning({.harmonic_ratio = kOtherRatio})[0];
   EXPECT_TRUE(AcousticResidual(record, *detuning, NullValues(*detuning), locals) ==
               AcousticResidual(record, *BaseEffect(), {}, locals));
 }

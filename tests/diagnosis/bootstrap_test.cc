@@ -1,4 +1,4 @@
-#include "diagnosis/bootstrap/bootstrap.h"
+#include "diagnosis/search/bootstrap.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/bootstrap/fitted_rig.h"
-#include "model/instrument.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/fitted_rig.h"
+#include "model/effects/catalogue.h"
+#include "model/loop/instrument.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

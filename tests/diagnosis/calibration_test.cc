@@ -1,4 +1,4 @@
-#include "diagnosis/calibration.h"
+#include "diagnosis/verdict/calibration.h"
 
 #include <gtest/gtest.h>
 

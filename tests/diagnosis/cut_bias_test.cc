@@ -7,10 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "diagnosis/effect_fit.h"
-#include "diagnosis/sample_limits.h"
-#include "diagnosis/slack.h"
-#include "diagnosis/static_map.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/gap/slack.h"
+#include "diagnosis/samples/sample_limits.h"
+#include "diagnosis/samples/static_map.h"
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
@@ -68,7 +69,7 @@ TEST(Clipping, RepeatedExtremesAreSeenHoweverFewAreCutOff) {
   std::vector<DiagnosisExperiment> experiments = SimulateRig();
   const auto edge = [&](const std::vector<DiagnosisExperiment>& of) {
     const std::vector<CutRecord> records = MakeCutRecords(of);
-    return FitClipping(records, true, FitBase(records)).sharp_edge;
+    return FitClipping(records, Channel::kPressure, FitBase(records)).sharp_edge;
   };
   EXPECT_FALSE(edge(experiments));
   std::vector<DiagnosisExperiment> coarse = experiments;

@@ -10,8 +10,10 @@
 #include <memory>
 #include <numbers>
 
-#include "diagnosis/declared_fit.h"
+#include "diagnosis/candidates/declared_fit.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
+#include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/sample_limits.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/samples/sample_limits.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

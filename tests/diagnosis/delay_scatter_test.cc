@@ -1,5 +1,5 @@
 // Delays that scatter over the experiments are no gap; a law behind them is.
-#include "diagnosis/delay_scatter.h"
+#include "diagnosis/fit/delay_scatter.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {
@@ -135,7 +137,7 @@ TEST(LongDelayScatter, WhereNoScopeIsStatedALawOfSixDelaysIsNamed) {
 TEST(DelayScatter, AnEffectThatLeavesTheFlameAloneDoesNotTakeOffTheDelaysCost) {
   const std::vector<CutRecord> records = MakeCutRecords(RigWithDelays(Scattered()), kOwnDelays);
   const EffectFit base = FitBase(records);
-  const EffectFit fit = FitEffect(records, ExtraAcousticMode(2, kPaperHarmonicRatio)[0], base);
+  const EffectFit fit = FitEffect(records, ExtraAcousticMode()[0], base);
   EXPECT_GT(base.delay_cost, 10.0);
   EXPECT_EQ(fit.delay_cost, base.delay_cost);
 }

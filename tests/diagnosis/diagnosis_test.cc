@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "diagnosis/acoustic_cut.h"
-#include "diagnosis/effect_fit.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

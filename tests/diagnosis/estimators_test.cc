@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/cut_record.h"
-#include "diagnosis/flame_basis.h"
-#include "diagnosis/noise_fit.h"
-#include "diagnosis/real_fft.h"
+#include "diagnosis/cuts/flame_basis.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/noise/noise_fit.h"
+#include "diagnosis/numerics/real_fft.h"
+#include "diagnosis/records/cut_record.h"
 
 namespace howl {
 namespace {

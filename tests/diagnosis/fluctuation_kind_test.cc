@@ -1,10 +1,10 @@
-#include "diagnosis/fluctuation_kind.h"
+#include "diagnosis/samples/fluctuation_kind.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "model/random_stream.h"
+#include "model/noise/random_stream.h"
 
 namespace howl {
 namespace {

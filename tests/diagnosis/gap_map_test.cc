@@ -1,4 +1,4 @@
-#include "diagnosis/gap_map.h"
+#include "diagnosis/gap/gap_map.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,8 @@
 #include <complex>
 #include <vector>
 
-#include "model/random_stream.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "model/noise/random_stream.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

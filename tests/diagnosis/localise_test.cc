@@ -9,9 +9,10 @@
 #include <memory>
 #include <random>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/localise/free_additive.h"
 #include "diagnosis/localise/free_factor.h"
-#include "diagnosis/place.h"
+#include "diagnosis/localise/place.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

@@ -1,4 +1,4 @@
-#include "diagnosis/moved_parameters.h"
+#include "diagnosis/fit/moved_parameters.h"
 
 #include <gtest/gtest.h>
 

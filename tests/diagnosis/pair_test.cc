@@ -1,5 +1,5 @@
 // Two effects at once.
-#include "diagnosis/pair.h"
+#include "diagnosis/pair/pair.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/acoustic_cut.h"
-#include "diagnosis/flame_cut.h"
-#include "diagnosis/pair_parts.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/flame_cut.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/pair/pair_parts.h"
+#include "model/effects/catalogue.h"
 #include "model/effects/combined.h"
 #include "tests/diagnosis/simulated_rig.h"
 

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "diagnosis/candidates/attempt.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/plan/effect_line.h"
 #include "diagnosis/plan/plan_gains.h"
+#include "model/effects/catalogue.h"
 #include "model/effects/declared_effect.h"
 #include "tests/diagnosis/simulated_rig.h"
 

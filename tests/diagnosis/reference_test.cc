@@ -1,5 +1,5 @@
 // Reference mode: what the reference has too is absorbed, and only the difference is named.
-#include "diagnosis/reference.h"
+#include "diagnosis/reference/reference.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -11,9 +11,11 @@
 #include <string>
 
 #include "bench/measured_rig.h"
-#include "diagnosis/cut_noise.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/reference_clipping.h"
+#include "diagnosis/noise/cut_noise.h"
+#include "diagnosis/reference/reference_clipping.h"
+#include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {
@@ -82,7 +84,7 @@ TEST(Reference, IsClippedAsOftenAsTheRig) {
   CutOff(0.85, &Record::heat_release, &rig);
   const std::vector<DiagnosisExperiment> reference = SimulateRig({}, 70);
   const std::vector<DiagnosisExperiment> alike =
-      ClippedAlike(reference, MakeCutRecords(rig), false);
+      ClippedAlike(reference, MakeCutRecords(rig), Channel::kHeatRelease);
   for (std::size_t e = 0; e < alike.size(); ++e) {
     const std::vector<double>& q = alike[e].record.heat_release;
     EXPECT_NEAR(ShareAt(q, *std::max_element(q.begin(), q.end())), 0.15, 0.01);

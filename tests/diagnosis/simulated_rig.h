@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
-#include "model/simulate.h"
+#include "estimation/analysis/spectra/simulated_record.h"
+#include "model/effects/catalogue.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 
@@ -65,14 +67,8 @@ inline std::vector<DiagnosisExperiment> SimulatePoints(
   SimulationOptions options;
   options.duration_s = 3.2;
   options.settle_s = 0.5;
-  std::vector<DiagnosisExperiment> experiments;
-  for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
-    const std::size_t point = experiments.size();
-    experiments.push_back({"exp" + std::to_string(point + 1),
-                           0.55 - 0.03 * static_cast<double>(point),
-                           {record.sampling_hz, record.pressure, record.heat_release}});
-  }
-  return experiments;
+  return RecordedPoints<DiagnosisExperiment>(
+      cases, options, [](std::size_t i) { return 0.55 - 0.03 * static_cast<double>(i); });
 }
 
 // At the quantile and the one as far from the other end.

@@ -8,13 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "diagnosis/acoustic_cut.h"
-#include "diagnosis/band_signal.h"
-#include "diagnosis/effect_fit.h"
-#include "model/crossings.h"
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/records/band_signal.h"
+#include "estimation/analysis/spectra/simulated_record.h"
+#include "model/cycles/harmonic_balance.h"
 #include "model/effects/catalogue.h"
-#include "model/harmonic_balance.h"
-#include "model/units.h"
+#include "model/loop/crossings.h"
+#include "model/numerics/units.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {
@@ -69,14 +71,9 @@ std::vector<DiagnosisExperiment> QuietRig() {
     rig.past = PastOnCycle(cycle);
     cases.push_back({rig, 37 + e});
   }
-  std::vector<DiagnosisExperiment> experiments;
-  for (const SimulatedRecord& one :
-       SimulateBatch(cases, {.duration_s = 3.2, .sampling_hz = 5000.0, .settle_s = 0.5})) {
-    experiments.push_back({"exp" + std::to_string(experiments.size() + 1),
-                           0.5 + 0.02 * static_cast<double>(experiments.size()),
-                           {one.sampling_hz, one.pressure, one.heat_release}});
-  }
-  return experiments;
+  return RecordedPoints<DiagnosisExperiment>(
+      cases, {.duration_s = 3.2, .sampling_hz = 5000.0, .settle_s = 0.5},
+      [](std::size_t i) { return 0.5 + 0.02 * static_cast<double>(i); });
 }
 
 // The noise that is fitted beside the base has far to fall: a base that stops on the way gives

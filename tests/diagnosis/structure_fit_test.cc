@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/structure/point_scoring.h"
+#include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

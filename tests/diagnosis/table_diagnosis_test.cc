@@ -1,15 +1,15 @@
 // The lag that a published table allows, against closed forms: (3) with table 2 of the paper, the
 // passivity of G, and tables made from a loop whose sensor lags by a known angle.
-#include "diagnosis/table_diagnosis.h"
+#include "diagnosis/table/table_diagnosis.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/loop.h"
-#include "model/units.h"
+#include "model/loop/crossings.h"
+#include "model/loop/loop.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/verdict.h"
+#include "diagnosis/verdict/verdict.h"
 
 #include <gtest/gtest.h>
 

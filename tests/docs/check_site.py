@@ -46,7 +46,7 @@ def broken_anchors(site):
 
 
 def missing_files(project):
-    """Files of the tree that a page names and that are not there: `model/acoustics.h`."""
+    """Files of the tree that a page names and that are not there: `model/loop/acoustics.h`."""
     folders = "app|bench|cmake|configs|diagnosis|docs|estimation|io|model|results|rig|tests|trial"
     named = re.compile(rf"`((?:{folders})/[\w./-]+\.\w+)`")
     pages = [project / "README.md", project / "CONTRIBUTING.md"]
@@ -59,9 +59,9 @@ def missing_files(project):
 
 def faults_of_the_tree(project):
     yield from missing_files(project)
-    commands = re.findall(r"(\w+)Command\(\)", (project / "app/commands.cc").read_text(encoding="utf-8"))
+    commands = re.findall(r"(\w+)Command\(\)", (project / "app/commands/commands.cc").read_text(encoding="utf-8"))
     if not commands:
-        yield "app/commands.cc: no commands found"
+        yield "app/commands/commands.cc: no commands found"
     readme = (project / "README.md").read_text(encoding="utf-8")
     navigation = (project / "mkdocs.yml").read_text(encoding="utf-8")
     for command in (name.lower() for name in commands):

@@ -15,12 +15,13 @@
 #include <vector>
 
 #include "estimation/analysis/analyse.h"
+#include "estimation/analysis/spectra/simulated_record.h"
 #include "estimation/family/problem/membership.h"
 #include "estimation/fit/joint_fit.h"
-#include "model/cycle_scale.h"
-#include "model/harmonic_balance.h"
-#include "model/random_stream.h"
-#include "model/simulate.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/noise/random_stream.h"
+#include "model/simulation/cycle_scale.h"
+#include "model/simulation/simulate.h"
 
 namespace howl::testing {
 
@@ -178,13 +179,9 @@ inline FitStudy StudyFits(const StudiedRig& rig, int draws, std::uint64_t seed, 
     for (std::size_t i = 0; i < simulated.cases.size(); ++i) {
       simulated.cases[i].seed = DeriveSeed(DeriveSeed(seed, static_cast<std::uint64_t>(draw)), i);
     }
-    std::vector<NamedRecord> records;
-    for (const SimulatedRecord& record : SimulateBatch(simulated.cases, simulated.how)) {
-      const std::size_t i = records.size();
-      records.push_back({"exp" + std::to_string(i + 1),
-                         0.5 + 0.02 * static_cast<double>(i),
-                         {record.sampling_hz, record.pressure, record.heat_release}});
-    }
+    const std::vector<NamedRecord> records = RecordedPoints<NamedRecord>(
+        simulated.cases, simulated.how,
+        [](std::size_t i) { return 0.5 + 0.02 * static_cast<double>(i); });
     const AnalysisSet set = AnalyseRecords(records, options);
     std::vector<Experiment> experiments;
     for (std::size_t i = 0; i < records.size(); ++i) {

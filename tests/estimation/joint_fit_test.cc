@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/problem/membership.h"
 #include "tests/r228.h"
 

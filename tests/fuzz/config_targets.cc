@@ -4,6 +4,7 @@
 #include "app/campaign/campaign_spec.h"
 #include "app/jobs/job_spec.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "tests/fuzz/target.h"
 
 namespace howl {

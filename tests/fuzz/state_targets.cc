@@ -5,13 +5,14 @@
 #include <memory>
 #include <sstream>
 
+#include "app/input/problem_input.h"
 #include "app/jobs/shard_set.h"
 #include "app/jobs/submitted_job.h"
 #include "app/jobs/unit_store.h"
-#include "app/problem_input.h"
 #include "app/trial/trial_log.h"
 #include "estimation/family/bounds/enclose.h"
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "tests/fuzz/target.h"
 
 namespace howl {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
 namespace howl {

@@ -8,9 +8,10 @@
 #include <string>
 
 #include "estimation/residuals/registry.h"
-#include "io/config/config_schema.h"
-#include "io/config/config_sections.h"
-#include "io/config/nearest_key.h"
+#include "io/config/reading/config_reading.h"
+#include "io/config/schema/config_schema.h"
+#include "io/config/schema/nearest_key.h"
+#include "io/config/sections/config_sections.h"
 #include "tests/io/config_file.h"
 
 namespace howl {

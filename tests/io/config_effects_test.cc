@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
 namespace howl {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/user_error.h"
 
 namespace howl {

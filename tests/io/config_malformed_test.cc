@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
 namespace howl {

@@ -1,4 +1,6 @@
 // A config read on behind its mistakes, and a record behind its faults: all of them, in one list.
+#include "io/config/reading/config_reading.h"
+
 #include <gmock/gmock.h>
 
 #include "io/records/record_faults.h"

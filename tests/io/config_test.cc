@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
 namespace howl {

@@ -3,11 +3,12 @@
 #include <numbers>
 
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
 #include "io/inspect/column_words.h"
 #include "io/inspect/init_config.h"
 #include "io/inspect/record_look.h"
 #include "io/inspect/role_guess.h"
-#include "io/records/number_text.h"
+#include "io/records/columns/number_text.h"
 #include "tests/io/record_files.h"
 
 namespace howl {

@@ -3,6 +3,7 @@
 #include <complex>
 #include <functional>
 
+#include "io/config/reading/config_reading.h"
 #include "io/records/response_table.h"
 #include "tests/io/config_file.h"
 #include "tests/io/record_files.h"

@@ -1,4 +1,4 @@
-#include "io/records/parse_number.h"
+#include "io/records/text/parse_number.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <random>
 
-#include "io/records/number_text.h"
+#include "io/records/columns/number_text.h"
 #include "tests/io/record_files.h"
 
 namespace howl {

@@ -1,4 +1,4 @@
-#include "io/records/time_column.h"
+#include "io/records/columns/time_column.h"
 
 #include <random>
 

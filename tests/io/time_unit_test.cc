@@ -1,5 +1,5 @@
 // The unit of a time column: by its name, or by a sampling rate beside it.
-#include "io/records/time_unit.h"
+#include "io/records/columns/time_unit.h"
 
 #include <utility>
 

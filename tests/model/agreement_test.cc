@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/floquet.h"
-#include "model/harmonic_balance.h"
-#include "model/poles.h"
-#include "model/simulate.h"
+#include "model/cycles/floquet.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/loop/crossings.h"
+#include "model/loop/poles.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

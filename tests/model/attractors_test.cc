@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
-#include "model/floquet.h"
-#include "model/harmonic_balance.h"
-#include "model/ramp.h"
-#include "model/simulate.h"
+#include "model/cycles/floquet.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/simulation/ramp.h"
+#include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

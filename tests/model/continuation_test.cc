@@ -1,5 +1,5 @@
 // Branches of cycles: where they are born, lost, and coexist.
-#include "model/continuation.h"
+#include "model/cycles/continuation.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/simulate.h"
+#include "model/loop/crossings.h"
+#include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

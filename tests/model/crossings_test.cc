@@ -1,5 +1,5 @@
 // Crossings, margins and sensitivities against brute force and differences.
-#include "model/crossings.h"
+#include "model/loop/crossings.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <complex>
 #include <vector>
 
-#include "model/poles.h"
-#include "model/random_stream.h"
-#include "model/sensitivity.h"
+#include "model/loop/poles.h"
+#include "model/loop/sensitivity.h"
+#include "model/noise/random_stream.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

@@ -1,5 +1,5 @@
 // Delay systems against closed forms and against two published computations.
-#include "model/delay_system.h"
+#include "model/delay_systems/delay_system.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "model/hopf_point.h"
+#include "model/delay_systems/hopf_point.h"
 
 namespace howl {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/dense_algebra.h"
+#include "model/numerics/dense_algebra.h"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
 // A flame in a duct: Hopf points in closed form for one mode, and the published Rijke tube.
-#include "model/duct_flame.h"
+#include "model/delay_systems/duct_flame.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "model/hopf_point.h"
+#include "model/delay_systems/hopf_point.h"
 
 namespace howl {
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "model/cycles/harmonic_balance.h"
 #include "model/effects/catalogue.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {

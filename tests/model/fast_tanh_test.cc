@@ -1,5 +1,5 @@
 // The simulator's tanh against tanh in extended precision.
-#include "model/fast_tanh.h"
+#include "model/numerics/fast_tanh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "model/fft.h"
+#include "model/numerics/fft.h"
 
 #include <gmock/gmock.h>
 

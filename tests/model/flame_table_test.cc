@@ -1,13 +1,13 @@
 // The table of a flame: what a monotone cubic keeps, and the flame that it makes in the loop.
-#include "model/flame_table.h"
+#include "model/loop/flame_table.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

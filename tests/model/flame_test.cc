@@ -1,4 +1,4 @@
-#include "model/flame.h"
+#include "model/loop/flame.h"
 
 #include <gtest/gtest.h>
 

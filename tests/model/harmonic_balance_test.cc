@@ -1,4 +1,4 @@
-#include "model/harmonic_balance.h"
+#include "model/cycles/harmonic_balance.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/floquet.h"
-#include "model/prediction.h"
+#include "model/cycles/floquet.h"
+#include "model/cycles/prediction.h"
+#include "model/loop/crossings.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

@@ -1,5 +1,5 @@
 // Instruments, the anti-alias filter, noise and ramps against their stated responses.
-#include "model/instrument.h"
+#include "model/loop/instrument.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 #include <numbers>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/decimate.h"
-#include "model/harmonic_balance.h"
-#include "model/prediction.h"
-#include "model/ramp.h"
-#include "model/simulate.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/cycles/prediction.h"
+#include "model/loop/crossings.h"
+#include "model/simulation/decimate.h"
+#include "model/simulation/ramp.h"
+#include "model/simulation/simulate.h"
 #include "tests/model/density.h"
 #include "tests/model/paper_loop.h"
 

@@ -1,5 +1,5 @@
 // Sources of noise against the closed forms of their spectra, alone and through the loop.
-#include "model/noise_source.h"
+#include "model/simulation/noise_source.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/prediction.h"
+#include "model/cycles/prediction.h"
+#include "model/loop/crossings.h"
 #include "tests/model/density.h"
 #include "tests/model/paper_loop.h"
 

@@ -4,7 +4,7 @@
 #ifndef HOWL_TESTS_MODEL_PAPER_LOOP_H_
 #define HOWL_TESTS_MODEL_PAPER_LOOP_H_
 
-#include "model/laplace.h"
+#include "model/loop/laplace.h"
 
 namespace howl {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/sensitivity.h"
+#include "model/loop/crossings.h"
+#include "model/loop/sensitivity.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

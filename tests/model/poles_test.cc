@@ -1,5 +1,5 @@
 // Poles and Floquet multipliers against loops with known ones.
-#include "model/poles.h"
+#include "model/loop/poles.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "model/floquet.h"
+#include "model/cycles/floquet.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "model/crossings.h"
-#include "model/harmonic_balance.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/loop/crossings.h"
 
 namespace howl {
 namespace {

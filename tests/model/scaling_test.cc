@@ -10,13 +10,13 @@
 #include <numbers>
 #include <vector>
 
-#include "model/continuation.h"
-#include "model/crossings.h"
-#include "model/floquet.h"
-#include "model/harmonic_balance.h"
-#include "model/poles.h"
-#include "model/prediction.h"
-#include "model/simulate.h"
+#include "model/cycles/continuation.h"
+#include "model/cycles/floquet.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/cycles/prediction.h"
+#include "model/loop/crossings.h"
+#include "model/loop/poles.h"
+#include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "model/harmonic_balance.h"
-#include "model/ramp.h"
-#include "model/simulate.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/simulation/ramp.h"
+#include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

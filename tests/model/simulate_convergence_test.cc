@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "model/simulate.h"
+#include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
 namespace howl {

@@ -1,5 +1,5 @@
 // A sweep there and back in one run: where it jumps, against the branches of cycles.
-#include "model/sweep.h"
+#include "model/simulation/sweep.h"
 
 #include <gtest/gtest.h>
 

@@ -3,20 +3,41 @@
 
     check_arrows.py ROOT
 
-Names every include that points back, as file:line, and exits with 1 where there is one.
+Names every include that points back, as file:line, and every folder that a list should have and has
+not; exits with 1 where there is one.
 """
 
 import pathlib
 import re
 import sys
 
-# In order: a room may use those that stand before it.
+# In order: a room may use those that stand before it. A folder belongs to the nearest room above it.
+# A list that ends with its own folder has all folders below that.
 LISTS = {
     "": ["model", "estimation", "diagnosis", "trial", "io", "app"],
+    "model": ["model/numerics", "model/noise", "model/loop", "model/cycles", "model/delay_systems",
+              "model/simulation", "model/effects", "model"],
     "estimation": ["estimation/analysis", "estimation/residuals", "estimation/fit",
                    "estimation/family/problem", "estimation/family/local",
-                   "estimation/family/members", "estimation/family/bounds",
+                   "estimation/family/members/drawer", "estimation/family/members",
+                   "estimation/family/bounds/contract", "estimation/family/bounds",
                    "estimation/family/answers", "estimation/health"],
+    "analysis": ["estimation/analysis/spectra", "estimation/analysis/cycle",
+                 "estimation/analysis/oscillations", "estimation/analysis/transfer",
+                 "estimation/analysis/instruments", "estimation/analysis/flame",
+                 "estimation/analysis/loop", "estimation/analysis"],
+    "diagnosis": ["diagnosis/numerics", "diagnosis/records", "diagnosis/noise", "diagnosis/cuts",
+                  "diagnosis/fit", "diagnosis/gap", "diagnosis/samples", "diagnosis/reference",
+                  "diagnosis/declip", "diagnosis/likelihood", "diagnosis/structure",
+                  "diagnosis/budget", "diagnosis/verdict", "diagnosis/candidates",
+                  "diagnosis/localise", "diagnosis/pair", "diagnosis/search", "diagnosis/plan",
+                  "diagnosis/table", "diagnosis"],
+    "io": ["io/config/yaml", "io/config/schema", "io/records/columns", "io/records/text",
+           "io/records/binary", "io/records", "io/config", "io/config/sections", "io/config/reading",
+           "io/results", "io/inspect", "io/report"],
+    "app": ["app/files", "app/process", "app/text", "app/command_line", "app/jobs", "app/input",
+            "app/simulate", "app/family", "app/diagnose", "app/check", "app/trial", "app/campaign",
+            "app/help", "app/commands", "app"],
 }
 # howl_rig is a second simulator, so that a trial is no comparison of a program with itself.
 ALONE = ["rig"]
@@ -25,7 +46,18 @@ APART = [("diagnosis", "trial")]
 
 
 def room_of(path, rooms):
-    return next((room for room in rooms if path == room or path.startswith(room + "/")), None)
+    inside = [room for room in rooms if path == room or path.startswith(room + "/")]
+    return max(inside, key=len, default=None)
+
+
+def unlisted(root):
+    for rooms in LISTS.values():
+        last = rooms[-1]
+        if not all(room == last or room.startswith(last + "/") for room in rooms):
+            continue
+        folders = {s.parent.relative_to(root).as_posix() for s in (root / last).rglob("*.[hc]*")}
+        yield from (f"{folder}: stands in no list" for folder in sorted(folders - {last})
+                    if room_of(folder, rooms) == last)
 
 
 def faults(path, included):
@@ -44,6 +76,9 @@ def faults(path, included):
 def main():
     root = pathlib.Path(sys.argv[1])
     found = counted = 0
+    for fault in unlisted(root):
+        found += 1
+        print(fault)
     for top in LISTS[""] + ALONE:
         for source in sorted((root / top).rglob("*.[hc]*")):
             path = source.relative_to(root).as_posix()
@@ -55,7 +90,7 @@ def main():
                 for fault in faults(path, include[1]):
                     found += 1
                     print(f"{path}:{number}: {include[1]}: {fault}")
-    print(f"{counted} includes, {found} against the order of the rooms")
+    print(f"{counted} includes, {found} faults of the order of the rooms")
     return 1 if found or counted == 0 else 0
 
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <span>
 
-#include "estimation/analysis/oscillations/slow_modulation.h"
 #include "estimation/analysis/oscillations/strong_lines.h"
-#include "estimation/analysis/record.h"
-#include "estimation/analysis/spectral_peak.h"
-#include "estimation/analysis/spectrum.h"
+#include "estimation/analysis/spectra/record.h"
+#include "estimation/analysis/spectra/slow_modulation.h"
+#include "estimation/analysis/spectra/spectral_peak.h"
+#include "estimation/analysis/spectra/spectrum.h"
 
 namespace howl {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "estimation/analysis/characteristics.h"
+#include "estimation/analysis/cycle/characteristics.h"
 #include "estimation/analysis/oscillations/notch.h"
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 
 namespace howl {
 

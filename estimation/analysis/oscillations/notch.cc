@@ -4,8 +4,8 @@
 #include <cmath>
 #include <complex>
 
-#include "estimation/analysis/spectrum.h"
-#include "model/units.h"
+#include "estimation/analysis/spectra/spectrum.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 
 namespace howl {
 

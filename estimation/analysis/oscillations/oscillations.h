@@ -12,8 +12,8 @@
 
 #include <vector>
 
-#include "estimation/analysis/characteristics.h"
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/cycle/characteristics.h"
+#include "estimation/analysis/spectra/record.h"
 
 namespace howl {
 

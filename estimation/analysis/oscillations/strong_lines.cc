@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "estimation/analysis/characteristics.h"
+#include "estimation/analysis/cycle/characteristics.h"
 
 namespace howl {
 namespace {

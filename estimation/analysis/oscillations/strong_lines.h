@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "estimation/analysis/lines.h"
-#include "estimation/analysis/oscillations/slow_modulation.h"
-#include "estimation/analysis/record.h"
-#include "estimation/analysis/spectrum.h"
+#include "estimation/analysis/spectra/lines.h"
+#include "estimation/analysis/spectra/record.h"
+#include "estimation/analysis/spectra/slow_modulation.h"
+#include "estimation/analysis/spectra/spectrum.h"
 
 namespace howl {
 

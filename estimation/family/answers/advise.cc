@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/loop.h"
+#include "model/loop/loop.h"
 
 namespace howl {
 

@@ -10,7 +10,7 @@
 #include "estimation/family/bounds/feasible.h"
 #include "estimation/family/bounds/proof.h"
 #include "estimation/family/local/local_search.h"
-#include "estimation/family/members/window.h"
+#include "estimation/family/members/drawer/window.h"
 
 namespace howl {
 

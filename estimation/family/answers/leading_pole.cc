@@ -4,9 +4,9 @@
 #include <complex>
 
 #include "estimation/family/answers/oscillation_pole.h"
-#include "model/crossings.h"
-#include "model/laplace.h"
-#include "model/units.h"
+#include "model/loop/crossings.h"
+#include "model/loop/laplace.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

@@ -16,7 +16,7 @@
 
 #include <optional>
 
-#include "model/poles.h"
+#include "model/loop/poles.h"
 
 namespace howl {
 

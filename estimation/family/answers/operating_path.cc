@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/answers/predict.h"
 #include "estimation/fit/two_mode_solve.h"
 #include "estimation/parallel.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <complex>
 
-#include "model/laplace.h"
-#include "model/units.h"
+#include "model/loop/laplace.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

@@ -6,13 +6,13 @@
 // |L(j 2 pi f)|, and is followed from there to k along ds / d(ln k) = -L / L'(s), with a correction
 // by Newton's method at each step. Where the phase of L falls through 180 degrees at f it grows
 // exactly where |L Phi'(0)| > 1 (1b). Other poles, which may lie further to the right, are those of
-// model/poles.h; one root is far cheaper than all.
+// model/loop/poles.h; one root is far cheaper than all.
 #ifndef HOWL_ESTIMATION_FAMILY_ANSWERS_OSCILLATION_POLE_H_
 #define HOWL_ESTIMATION_FAMILY_ANSWERS_OSCILLATION_POLE_H_
 
 #include <optional>
 
-#include "model/poles.h"
+#include "model/loop/poles.h"
 
 namespace howl {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "estimation/parallel.h"
-#include "model/harmonic_balance.h"
-#include "model/loop.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/loop/loop.h"
 
 namespace howl {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "estimation/family/problem/problem.h"
-#include "model/flame.h"
+#include "model/loop/flame.h"
 
 namespace howl {
 
@@ -40,8 +40,8 @@ Prediction PredictSampled(std::string name, std::span<const Member> members,
 //
 //   |L(j 2 pi f) D(A)| = 1,
 //
-// and harmonic balance (model/harmonic_balance.h) refines frequency and amplitude. No value where
-// the loop has no such crossing or its gain at rest does not exceed one there.
+// and harmonic balance (model/cycles/harmonic_balance.h) refines frequency and amplitude. No value
+// where the loop has no such crossing or its gain at rest does not exceed one there.
 std::optional<double> PressureAmplitude(const LoopModel& model, const Flame<double>& flame,
                                         double frequency_hz);
 

@@ -7,8 +7,8 @@
 #include "estimation/family/answers/oscillation_pole.h"
 #include "estimation/family/answers/predict.h"
 #include "estimation/parallel.h"
-#include "model/flame.h"
-#include "model/units.h"
+#include "model/loop/flame.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 namespace {

@@ -23,7 +23,7 @@
 #include <span>
 #include <vector>
 
-#include "estimation/analysis/flame_shape.h"
+#include "estimation/analysis/flame/flame_shape.h"
 #include "estimation/family/answers/operating_path.h"
 
 namespace howl {

@@ -5,10 +5,10 @@
 
 #include "estimation/family/bounds/feasible.h"
 #include "estimation/family/local/local_search.h"
+#include "estimation/family/members/drawer/window.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/transfer_starts.h"
 #include "estimation/family/members/two_mode_tradeoff.h"
-#include "estimation/family/members/window.h"
 #include "estimation/parallel.h"
 
 namespace howl {

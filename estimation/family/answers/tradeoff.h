@@ -2,7 +2,7 @@
 // conditions pull against each other): the smallest largest-xi that any member has when omega may
 // spread by no more than a given omega_spread over the experiments.
 //
-// One mode: exact, from estimation/family/members/window.h (a bisection at most, to machine
+// One mode: exact, from estimation/family/members/drawer/window.h (a bisection at most, to machine
 // precision). Two modes: the least that local searches (estimation/family/local/local_search.h)
 // from several members reach, and where these do not agree and M or M / N is shared also that of
 // estimation/family/members/two_mode_tradeoff.h, another algorithm altogether; on the published

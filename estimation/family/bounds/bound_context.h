@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "estimation/family/bounds/bound_quantity.h"
-#include "estimation/family/bounds/cell.h"
-#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/contract/cell.h"
+#include "estimation/family/bounds/contract/cell_contractor.h"
 #include "estimation/family/local/local_search.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/problem/problem.h"

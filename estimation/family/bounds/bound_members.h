@@ -5,7 +5,7 @@
 
 #include "estimation/family/bounds/bound_context.h"
 #include "estimation/family/bounds/bound_search.h"
-#include "estimation/family/bounds/cell.h"
+#include "estimation/family/bounds/contract/cell.h"
 
 namespace howl {
 

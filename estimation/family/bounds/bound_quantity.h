@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <span>
 
-#include "estimation/family/bounds/cell.h"
-#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/contract/cell.h"
+#include "estimation/family/bounds/contract/cell_contractor.h"
 #include "estimation/family/bounds/expression.h"
 #include "estimation/family/problem/family_parameter.h"
 #include "estimation/family/problem/problem.h"

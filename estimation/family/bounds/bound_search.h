@@ -13,7 +13,7 @@
 
 #include "estimation/family/bounds/bound_context.h"
 #include "estimation/family/bounds/bound_quantity.h"
-#include "estimation/family/bounds/cell.h"
+#include "estimation/family/bounds/contract/cell.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/problem/random.h"
 

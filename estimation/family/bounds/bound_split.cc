@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

@@ -12,7 +12,7 @@
 
 #include "estimation/family/bounds/bound_context.h"
 #include "estimation/family/bounds/bound_quantity.h"
-#include "estimation/family/bounds/cell.h"
+#include "estimation/family/bounds/contract/cell.h"
 
 namespace howl {
 

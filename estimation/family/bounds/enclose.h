@@ -1,10 +1,11 @@
 // Guaranteed bounds of every parameter over the family.
 //
 // For each bound (one end of one parameter of one experiment) a best-first search over cells
-// (estimation/family/bounds/cell.h): the cell that reaches farthest is split and contracted
-// (estimation/family/bounds/contract.h) until it reaches no farther than a member that was found,
-// to within half the stated width. So no member lies outside `outer`, and members were found at
-// both ends of `inner`. One step of a search: estimation/family/bounds/bound_step.h.
+// (estimation/family/bounds/contract/cell.h): the cell that reaches farthest is split and
+// contracted (estimation/family/bounds/contract/contract.h) until it reaches no farther than a
+// member that was found, to within half the stated width. So no member lies outside `outer`, and
+// members were found at both ends of `inner`. One step of a search:
+// estimation/family/bounds/bound_step.h.
 //
 // Every bound is a unit of work of its own, so the result is the same whatever the number of
 // threads, and whether or not the run was interrupted, saved, loaded and resumed.
@@ -18,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/family/bounds/cell.h"
+#include "estimation/family/bounds/contract/cell.h"
 #include "estimation/family/bounds/expression.h"
 #include "estimation/family/problem/family_parameter.h"
 #include "estimation/family/problem/problem.h"

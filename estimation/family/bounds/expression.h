@@ -1,4 +1,5 @@
-// Formulas (model/formula.h) of a member's parameters, as a config may ask for, in the names
+// Formulas (model/numerics/formula.h) of a member's parameters, as a config may ask for, in the
+// names
 //
 //   omega_hz xi N M tau_s harmonic_ratio (of the model), phi frequency_hz phase_deg gain
 //   flame_slope (of the experiment).
@@ -13,10 +14,10 @@
 #include <string_view>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
-#include "estimation/family/bounds/cell.h"
+#include "estimation/analysis/loop/experiment.h"
+#include "estimation/family/bounds/contract/cell.h"
 #include "estimation/family/problem/problem.h"
-#include "model/formula.h"
+#include "model/numerics/formula.h"
 
 namespace howl {
 

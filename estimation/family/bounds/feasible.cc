@@ -2,9 +2,9 @@
 
 #include "estimation/family/bounds/proof.h"
 #include "estimation/family/local/local_search.h"
+#include "estimation/family/members/drawer/window.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/transfer_starts.h"
-#include "estimation/family/members/window.h"
 
 namespace howl {
 

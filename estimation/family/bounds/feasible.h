@@ -16,7 +16,7 @@ enum class Feasibility {
 };
 
 // One mode without a shared N or tau and without bounds on N, tau or omega: the windows of
-// estimation/family/members/window.h decide, exactly and in microseconds.
+// estimation/family/members/drawer/window.h decide, exactly and in microseconds.
 bool HasExactWindows(const FamilyProblem& problem);
 
 // A member by draws at random, or from the transfers' centres where the test looks at transfers.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "estimation/family/bounds/contract.h"
-#include "estimation/family/bounds/interval.h"
-#include "estimation/family/bounds/second_mode_bound.h"
-#include "model/loop.h"
+#include "estimation/family/bounds/contract/contract.h"
+#include "estimation/family/bounds/contract/interval.h"
+#include "estimation/family/bounds/contract/second_mode_bound.h"
+#include "model/loop/loop.h"
 
 namespace howl {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "estimation/family/bounds/bound_split.h"
-#include "estimation/family/bounds/cell.h"
-#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/contract/cell.h"
+#include "estimation/family/bounds/contract/cell_contractor.h"
 
 namespace howl {
 

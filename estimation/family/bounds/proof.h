@@ -1,7 +1,7 @@
 // A proof that a family is empty, by interval arithmetic: the cell that holds every model of the
-// domain is contracted by the conditions (estimation/family/bounds/contract.h), split where
-// something is left, and so on, until nothing is. Two bounds that are disjoint leave nothing at
-// once.
+// domain is contracted by the conditions (estimation/family/bounds/contract/contract.h), split
+// where something is left, and so on, until nothing is. Two bounds that are disjoint leave nothing
+// at once.
 //
 // True is a proof, in spite of rounding. False says nothing: `max_cells` splits may have been too
 // few.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "estimation/family/local/local_point.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/problem/transfer_limit.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

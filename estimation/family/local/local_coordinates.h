@@ -10,7 +10,7 @@
 //
 // Every coordinate lives in an open box. What may be soft is not in the box: the conditions are
 // rows (estimation/family/local/local_conditions.h). Units: Hz, rad, N and M as in
-// model/acoustics.h.
+// model/loop/acoustics.h.
 #ifndef HOWL_ESTIMATION_FAMILY_LOCAL_LOCAL_COORDINATES_H_
 #define HOWL_ESTIMATION_FAMILY_LOCAL_LOCAL_COORDINATES_H_
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <type_traits>
 
-#include "estimation/analysis/closed_form.h"
-#include "model/loop.h"
-#include "model/second_mode.h"
+#include "estimation/analysis/loop/closed_form.h"
+#include "model/loop/loop.h"
+#include "model/loop/second_mode.h"
 
 namespace howl {
 

@@ -5,7 +5,7 @@
 //   w tau = 3 pi / 2 + theta - loop phase error + 2 pi delay_periods,
 //
 // which gives tau, or with a shared tau the error; and, with one mode, omega and N of
-// estimation/analysis/closed_form.h. With two, N and M follow from omega by
+// estimation/analysis/loop/closed_form.h. With two, N and M follow from omega by
 // estimation/fit/two_mode_solve.h: omega is a coordinate, or where the experiments share the second
 // mode the root next to where the last one was.
 //

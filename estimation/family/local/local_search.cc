@@ -4,13 +4,13 @@
 #include <cmath>
 #include <vector>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/local/local_barrier.h"
 #include "estimation/family/local/local_conditions.h"
 #include "estimation/family/local/local_coordinates.h"
 #include "estimation/family/local/local_state.h"
 #include "estimation/family/local/transfer_centre.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "estimation/family/local/local_point.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

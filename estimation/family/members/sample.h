@@ -2,11 +2,9 @@
 // natural parameters that are free, (omega_hz, xi, N, M or M / N, tau_s) of each experiment, a
 // shared parameter counting once.
 //
-// Coordinate-wise slice sampling (Neal 2003) with shrinkage. The coordinates are those in which the
-// test's conditions are bounds: phase, gain and loop phase error in the place of omega, N and tau.
-// The Jacobian of closed_form.h and two_mode_solve.h corrects for the change of coordinates.
-// Several chains start from different members of an enumeration; where the family has parts that no
-// chain crosses between (two modes), R-hat says so.
+// Chains of slice sampling (slice_sampler.h) in coordinates in which the test's conditions are
+// bounds (sample_chart.h). Several chains start from different members of an enumeration; where the
+// family has parts that no chain crosses between (two modes), R-hat says so.
 #ifndef HOWL_ESTIMATION_FAMILY_MEMBERS_SAMPLE_H_
 #define HOWL_ESTIMATION_FAMILY_MEMBERS_SAMPLE_H_
 
@@ -44,10 +42,6 @@ struct MemberSample {
 // Empty when no member is found, or for the one unsupported scope (N shared while each experiment
 // has its own second mode).
 MemberSample SampleMembers(const FamilyProblem& problem, const SampleOptions& options = {});
-
-// Indices of `count` members that are well spread: each next one is the farthest from those taken
-// (maximin), parameters in units of their range.
-std::vector<std::size_t> SpreadMembers(const std::vector<Member>& members, std::size_t count);
 
 }  // namespace howl
 

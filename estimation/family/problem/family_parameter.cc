@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "model/loop.h"
+#include "model/loop/loop.h"
 
 namespace howl {
 

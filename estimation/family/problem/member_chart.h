@@ -2,8 +2,8 @@
 // modes share: xi, theta = arg G, the gain |G| and the loop phase error, each within its target
 // (targets.h). With one mode, omega and N follow from the closed form; with two, a further
 // coordinate is omega, or the second mode (M or M / N) where the experiments share it:
-// estimation/analysis/closed_form.h and estimation/fit/two_mode_solve.h have the equations. tau
-// follows from theta and the loop phase error by (3).
+// estimation/analysis/loop/closed_form.h and estimation/fit/two_mode_solve.h have the equations.
+// tau follows from theta and the loop phase error by (3).
 //
 // The local search has the same coordinates as logarithms with derivatives
 // (estimation/family/local/local_point.h), and takes (3) from the closed form too.
@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/problem/problem.h"
 #include "estimation/family/problem/targets.h"
 #include "estimation/fit/two_mode_solve.h"

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <vector>
 
-#include "model/loop.h"
-#include "model/second_mode.h"
+#include "model/loop/loop.h"
+#include "model/loop/second_mode.h"
 
 namespace howl {
 

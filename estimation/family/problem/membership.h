@@ -18,8 +18,8 @@
 //                              crossing (two modes, reliable experiments with a flame slope)
 //   transfer_distance_max      distance of (omega, xi, N, M) from the broadband q-to-p transfer, in
 //                              standard deviations of one number
-//                              (estimation/analysis/transfer_ellipsoid.h): experiments whose record
-//                              has one
+//                              (estimation/analysis/transfer/transfer_ellipsoid.h): experiments
+//                              whose record has one
 //
 // An infinite tolerance or maximum, or a minimum of zero, switches its condition off.
 #ifndef HOWL_ESTIMATION_FAMILY_PROBLEM_MEMBERSHIP_H_
@@ -30,7 +30,7 @@
 #include <span>
 #include <string_view>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/parameters.h"
 #include "estimation/residual_spec.h"
 

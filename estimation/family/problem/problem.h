@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/family/problem/membership.h"
 #include "estimation/parameters.h"
 

@@ -1,6 +1,6 @@
 // The test's tolerances on one experiment, as ranges of what they bound: the phase of G, its
 // magnitude and the loop phase error. An experiment's members are a box in these and in the
-// parameters that they leave free (estimation/analysis/closed_form.h, two_mode_solve.h).
+// parameters that they leave free (estimation/analysis/loop/closed_form.h, two_mode_solve.h).
 #ifndef HOWL_ESTIMATION_FAMILY_PROBLEM_TARGETS_H_
 #define HOWL_ESTIMATION_FAMILY_PROBLEM_TARGETS_H_
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "estimation/family/problem/problem.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

@@ -1,13 +1,13 @@
 // transfer_distance_max as a limit on the ellipsoid's quadratic form, which loops over many models
 // compare with instead of turning each distance into a deviation
-// (estimation/analysis/joint_deviation.h).
+// (estimation/analysis/transfer/joint_deviation.h).
 #ifndef HOWL_ESTIMATION_FAMILY_PROBLEM_TRANSFER_LIMIT_H_
 #define HOWL_ESTIMATION_FAMILY_PROBLEM_TRANSFER_LIMIT_H_
 
 #include <algorithm>
 #include <limits>
 
-#include "estimation/analysis/joint_deviation.h"
+#include "estimation/analysis/transfer/joint_deviation.h"
 #include "estimation/family/problem/membership.h"
 
 namespace howl {

@@ -6,7 +6,7 @@
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"
 #include "io/results/csv_writer.h"
-#include "model/continuation.h"
+#include "model/cycles/continuation.h"
 
 namespace howl {
 namespace {

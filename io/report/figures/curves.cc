@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "io/report/script.h"
-#include "model/loop.h"
-#include "model/units.h"
+#include "model/loop/loop.h"
+#include "model/numerics/units.h"
 
 namespace howl {
 

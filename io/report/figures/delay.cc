@@ -1,7 +1,7 @@
 // Figure 4 of the paper: the delay of (3) with the period of the limit cycle.
 #include <cmath>
 
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"

@@ -2,9 +2,9 @@
 // characteristic that bin means make of the cloud.
 #include <cmath>
 
-#include "estimation/analysis/flame_curve.h"
-#include "estimation/analysis/flame_regressor.h"
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/flame/flame_curve.h"
+#include "estimation/analysis/flame/flame_regressor.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"

@@ -2,12 +2,12 @@
 // the model's loop closes a second time.
 #include <cmath>
 
-#include "estimation/analysis/half_width.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"
 #include "io/results/csv_writer.h"
-#include "model/crossings.h"
+#include "model/loop/crossings.h"
 
 namespace howl {
 namespace {

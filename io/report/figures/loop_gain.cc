@@ -2,8 +2,8 @@
 // one and the limit cycle vanishes.
 #include <cmath>
 
-#include "estimation/analysis/half_width.h"
-#include "estimation/analysis/vanishing_phi.h"
+#include "estimation/analysis/loop/vanishing_phi.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"

@@ -8,7 +8,7 @@
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"
 #include "io/results/csv_writer.h"
-#include "model/crossings.h"
+#include "model/loop/crossings.h"
 
 namespace howl {
 namespace {

@@ -6,8 +6,8 @@
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"
 #include "io/results/csv_writer.h"
-#include "model/crossings.h"
-#include "model/sensitivity.h"
+#include "model/loop/crossings.h"
+#include "model/loop/sensitivity.h"
 
 namespace howl {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "estimation/analysis/lines.h"
+#include "estimation/analysis/spectra/lines.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"

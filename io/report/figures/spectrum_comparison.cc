@@ -2,7 +2,7 @@
 // record, the simulated one is drawn with the measured frequencies.
 #include <cmath>
 
-#include "estimation/analysis/spectrum.h"
+#include "estimation/analysis/spectra/spectrum.h"
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
 #include "io/report/script.h"

@@ -1,4 +1,4 @@
-#include "estimation/analysis/characteristics.h"
+#include "estimation/analysis/cycle/characteristics.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "estimation/analysis/analyse.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 
 namespace howl::testing {

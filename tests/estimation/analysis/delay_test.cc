@@ -1,4 +1,4 @@
-#include "estimation/analysis/delay.h"
+#include "estimation/analysis/loop/delay.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "estimation/analysis/flame_curve.h"
-#include "estimation/analysis/vanishing_phi.h"
+#include "estimation/analysis/flame/flame_curve.h"
+#include "estimation/analysis/loop/vanishing_phi.h"
 
 namespace howl {
 namespace {

@@ -1,4 +1,4 @@
-#include "estimation/analysis/flame_curve.h"
+#include "estimation/analysis/flame/flame_curve.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "estimation/analysis/analyse.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "estimation/analysis/spectra/simulated_record.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -29,7 +30,7 @@ Analysis AnalyseRig(const RigParameters& rig, std::uint64_t seed, int max_harmon
       Simulate({rig, seed}, {.duration_s = 3.2, .sampling_hz = 5000.0, .settle_s = 0.5});
   AnalysisOptions options;
   options.flame_curve.max_harmonic = max_harmonic;
-  const NamedRecord named{"rig", 0.5, {record.sampling_hz, record.pressure, record.heat_release}};
+  const NamedRecord named{"rig", 0.5, ToRecord(record)};
   return AnalyseRecords(std::span(&named, 1), options).analyses.front();
 }
 

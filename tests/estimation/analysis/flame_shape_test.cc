@@ -1,4 +1,4 @@
-#include "estimation/analysis/flame_shape.h"
+#include "estimation/analysis/flame/flame_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,11 @@
 #include <numbers>
 
 #include "estimation/analysis/analyse.h"
-#include "estimation/analysis/flame_bin_residual.h"
-#include "model/flame_shapes.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "estimation/analysis/flame/flame_bin_residual.h"
+#include "estimation/analysis/spectra/simulated_record.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/loop/flame_shapes.h"
+#include "model/simulation/simulate.h"
 #include "tests/residual_jacobian.h"
 
 namespace howl {
@@ -87,7 +88,7 @@ TEST(FlameShape, AnOffsetRigsRecordGivesAFlameOfTheSameCycle) {
   rig.past = PastOnCycle(cycle);
   const SimulatedRecord record =
       Simulate({rig, 7}, {.duration_s = 3.2, .sampling_hz = 5000.0, .settle_s = 0.5});
-  const NamedRecord named{"rig", 0.5, {record.sampling_hz, record.pressure, record.heat_release}};
+  const NamedRecord named{"rig", 0.5, ToRecord(record)};
   const Analysis analysis = AnalyseRecords(std::span(&named, 1)).analyses.front();
   ASSERT_TRUE(analysis.flame_curve.has_value());
   const auto fit = FitFlameShape(*analysis.flame_curve, analysis.flame_curve->slope.value);

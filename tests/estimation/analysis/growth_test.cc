@@ -1,4 +1,4 @@
-#include "estimation/analysis/growth.h"
+#include "estimation/analysis/cycle/growth.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "estimation/analysis/analyse.h"
 #include "estimation/fit/joint_fit.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 #include "tests/estimation/analysis/measured_data.h"
 
 namespace howl {

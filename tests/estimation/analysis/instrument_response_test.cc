@@ -1,5 +1,5 @@
 // Formulas against std::complex, tables against the response that they were taken from.
-#include "estimation/analysis/instrument_response.h"
+#include "estimation/analysis/instruments/instrument_response.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Truth: the chi-square distribution of Boost.Math where its tail does not underflow, and the
 // printed quantiles of Abramowitz and Stegun, table 26.8.
-#include "estimation/analysis/joint_deviation.h"
+#include "estimation/analysis/transfer/joint_deviation.h"
 
 #include <gtest/gtest.h>
 

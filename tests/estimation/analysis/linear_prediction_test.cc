@@ -1,4 +1,4 @@
-#include "estimation/analysis/linear_prediction.h"
+#include "estimation/analysis/instruments/linear_prediction.h"
 
 #include <gtest/gtest.h>
 

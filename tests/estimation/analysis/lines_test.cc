@@ -1,4 +1,4 @@
-#include "estimation/analysis/lines.h"
+#include "estimation/analysis/spectra/lines.h"
 
 #include <gtest/gtest.h>
 

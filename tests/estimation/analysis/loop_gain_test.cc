@@ -6,9 +6,10 @@
 #include <numbers>
 
 #include "estimation/analysis/analyse.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
-#include "model/units.h"
+#include "estimation/analysis/spectra/simulated_record.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/numerics/units.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
@@ -51,7 +52,7 @@ TEST(LoopGain, OfRigsAsNoisyAsACombustorIsUnbiasedAndCovered) {
       int found = 0;
       for (const SimulatedRecord& one :
            SimulateBatch(cases, {.duration_s = 3.0, .sampling_hz = 10000.0, .settle_s = 1.0})) {
-        const NamedRecord record{"rig", 0.5, {one.sampling_hz, one.pressure, one.heat_release}};
+        const NamedRecord record{"rig", 0.5, ToRecord(one)};
         const Analysis analysis = AnalyseRecords(std::span(&record, 1)).analyses.front();
         if (!analysis.flame_curve) continue;
         const Estimate& slope = analysis.flame_curve->slope;

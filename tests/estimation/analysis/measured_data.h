@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 
 namespace howl::testing {
 

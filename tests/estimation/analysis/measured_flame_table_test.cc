@@ -1,5 +1,5 @@
 // The table of a flame whose curve is known: q = -s S tanh(x / S).
-#include "estimation/analysis/measured_flame_table.h"
+#include "estimation/analysis/flame/measured_flame_table.h"
 
 #include <gtest/gtest.h>
 

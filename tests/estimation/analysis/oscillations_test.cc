@@ -13,7 +13,7 @@
 
 #include "estimation/analysis/analyse.h"
 #include "estimation/analysis/oscillations/notch.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 #include "tests/estimation/analysis/coverage_rows.h"
 #include "tests/estimation/analysis/two_oscillation_record.h"
 

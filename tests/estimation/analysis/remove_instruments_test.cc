@@ -1,6 +1,6 @@
 // Records that known instruments made, of tones in closed form and of noisy cycles by a transform
 // of a longer record, against the records of ideal instruments.
-#include "estimation/analysis/remove_instruments.h"
+#include "estimation/analysis/instruments/remove_instruments.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <unsupported/Eigen/FFT>
 
-#include "estimation/analysis/characteristics.h"
+#include "estimation/analysis/cycle/characteristics.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 
 namespace howl {

@@ -1,4 +1,4 @@
-#include "estimation/analysis/spectrum.h"
+#include "estimation/analysis/spectra/spectrum.h"
 
 #include <gtest/gtest.h>
 

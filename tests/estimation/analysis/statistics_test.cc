@@ -1,4 +1,4 @@
-#include "estimation/analysis/statistics.h"
+#include "estimation/analysis/spectra/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "estimation/analysis/spectrum.h"
+#include "estimation/analysis/spectra/spectrum.h"
 
 namespace howl {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 
 namespace howl::testing {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "estimation/analysis/analyse.h"
-#include "model/units.h"
+#include "model/numerics/units.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 
 namespace howl {

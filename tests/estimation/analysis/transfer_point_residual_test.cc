@@ -1,4 +1,4 @@
-#include "estimation/analysis/transfer_point_residual.h"
+#include "estimation/analysis/transfer/transfer_point_residual.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "estimation/analysis/transfer.h"
+#include "estimation/analysis/transfer/transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "estimation/analysis/analyse.h"
-#include "estimation/analysis/transfer_ellipsoid.h"
+#include "estimation/analysis/transfer/transfer_ellipsoid.h"
 #include "estimation/family/problem/membership.h"
 #include "tests/estimation/analysis/measured_data.h"
 

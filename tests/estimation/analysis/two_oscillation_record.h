@@ -13,7 +13,7 @@
 #include <numbers>
 #include <random>
 
-#include "estimation/analysis/record.h"
+#include "estimation/analysis/spectra/record.h"
 
 namespace howl::testing {
 

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/family/bounds/carrying_mode_bound.h"
+#include "estimation/family/bounds/contract/carrying_mode_bound.h"
+#include "estimation/family/bounds/contract/cell_contractor.h"
 #include "estimation/family/members/enumerate.h"
 #include "tests/r228.h"
 

@@ -1,6 +1,6 @@
 // The contraction by the limit cycle's response and the loop at a line, against models drawn by the
 // independent reference: none is lost, and what is left of a box is not much more than they fill.
-#include "estimation/family/bounds/centred_bound.h"
+#include "estimation/family/bounds/contract/centred_bound.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "estimation/family/bounds/contract/cell_contractor.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -1,14 +1,14 @@
 // What is done along the chain of xi in steps that grow as the number of experiments does, against
 // the definition: all pairs of experiments.
-#include "estimation/family/members/chain.h"
+#include "estimation/family/members/drawer/chain.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "estimation/family/members/chain_front.h"
+#include "estimation/family/members/drawer/chain_front.h"
+#include "estimation/family/members/drawer/window.h"
 #include "estimation/family/members/enumerate.h"
-#include "estimation/family/members/window.h"
 #include "tests/known_loops.h"
 #include "tests/r228.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/fit/two_mode_solve.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"

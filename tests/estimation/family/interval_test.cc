@@ -1,4 +1,4 @@
-#include "estimation/family/bounds/interval.h"
+#include "estimation/family/bounds/contract/interval.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/contract/cell_contractor.h"
+#include "estimation/family/bounds/contract/contract.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/local/local_search.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/sample.h"

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/answers/oscillation_pole.h"
 #include "estimation/family/members/enumerate.h"
-#include "model/poles.h"
+#include "model/loop/poles.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
@@ -277,7 +277,8 @@ struct RoughRig : Rig {
   double LogSlope(double phi) const override { return Value(k, phi); }
 };
 
-// The rule's own assumption: 95 %, within what 400 draws tell (the binomial's 99.9 %: 91 .. 98.3 %).
+// The rule's own assumption: 95 %, within what 400 draws tell (the binomial's 99.9 %: 91 .. 98.3
+// %).
 TEST(LongPredictPointsTest, CoverageOnRoughRigs) {
   std::mt19937 random(7);
   Coverage between, beyond;

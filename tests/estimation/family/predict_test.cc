@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/answers/advise.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/sample.h"

@@ -1,6 +1,6 @@
 // From a simulated rig's records to its family: the rig itself must be a member, whatever its
-// modes. Truth is the rig; the simulator is model/simulate.h, which shares no estimate with
-// analysis.
+// modes. Truth is the rig; the simulator is model/simulation/simulate.h, which shares no estimate
+// with analysis.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,13 +8,14 @@
 #include <string>
 
 #include "estimation/analysis/analyse.h"
-#include "estimation/analysis/closed_form.h"
+#include "estimation/analysis/loop/closed_form.h"
+#include "estimation/analysis/spectra/simulated_record.h"
 #include "estimation/family/bounds/enclose.h"
 #include "estimation/family/bounds/feasible.h"
 #include "estimation/unit_seed.h"
-#include "model/floquet.h"
-#include "model/harmonic_balance.h"
-#include "model/simulate.h"
+#include "model/cycles/floquet.h"
+#include "model/cycles/harmonic_balance.h"
+#include "model/simulation/simulate.h"
 #include "tests/r228.h"
 
 namespace howl {
@@ -73,10 +74,7 @@ std::vector<Experiment> Recorded(const Member& rig, const ModelSpec& model,
       SimulateBatch(cases, {.duration_s = 3.2, .sampling_hz = 5000.0, .settle_s = 1.0});
   std::vector<NamedRecord> records;
   for (std::size_t i = 0; i < simulated.size(); ++i) {
-    const SimulatedRecord& record = simulated[i];
-    records.push_back({published[i].name,
-                       published[i].phi,
-                       {record.sampling_hz, record.pressure, record.heat_release}});
+    records.push_back({published[i].name, published[i].phi, ToRecord(simulated[i])});
   }
   const AnalysisSet set = AnalyseRecords(records, {.model = model});
   *delay_periods = set.delay.branch;

@@ -7,7 +7,7 @@
 #include <complex>
 #include <vector>
 
-#include "estimation/analysis/experiment.h"
+#include "estimation/analysis/loop/experiment.h"
 #include "estimation/family/problem/membership.h"
 
 namespace howl::reference {

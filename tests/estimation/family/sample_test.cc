@@ -9,6 +9,7 @@
 
 #include "estimation/family/bounds/enclose.h"
 #include "estimation/family/members/convergence.h"
+#include "estimation/family/members/member_spread.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -8,9 +8,10 @@
 #include <random>
 
 #include "estimation/family/answers/conflict.h"
-#include "estimation/family/bounds/contract.h"
+#include "estimation/family/bounds/contract/cell_contractor.h"
+#include "estimation/family/bounds/contract/contract.h"
+#include "estimation/family/bounds/contract/second_mode_bound.h"
 #include "estimation/family/bounds/feasible.h"
-#include "estimation/family/bounds/second_mode_bound.h"
 #include "estimation/family/local/local_search.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/sample.h"

@@ -10,7 +10,7 @@
 
 #include "estimation/family/answers/leading_pole.h"
 #include "estimation/family/members/enumerate.h"
-#include "model/poles.h"
+#include "model/loop/poles.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 

@@ -1,6 +1,6 @@
 // Transfers as a condition of membership. Truth: the falsification test of reference.h, and the
 // ellipsoid written out a second time from its covariance.
-#include "estimation/analysis/transfer.h"
+#include "estimation/analysis/transfer/transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-#include "estimation/analysis/joint_deviation.h"
+#include "estimation/analysis/transfer/joint_deviation.h"
 #include "estimation/family/answers/conflict.h"
 #include "estimation/family/answers/tradeoff.h"
 #include "estimation/family/bounds/enclose.h"

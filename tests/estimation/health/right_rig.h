@@ -12,10 +12,11 @@
 #include <vector>
 
 #include "estimation/analysis/analyse.h"
-#include "estimation/analysis/experiment.h"
-#include "model/crossings.h"
-#include "model/loop.h"
-#include "model/simulate.h"
+#include "estimation/analysis/loop/experiment.h"
+#include "estimation/analysis/spectra/simulated_record.h"
+#include "model/loop/crossings.h"
+#include "model/loop/loop.h"
+#include "model/simulation/simulate.h"
 
 namespace howl {
 
@@ -81,14 +82,8 @@ inline std::vector<NamedRecord> RightRecords(unsigned seed, double loop_gain = k
   SimulationOptions options;
   options.duration_s = 3.2;
   options.settle_s = 0.5;
-  std::vector<NamedRecord> records;
-  for (const SimulatedRecord& record : SimulateBatch(cases, options)) {
-    const int point = static_cast<int>(records.size());
-    records.push_back({"exp" + std::to_string(point + 1),
-                       RightPhi(point),
-                       {record.sampling_hz, record.pressure, record.heat_release}});
-  }
-  return records;
+  return RecordedPoints<NamedRecord>(cases, options,
+                                     [](std::size_t i) { return RightPhi(static_cast<int>(i)); });
 }
 
 }  // namespace howl

@@ -1,0 +1,31 @@
+#include "app/check/check_diagnose.h"
+
+#include <algorithm>
+
+#include "app/input/diagnose_input.h"
+#include "io/user_error.h"
+
+namespace howl {
+
+std::string WhatDiagnoseCanDo(const Config& config, const ProblemInput& input) {
+  if (input.records.empty()) {
+    const bool any_line = std::ranges::any_of(
+        input.experiments, [](const Experiment& each) { return !each.lines.empty(); });
+    if (!any_line) {
+      throw UserError(config.source.string(), 0, "", "no experiment has a record or lines");
+    }
+    return "a table: bounds on the lag of the q sensor alone";
+  }
+  const std::size_t records = MakeDiagnosisExperiments(config, input.records).size();
+  std::string text = std::to_string(records) + (records == 1 ? " record" : " records") +
+                     " cut at p and q; modes: " +
+                     (StatesModes(config) ? std::to_string(config.model.modes) : "chosen by them") +
+                     "; tau_s: ";
+  text += !StatesDelays(config)       ? "chosen by them"
+          : BaseOf(config).own_delays ? "one an experiment"
+                                      : "one for all experiments";
+  if (records == 1) text += "; what varies from one operating point to the next cannot be told";
+  return text;
+}
+
+}  // namespace howl

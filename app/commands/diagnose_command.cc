@@ -1,0 +1,203 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/command_line/command.h"
+#include "app/diagnose/diagnose_plan.h"
+#include "app/diagnose/diagnose_state.h"
+#include "app/diagnose/diagnose_table.h"
+#include "app/diagnose/planned_records.h"
+#include "app/files/digest.h"
+#include "app/input/diagnose_input.h"
+#include "app/jobs/shard.h"
+#include "app/jobs/unit_store.h"
+#include "app/process/interruption.h"
+#include "app/process/progress_line.h"
+#include "app/text/diagnose_text.h"
+#include "diagnosis/diagnosis.h"
+#include "io/config/reading/config_reading.h"
+#include "io/config/schema/nearest_key.h"
+#include "io/results/diagnosis_json.h"
+#include "io/whole_file.h"
+#include "model/effects/catalogue.h"
+
+namespace howl {
+namespace {
+
+// "a,b" from --without.
+std::vector<std::string> Withheld(const Options& options) {
+  std::vector<std::string> known;
+  for (const EffectPointer& effect : Catalogue()) known.emplace_back(effect->id());
+  std::vector<std::string> ids;
+  std::istringstream list(options.Text("--without").value_or(""));
+  for (std::string id; std::getline(list, id, ',');) {
+    if (std::find(known.begin(), known.end(), id) == known.end()) {
+      const std::optional<std::string> nearest = NearestKey(id, known);
+      throw UsageError("--without: " + id + " is no effect of the catalogue" +
+                       (nearest ? ", did you mean " + *nearest + "?" : ""));
+    }
+    ids.push_back(id);
+  }
+  return ids;
+}
+
+// The least number of replicates, with which one in twenty can be resolved.
+std::size_t Replicates(const Options& options) {
+  const std::optional<int> count = options.Count("--bootstrap", 19, 9999);
+  if (count && options.Has("--reference")) {
+    throw UsageError(
+        "--bootstrap simulates the model of the config, and --reference puts records in its "
+        "place: expected one or the other");
+  }
+  return static_cast<std::size_t>(count.value_or(0));
+}
+
+// Of --shard, which divides the replicates of the bootstrap.
+std::optional<Shard> ShardOfReplicates(const Options& options) {
+  const std::optional<Shard> shard = ShardOf(options);
+  if (shard && !options.Has("--bootstrap")) {
+    throw UsageError("--shard divides the replicates of --bootstrap N, expected that as well");
+  }
+  return shard;
+}
+
+std::filesystem::path StatePath(const Options& options) { return options.out / "diagnosis.state"; }
+
+void SayWhereItGoesOn(const UnitStore& store, const std::filesystem::path& path,
+                      const Options& options) {
+  if (options.quiet) return;
+  if (!store.found().empty()) {
+    const std::string anew = store.damaged() == 0 ? "" : ", what was damaged there is done anew";
+    std::fprintf(stderr, "going on from %s: %zu fits are done%s\n", path.c_str(),
+                 store.found().size(), anew.c_str());
+  } else if (store.refused()) {
+    std::fprintf(stderr, "%s is of another build or of other inputs: begun anew\n", path.c_str());
+  }
+}
+
+std::vector<DiagnosisExperiment> LoadReference(const Options& options) {
+  const auto path = options.Text("--reference");
+  return path ? LoadDiagnosisExperiments(LoadConfig(*path)) : std::vector<DiagnosisExperiment>();
+}
+
+std::string InputsOf(const Options& options) {
+  const Config config = LoadConfig(options.config);
+  return Sha256(InputBytes(config, Withheld(options), LoadDiagnosisExperiments(config),
+                           LoadReference(options)));
+}
+
+void Adopt(const Options& options, const Units& units) {
+  WriteWholeFile(StatePath(options), StoreText(DiagnoseStateHeader(InputsOf(options)), units));
+}
+
+int Run(const Options& options) {
+  const std::optional<Shard> shard = ShardOfReplicates(options);
+  const Config config = LoadConfig(options.config);
+  if (options.Has("--plan")) return RunPlan(config, options, Withheld(options));
+  if (!HasRecords(config)) return RunTable(config, options);
+  const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
+  DiagnosisOptions how;
+  how.model = BaseOf(config);
+  how.choose_modes = !StatesModes(config);
+  how.choose_delays = !StatesDelays(config);
+  how.threads = options.threads;
+  how.withheld = Withheld(options);
+  how.find_budget = !options.Has("--no-budget");
+  how.seed = options.seed;
+  how.bootstrap = Replicates(options);
+  for (const EffectDeclaration& declaration : config.effects) {
+    how.further.push_back(std::make_shared<DeclaredEffect>(declaration));
+  }
+  if (!options.quiet && isatty(STDERR_FILENO) != 0) {
+    how.progress = [](std::size_t done, std::size_t total) {
+      static ProgressLine line("starts of the search", false);
+      line.Show(done, total);
+    };
+    how.bootstrap_progress = [](std::size_t done, std::size_t total) {
+      static ProgressLine line("replicates of the bootstrap", false);
+      line.Show(done, total);
+    };
+    how.budget_progress = [](std::size_t done, std::size_t total) {
+      static ProgressLine line("items of a step of the budget", false);
+      line.Show(done, total);
+    };
+  }
+  if (const auto path = options.Text("--reference")) {
+    const Config reference = LoadConfig(*path);
+    how.reference = LoadDiagnosisExperiments(reference);
+    CheckReference(config, reference, experiments, how.reference);
+  }
+  WatchForInterruption();
+  const std::string inputs = Sha256(InputBytes(config, how.withheld, experiments, how.reference));
+  const std::string header =
+      shard ? ShardHeader("diagnose", options, inputs, *shard) : DiagnoseStateHeader(inputs);
+  if (shard && IsShardDone(options.out, "diagnose", *shard, header)) return kDone;
+  const std::filesystem::path state_path =
+      shard ? ShardPartPath(options.out, "diagnose", *shard) : StatePath(options);
+  UnitStore store(state_path, header);
+  SayWhereItGoesOn(store, state_path, options);
+  DiagnoseState state(store);
+  how.memory = &state;
+  how.stopped = IsInterrupted;
+  if (shard) how.owns_replicate = [&](std::size_t replicate) { return shard->Owns(replicate); };
+  const Diagnosis diagnosis = Diagnose(experiments, how);
+  if (IsInterrupted() && diagnosis.stopped) {
+    throw Interrupted("interrupted: nothing written; the same command goes on from " +
+                      state_path.string());
+  }
+  if (shard) {
+    FinishShard(options, "diagnose", *shard, header, ReadUnits(state_path).units);
+    store.Forget();
+    return kDone;
+  }
+  const std::filesystem::path path = options.out / "diagnosis.json";
+  WriteWholeFile(path, DiagnosisJson(diagnosis).dump(2) + "\n");
+  store.Forget();
+  if (!options.quiet) {
+    PrintDiagnosis(diagnosis);
+    std::printf("written: %s\n", path.c_str());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command DiagnoseCommand() {
+  return {
+      "diagnose",
+      "say where and why the model falls short of the rig, and by how much",
+      "Cuts the loop at its two measured signals (acoustics driven by measured q; delay and\n"
+      "flame driven by measured p), refits the model together with each effect of the\n"
+      "catalogue, and scores on operating points left out. Needs records with p and q; a table\n"
+      "with non-harmonic lines bounds the lag of the q sensor alone.\n"
+      "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
+      "cannot tell from it, the place, the gap before and after, and every candidate; where it is\n"
+      "unknown, a budget of several causes. Effects of your own stand in the config under "
+      "`effects`. With --plan it writes plan.json instead.",
+      {{"--reference", "SIM.yaml",
+        "records of another simulator, or of the rig at another time, in the model's place: which "
+        "effect turns them into the config's?"},
+       {"--bootstrap", "N",
+        "simulate N rigs from the refitted base and search each: what noise alone gains, for "
+        "p-values and the verdict none (19 or more)"},
+       {"--plan", "",
+        "diagnose nothing: which effects these records (or records simulated from a table's fit) "
+        "can tell apart, from which size on, and which measurement separates the rest"},
+       {"--no-budget", "",
+        "where the verdict is unknown, do not account for the gap by several causes, which takes "
+        "longer than the search for one"},
+       {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"},
+       ShardOption()},
+      Run,
+      true,
+      "CONFIG",
+      Sharding{InputsOf, Adopt}};
+}
+
+}  // namespace howl

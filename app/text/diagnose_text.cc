@@ -1,0 +1,173 @@
+#include "app/text/diagnose_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "app/text/text_table.h"
+#include "io/results/verdict_remarks.h"
+
+namespace howl {
+namespace {
+
+constexpr double kPerCent = 100.0;
+constexpr std::size_t kShownCandidates = 5;
+constexpr std::size_t kShownMoved = 4;
+constexpr double kMovedShare = 0.03;
+
+std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
+  std::string text;
+  for (const EstimatedParameter& parameter : parameters) {
+    if (!text.empty()) text += ", ";
+    text += parameter.name + " " + Significant(parameter.value, 4);
+    if (!parameter.unit.empty()) text += " " + parameter.unit;
+    if (parameter.at_bound) text += " (at bound)";
+  }
+  return text;
+}
+
+// Base parameters that had absorbed the effect; empty if none had.
+std::string MovedText(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const MovedParameter& p :
+       FarthestMoved(diagnosis.base_parameters, kShownMoved, kMovedShare)) {
+    text += text.empty() ? "the fit without it had absorbed some: " : ", ";
+    text += p.name + " " + Significant(p.without, 4) + " for " + Significant(p.with, 4);
+  }
+  return text.empty() ? text : text + "\n";
+}
+
+// The note where the best candidate is at a bound: its size then comes from the search, not from
+// the data.
+std::string BoundText(const Diagnosis& diagnosis) {
+  if (diagnosis.candidates.empty()) return "";
+  const Candidate& best = diagnosis.candidates.front();
+  std::string names;
+  for (const EstimatedParameter& parameter : best.parameters) {
+    if (parameter.at_bound) names += (names.empty() ? "" : ", ") + parameter.name;
+  }
+  if (names.empty()) return "";
+  return best.effect + ": at a bound of the search: " + names +
+         "; the data ask for more than the catalogue allows, or for none of it\n";
+}
+
+// Cells of the map that are more than noise.
+std::string MapText(const Diagnosis& diagnosis) {
+  const auto count = [&](bool GapCell::*found) {
+    return std::to_string(std::ranges::count(diagnosis.map, true, found));
+  };
+  if (diagnosis.map.empty()) return "";
+  std::string text = "map: " + count(&GapCell::before_found) + " of " +
+                     std::to_string(diagnosis.map.size()) + " cells are more than noise";
+  if (!std::isnan(diagnosis.map[0].after)) text += ", " + count(&GapCell::after_found) + " after";
+  return text + "\n";
+}
+
+// The base: the loop to which each effect is added.
+std::string BaseText(const Diagnosis& diagnosis) {
+  std::string text = "base: ";
+  text += diagnosis.model.modes == 1
+              ? "one mode"
+              : "two modes, ratio " + Significant(diagnosis.model.harmonic_ratio, 4);
+  if (std::isfinite(diagnosis.second_mode_gain)) {
+    text += " (the config states no modes: a second gains " + Fixed(diagnosis.second_mode_gain, 1) +
+            " nats)";
+  }
+  text += diagnosis.model.own_delays
+              ? "; the delays scatter by " + Fixed(kPerCent * diagnosis.delay_scatter, 2) + " %"
+              : "; one delay for all";
+  if (std::isfinite(diagnosis.own_delays_gain)) {
+    text += " (the config states no scope of tau_s: own delays gain " +
+            Fixed(diagnosis.own_delays_gain, 1) + " nats)";
+  }
+  return text + "\n";
+}
+
+// The budget as a waterfall: a bar as long as the gap before each item, of which the item takes off
+// the light part.
+void PrintBudget(const Budget& budget) {
+  constexpr double kWidth = 40.0;
+  std::printf("budget, left out: several causes take the gap from %.3f to %.3f\n",
+              budget.gap_before, budget.gap_left);
+  TextTable table({"item", "gap after", "", "lost without: nats", "gap", "points", "estimate"});
+  for (const BudgetEntry& entry : budget.entries) {
+    const auto cells = [&](double gap) {
+      return static_cast<std::size_t>(
+          std::lround(kWidth * std::clamp(gap / std::max(budget.gap_before, 1e-12), 0.0, 1.0)));
+    };
+    const std::size_t stays = cells(entry.gap_after);
+    const std::size_t was = std::max(cells(entry.gap_before), stays);
+    std::string names = entry.item;
+    for (const std::string& other : entry.equals) names += " = " + other;
+    table.AddRow(
+        {names, Fixed(entry.gap_after, 3), std::string(stays, '#') + std::string(was - stays, '.'),
+         Fixed(entry.lost_nats, 1), Fixed(entry.lost_gap, 3),
+         std::to_string(entry.experiments_better) + "/" + std::to_string(budget.experiments),
+         ParameterText(entry.parameters)});
+  }
+  std::printf("%s", table.Text().c_str());
+  for (const Place& place : budget.left) {
+    std::printf("left: %s, %.0f to %.0f Hz, %zu experiments (share %.2f)\n",
+                place.block == LoopBlock::kAcoustics ? "p from q" : "q from p", place.low_hz,
+                place.high_hz, place.experiments.size(), place.share);
+  }
+}
+
+}  // namespace
+
+void PrintDiagnosis(const Diagnosis& diagnosis) {
+  switch (diagnosis.kind) {
+    case VerdictKind::kNone:
+      std::printf("verdict: none; the model's residuals are noise (probability %.2f)\n",
+                  diagnosis.probability_none);
+      break;
+    case VerdictKind::kUnknown:
+      std::printf(
+          "verdict: unknown; no effect of the catalogue explains the gap (probability "
+          "%.2f)\n",
+          diagnosis.probability_unknown);
+      for (const std::string& remark : RemarksOnUnknown(diagnosis.repaired, diagnosis.together)) {
+        std::printf("  %s\n", remark.c_str());
+      }
+      break;
+    case VerdictKind::kEffect:
+      std::printf("verdict: %s (probability %.2f)\n", diagnosis.effect.c_str(),
+                  diagnosis.candidates.front().probability);
+      for (const std::string& other : diagnosis.indistinguishable) {
+        std::printf("  the data cannot tell it from %s\n", other.c_str());
+      }
+      break;
+  }
+  for (const Place& place : diagnosis.where) {
+    std::printf("where: %s, %.0f to %.0f Hz, %zu experiments (share %.2f)\n",
+                std::string(LoopBlockName(place.block)).c_str(), place.low_hz, place.high_hz,
+                place.experiments.size(), place.share);
+  }
+  std::printf("gap, held out: %.3f before, %.3f after; floor %.3f\n", diagnosis.gap_before,
+              diagnosis.gap_after, diagnosis.gap_floor);
+  std::printf("%s", BaseText(diagnosis).c_str());
+  std::printf("%s", MapText(diagnosis).c_str());
+  if (std::isfinite(diagnosis.placebo_shrinkage)) {
+    std::printf("a placebo effect, as free as the best, shrinks it by %.1f %%\n",
+                kPerCent * diagnosis.placebo_shrinkage);
+  }
+  if (!diagnosis.bootstrap_gains.empty()) {
+    std::printf("noise alone, in %zu rigs simulated from the refitted base, gains at most %.1f\n",
+                diagnosis.bootstrap_gains.size(), diagnosis.bootstrap_gains.back());
+  }
+  TextTable table({"candidate", "probability", "gain", "gap after", "shrinks %", "estimate"});
+  for (std::size_t i = 0; i < std::min(kShownCandidates, diagnosis.candidates.size()); ++i) {
+    const Candidate& candidate = diagnosis.candidates[i];
+    table.AddRow({candidate.effect, Fixed(candidate.probability, 3), Fixed(candidate.gain, 1),
+                  Fixed(candidate.gap_after, 3), Fixed(kPerCent * candidate.shrinkage, 1),
+                  ParameterText(candidate.parameters)});
+  }
+  std::printf("%s", table.Text().c_str());
+  std::printf("%s", BoundText(diagnosis).c_str());
+  std::printf("%s", MovedText(diagnosis).c_str());
+  if (diagnosis.budget) PrintBudget(*diagnosis.budget);
+  std::printf("next: %s\n", diagnosis.advice.c_str());
+}
+
+}  // namespace howl

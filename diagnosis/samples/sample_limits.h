@@ -1,0 +1,42 @@
+// What an instrument's range and steps leave in the samples themselves, detected without a model: a
+// density that ends in an edge, an extreme value that repeats, few levels.
+#ifndef HOWL_DIAGNOSIS_SAMPLES_SAMPLE_LIMITS_H_
+#define HOWL_DIAGNOSIS_SAMPLES_SAMPLE_LIMITS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/records/cut_record.h"
+#include "model/loop/instrument.h"
+
+namespace howl {
+
+// The plateaus on which saturation holds the signal at either end of its range. Noise that was
+// added after the saturation spreads the samples about the level.
+struct Plateaus {
+  Eigen::ArrayXd upper;  // one there, zero elsewhere
+  Eigen::ArrayXd lower;
+  // The levels are no farther out than where the signal is held, because a true value beyond them
+  // was not recorded as it was.
+  double upper_level = 0.0;
+  double lower_level = 0.0;
+};
+
+Plateaus FindPlateaus(const Eigen::VectorXd& x);
+
+// True if in most records the density of the signal's values ends in an edge.
+bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel);
+
+struct FewLevels {
+  bool found = false;
+  double levels = 0.0;  // mean over the experiments
+};
+
+FewLevels FindQuantisation(const std::vector<CutRecord>& records);
+
+// share: 0 ... 1.
+double SampleQuantile(const Eigen::VectorXd& x, double share);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_SAMPLES_SAMPLE_LIMITS_H_

@@ -1,0 +1,17 @@
+#include <Eigen/Eigenvalues>
+
+#include "model/numerics/dense_algebra.h"
+
+namespace howl {
+
+SymmetricEigen EigenOfSymmetric(const Eigen::MatrixXd& a) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+SymmetricEigen GeneralizedEigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(a, b);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+}  // namespace howl
