@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMostOfAnAxis = 400;
 constexpr int kDefaultSteps = 40;
 
-MapQuantity ParseQuantity(const Config& config, const std::string& name) {
+MapQuantity ParseQuantity(const Config& config, const std::string& text, const std::string& name) {
   if (name == "phi" || name == config.operating_parameter) return MapQuantity::kOperatingPoint;
   std::string expected = config.operating_parameter;
   for (const MapQuantity parameter : kMapParameters) {
@@ -21,7 +21,7 @@ MapQuantity ParseQuantity(const Config& config, const std::string& name) {
     if (name == MapQuantityName(parameter)) return parameter;
     expected += ", " + std::string(MapQuantityName(parameter));
   }
-  throw UsageError("--map: " + name + ", expected two of " + expected +
+  throw UsageError("--map: " + text + ", expected two of " + expected +
                    ", joined by a colon, such as " + config.operating_parameter + ":tau_s");
 }
 
@@ -90,8 +90,9 @@ std::optional<AskedMap> ParseMap(const Config& config, const Options& options) {
   }
   const std::size_t colon = text->find(':');
   AskedMap map;
-  map.x.quantity = ParseQuantity(config, text->substr(0, colon));
-  map.y.quantity = ParseQuantity(config, colon == std::string::npos ? "" : text->substr(colon + 1));
+  map.x.quantity = ParseQuantity(config, *text, text->substr(0, colon));
+  map.y.quantity =
+      ParseQuantity(config, *text, colon == std::string::npos ? "" : text->substr(colon + 1));
   if (map.x.quantity == map.y.quantity) {
     throw UsageError("--map: " + *text + ", expected two different quantities");
   }

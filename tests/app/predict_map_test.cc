@@ -101,9 +101,9 @@ TEST(PredictMap, MistakesAreTheUsers) {
     EXPECT_THAT(run.err, HasSubstr(what)) << more;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   };
-  fails("--map phi", "--map: , expected two of phi, omega_hz, xi, N, tau_s, flame_slope");
-  fails("--map phi:tau", "--map: tau, expected two of");
-  fails("--map phi:M", "--map: M, expected two of");  // one mode
+  fails("--map phi", "--map: phi, expected two of phi, omega_hz, xi, N, tau_s, flame_slope");
+  fails("--map phi:tau", "--map: phi:tau, expected two of");
+  fails("--map phi:M", "--map: phi:M, expected two of");  // one mode
   fails("--map xi:xi --at 0.53", "expected two different quantities");
   fails("--map xi:tau_s", "expected one point, --at 0.49");
   fails("--map phi:tau_s --map-y 0.1", "expected FROM:TO:STEP with two values or more");
