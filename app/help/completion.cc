@@ -80,7 +80,10 @@ Typed Read(const std::vector<std::string>& words) {
 Completion OptionNames(const Typed& typed) {
   Completion names;
   for (const OptionHelp& option : OptionsOf(typed.command)) {
-    if (!typed.options.contains(option.name)) names.words.push_back({option.name, option.text});
+    if (typed.options.contains(option.name)) continue;
+    std::string text = option.text;
+    std::ranges::replace(text, '\n', ' ');  // an offer is a line
+    names.words.push_back({option.name, std::move(text)});
   }
   return names;
 }

@@ -10,6 +10,7 @@
 #include "app/command_line/command_line.h"
 #include "app/trial/trial_rig.h"
 #include "diagnosis/diagnosis.h"
+#include "estimation/family/problem/membership.h"
 #include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
 #include "io/result_files.h"
@@ -58,6 +59,12 @@ Names CatalogueEffects(const ValueContext& /*context*/) {
   return names;
 }
 
+Names TestConditions(const ValueContext& /*context*/) {
+  Names names;
+  for (const Condition condition : kConditions) names.emplace_back(ConditionName(condition));
+  return names;
+}
+
 Names TrialEffects(const ValueContext& /*context*/) {
   Names names = {"catalogue", "none", "outside", "pairs"};
   for (const RigEffect& effect : ListRigEffects()) names.push_back(effect.id);
@@ -85,17 +92,23 @@ Names OptionNames(const ValueContext& context) {
 
 struct OptionValues {
   std::string_view option;
+  std::string_view value;  // as its help has it: one name may take two kinds; empty: any
   Names (*names)(const ValueContext&);
   bool is_list;  // joined by commas
 };
 
-constexpr OptionValues kOptionValues[] = {
-    {"--experiment", ExperimentNames, false}, {"--profile", Quantities, false},
-    {"--columns", FamilyColumns, true},       {"--sort", SortColumns, false},
-    {"--without", CatalogueEffects, true},    {"--effects", TrialEffects, true},
-    {"--severities", Severities, true},       {"--v", LogLevels, false},
-    {"--fromenv", OptionNames, true},         {"--tryfromenv", OptionNames, true},
-    {"--undefok", OptionNames, true}};
+constexpr OptionValues kOptionValues[] = {{"--experiment", "", ExperimentNames, false},
+                                          {"--profile", "", Quantities, false},
+                                          {"--columns", "", FamilyColumns, true},
+                                          {"--sort", "", SortColumns, false},
+                                          {"--without", "EFFECTS", CatalogueEffects, true},
+                                          {"--without", "CONDITION...", TestConditions, true},
+                                          {"--effects", "", TrialEffects, true},
+                                          {"--severities", "", Severities, true},
+                                          {"--v", "", LogLevels, false},
+                                          {"--fromenv", "", OptionNames, true},
+                                          {"--tryfromenv", "", OptionNames, true},
+                                          {"--undefok", "", OptionNames, true}};
 
 Names TryNames(const OptionValues& values, const ValueContext& context) {
   try {
@@ -121,6 +134,7 @@ Completion ValuesOf(const OptionHelp& option, const ValueContext& context) {
   Completion values{{}, ValueFiles(option, context.command)};
   for (const OptionValues& each : kOptionValues) {
     if (each.option != option.name) continue;
+    if (!each.value.empty() && each.value != option.value) continue;
     const std::size_t comma = each.is_list ? context.typed.rfind(',') : std::string::npos;
     const std::string before = comma == std::string::npos ? "" : context.typed.substr(0, comma + 1);
     for (const std::string& name : TryNames(each, context)) {

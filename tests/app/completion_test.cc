@@ -73,6 +73,7 @@ TEST(Completion, OffersNamesThatTheConfigAndTheCatalogueHave) {
   EXPECT_THAT(Offered("trial --effects catalogue,q_sensor_l"),
               ElementsAre("catalogue,q_sensor_lowpass"));
   EXPECT_THAT(Offered("diagnose --without p_clipping,q_cl"), ElementsAre("p_clipping,q_clipping"));
+  EXPECT_THAT(Offered("family --without xi_max,loop_g"), ElementsAre("xi_max,loop_gain_min"));
   EXPECT_THAT(Offered("fit --fromenv threads,se"), ElementsAre("threads,seed"));
 }
 
