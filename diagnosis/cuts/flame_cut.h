@@ -13,7 +13,7 @@
 
 #include <Eigen/Core>
 
-#include "diagnosis/cuts/flame_basis.h"
+#include "estimation/record_fit/flame_basis.h"
 #include "diagnosis/records/cut_record.h"
 
 namespace howl {

@@ -6,7 +6,7 @@
 #include <complex>
 
 #include "diagnosis/cuts/acoustic_modulation.h"
-#include "diagnosis/cuts/flame_basis.h"
+#include "estimation/record_fit/flame_basis.h"
 #include "diagnosis/numerics/real_gram.h"
 
 namespace howl {

@@ -25,7 +25,7 @@
 #include "diagnosis/cuts/acoustic_cut.h"
 #include "diagnosis/cuts/flame_cut.h"
 #include "diagnosis/likelihood/joint_band.h"
-#include "diagnosis/likelihood/noise_sources.h"
+#include "estimation/record_fit/noise_sources.h"
 
 namespace howl {
 

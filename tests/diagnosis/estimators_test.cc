@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/cuts/flame_basis.h"
+#include "estimation/record_fit/flame_basis.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/noise/noise_fit.h"
 #include "diagnosis/numerics/real_fft.h"

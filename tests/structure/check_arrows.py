@@ -17,7 +17,7 @@ LISTS = {
     "": ["model", "estimation", "diagnosis", "trial", "io", "app"],
     "model": ["model/numerics", "model/noise", "model/loop", "model/cycles", "model/delay_systems",
               "model/simulation", "model/effects", "model"],
-    "estimation": ["estimation/analysis", "estimation/residuals", "estimation/fit",
+    "estimation": ["estimation/analysis", "estimation/record_fit", "estimation/residuals", "estimation/fit",
                    "estimation/family/problem", "estimation/family/local",
                    "estimation/family/members/drawer", "estimation/family/members",
                    "estimation/family/bounds/contract", "estimation/family/bounds",

@@ -1,4 +1,4 @@
-#include "diagnosis/likelihood/noise_sources.h"
+#include "estimation/record_fit/noise_sources.h"
 
 namespace howl {
 

@@ -1,4 +1,4 @@
-#include "diagnosis/cuts/flame_basis.h"
+#include "estimation/record_fit/flame_basis.h"
 
 #include <algorithm>
 #include <array>

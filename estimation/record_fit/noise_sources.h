@@ -1,5 +1,5 @@
 // Where a record's noise comes from. Each source has a smooth spectrum S_j(f) and a direction
-// u_j(f) in the two residuals E_A = P - R Q and E_B = Q - F P (joint_likelihood.h):
+// u_j(f) in the two residuals E_A = P - R Q and E_B = Q - F P of the loop's two cuts:
 //
 //   combustion  (0, 1)      sensor of p  (1, -F)      sensor of q  (-R, 1)
 //   duct        (R, 0): a source other than the flame, which q does not show
@@ -7,11 +7,12 @@
 //   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
 //
 // One coefficient: white noise. Spectra are in units of |P|^2 or |Q|^2 under the taper.
-#ifndef HOWL_DIAGNOSIS_LIKELIHOOD_NOISE_SOURCES_H_
-#define HOWL_DIAGNOSIS_LIKELIHOOD_NOISE_SOURCES_H_
+#ifndef HOWL_ESTIMATION_RECORD_FIT_NOISE_SOURCES_H_
+#define HOWL_ESTIMATION_RECORD_FIT_NOISE_SOURCES_H_
 
 #include <Eigen/Core>
 #include <complex>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,8 @@
 namespace howl {
 
 enum class LoopNoise : std::uint8_t { kCombustion, kPressureSensor, kHeatReleaseSensor, kDuct };
+
+inline constexpr std::size_t kMostNoiseTerms = 4;  // one of each
 
 std::string_view LoopNoiseName(LoopNoise source);
 
@@ -49,4 +52,4 @@ Eigen::VectorXd LoopNoiseSpectrum(const Eigen::VectorXd& x, const Eigen::VectorX
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LIKELIHOOD_NOISE_SOURCES_H_
+#endif  // HOWL_ESTIMATION_RECORD_FIT_NOISE_SOURCES_H_

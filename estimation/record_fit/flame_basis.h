@@ -1,7 +1,7 @@
 // The flame's characteristic without a shape assumed: cubic B-splines on even knots over the range
 // of v, linear in the coefficients. One of them is left out, since no constant in q is recorded.
-#ifndef HOWL_DIAGNOSIS_CUTS_FLAME_BASIS_H_
-#define HOWL_DIAGNOSIS_CUTS_FLAME_BASIS_H_
+#ifndef HOWL_ESTIMATION_RECORD_FIT_FLAME_BASIS_H_
+#define HOWL_ESTIMATION_RECORD_FIT_FLAME_BASIS_H_
 
 #include <Eigen/Core>
 
@@ -25,4 +25,4 @@ class FlameBasis {
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_CUTS_FLAME_BASIS_H_
+#endif  // HOWL_ESTIMATION_RECORD_FIT_FLAME_BASIS_H_

@@ -1,0 +1,144 @@
+// What each structure of the loop is worth on measured records, one operating point at a time:
+//
+//   record_structures_study CONFIG [EXPERIMENT ...]
+//
+// A row for each structure, from the paper's loop on, each with the one before in it: nats of
+// evidence of whole records, and of the density of either half under the loop that was fitted to
+// the other, both above the paper's loop and summed over the operating points; on how many of them
+// the halves are better than with the structure before; and the delays.
+#include <tbb/parallel_for.h>
+
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "bench/measured_rig.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "estimation/record_fit/point_fit.h"
+#include "estimation/record_fit/point_starts.h"
+#include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
+#include "io/records/records.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kStarts = 12;
+
+struct NamedStructure {
+  std::string name;
+  LoopStructure structure;
+};
+
+std::vector<NoiseTerm> Noise(Eigen::Index combustion, Eigen::Index sensors, Eigen::Index duct) {
+  std::vector<NoiseTerm> out = {{LoopNoise::kCombustion, combustion},
+                                {LoopNoise::kPressureSensor, sensors},
+                                {LoopNoise::kHeatReleaseSensor, sensors}};
+  if (duct > 0) out.push_back({LoopNoise::kDuct, duct});
+  return out;
+}
+
+std::vector<NamedStructure> Structures() {
+  LoopStructure loop;
+  loop.modes = 2;
+  loop.ratio = 3.0;
+  loop.own_damping = false;
+  loop.complex_residues = false;
+  loop.noise = Noise(6, 1, 0);
+  std::vector<NamedStructure> out = {{"the paper's loop", loop}};
+  loop.noise = Noise(6, 4, 0);
+  out.push_back({"coloured sensors", loop});
+  loop.ratio.reset();
+  loop.own_damping = true;
+  out.push_back({"free modes", loop});
+  loop.complex_residues = true;
+  out.push_back({"complex residues", loop});
+  loop.noise = Noise(6, 4, 6);
+  out.push_back({"duct's noise", loop});
+  loop.modes = 3;
+  out.push_back({"three modes", loop});
+  loop.modes = 4;
+  out.push_back({"four modes", loop});
+  loop.noise = Noise(12, 8, 12);
+  out.push_back({"finer noise", loop});
+  return out;
+}
+
+Record Half(const Record& record, bool second) {
+  const auto middle = static_cast<std::ptrdiff_t>(record.pressure.size() / 2);
+  const auto part = [&](const std::vector<double>& x) {
+    return second ? std::vector<double>(x.begin() + middle, x.begin() + 2 * middle)
+                  : std::vector<double>(x.begin(), x.begin() + middle);
+  };
+  return {record.sampling_hz, part(record.pressure), part(record.heat_release)};
+}
+
+struct Score {
+  double evidence = 0.0;
+  double halves = 0.0;
+  double delay_of_period = 0.0;
+};
+
+PointFit Fit(const RecordSpectra& record, const LoopStructure& structure) {
+  const PointPrior prior = PriorOf(structure, record);
+  return FitPoint(record, structure, prior, StartsOf(record, structure, prior, kStarts, 1));
+}
+
+Score ScoreOf(const Record& record, double cycle_hz, const LoopStructure& structure) {
+  const RecordSpectra whole = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
+  Score out;
+  const PointFit fit = Fit(whole, structure);
+  out.evidence = fit.log_evidence;
+  out.delay_of_period =
+      ToPoint(structure, whole.flame.cols(), fit.parameters).tau / (2.0 * std::numbers::pi);
+  const PointPrior prior = PriorOf(structure, whole);
+  for (const bool second : {false, true}) {
+    const RecordSpectra fitted = MakeRecordSpectra(Half(record, second), whole);
+    const RecordSpectra other = MakeRecordSpectra(Half(record, !second), whole);
+    const PointFit half = FitPoint(fitted, structure, prior, fit.parameters);
+    out.halves += LogLikelihood(other, structure, half.parameters);
+  }
+  return out;
+}
+
+int Run(int argc, char** argv) {
+  const Config config = LoadConfig(argv[1]);
+  MeasuredRig rig;
+  for (const ExperimentConfig& each : config.experiments) {
+    bool wanted = argc < 3;
+    for (int i = 2; i < argc; ++i) wanted = wanted || each.experiment.name == argv[i];
+    if (!wanted) continue;
+    rig.push_back({each.experiment.name, each.experiment.phi,
+                   LoadRecord(*each.record, config.source.string(), each.record_line)});
+  }
+  const std::vector<CutRecord> cuts = MakeCutRecords(rig);
+  std::vector<Score> first;
+  std::vector<Score> before;
+  for (const NamedStructure& each : Structures()) {
+    std::vector<Score> scores(rig.size());
+    tbb::parallel_for(std::size_t{0}, rig.size(), [&](std::size_t e) {
+      scores[e] = ScoreOf(rig[e].record, cuts[e].at.cycle_frequency_hz, each.structure);
+    });
+    if (first.empty()) first = before = scores;
+    Score sum;
+    std::size_t better = 0;
+    for (std::size_t e = 0; e < scores.size(); ++e) {
+      sum.evidence += scores[e].evidence - first[e].evidence;
+      sum.halves += scores[e].halves - first[e].halves;
+      if (scores[e].halves > before[e].halves) ++better;
+    }
+    std::printf("%-18s evidence %9.1f  halves %9.1f  better on %zu of %zu  tau / T",
+                each.name.c_str(), sum.evidence, sum.halves, better, scores.size());
+    for (const Score& score : scores) std::printf(" %.3f", score.delay_of_period);
+    std::printf("\n");
+    std::fflush(stdout);
+    before = std::move(scores);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace howl
+
+int main(int argc, char** argv) { return howl::Run(argc, argv); }

@@ -1,0 +1,167 @@
+#include "estimation/record_fit/loop_point.h"
+
+#include <cmath>
+#include <complex>
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+double FrequencyRatio(const LoopStructure& structure, Eigen::Index mode) {
+  return 1.0 + (*structure.ratio - 1.0) * static_cast<double>(mode);
+}
+
+Eigen::VectorXcd Delayed(const Eigen::VectorXcd& s, double tau) { return (-tau * s.array()).exp(); }
+
+Eigen::VectorXcd Transfer(const LoopPoint& point, const Eigen::VectorXcd& at) {
+  Eigen::VectorXcd out = Eigen::VectorXcd::Zero(at.size());
+  const auto s = at.array();
+  for (const LoopMode& mode : point.modes) {
+    out.array() += (mode.a * s + mode.b * mode.omega) /
+                   (s * s + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega);
+  }
+  return out;
+}
+
+Eigen::MatrixXcd TaperedColumns(const Eigen::MatrixXcd& x) {
+  return x.topRows(x.rows() - 1) - x.bottomRows(x.rows() - 1);
+}
+
+Eigen::VectorXcd SmallSignal(const RecordSpectra& record) {
+  Eigen::VectorXcd out(record.bins());
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    out[i] = FlameInputResponse(record.flame_input, record.s[i]);
+  }
+  return out;
+}
+
+// Calls `take` with the index of each parameter that moves mode k, and dR by it at s.
+template <typename Take>
+void ForEachSlope(const LoopStructure& structure, const LoopPoint& point, Eigen::Index k, C s,
+                  const Take& take) {
+  const LoopMode& mode = point.modes[static_cast<std::size_t>(k)];
+  const Eigen::Index dampings = structure.Frequencies();
+  const Eigen::Index residues = dampings + structure.Dampings();
+  const double omega = mode.omega;
+  const C over = 1.0 / (s * s + 2.0 * mode.xi * omega * s + omega * omega);
+  const C r = (mode.a * s + mode.b * omega) * over;
+  const C damped = 2.0 * mode.xi * omega * s;
+  take(structure.ratio ? 0 : k, mode.b * omega * over - r * over * (damped + 2.0 * omega * omega));
+  take(dampings + (structure.own_damping ? k : 0), -r * over * damped);
+  take(residues + k, s * over);
+  if (structure.complex_residues) take(residues + structure.modes + k, omega * over);
+}
+
+Eigen::MatrixXcd AcousticColumns(const LoopStructure& structure, const LoopPoint& point,
+                                 const Eigen::VectorXcd& s) {
+  Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(s.size(), structure.Acoustics());
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      ForEachSlope(structure, point, k, s[i], [&](Eigen::Index j, C slope) { out(i, j) += slope; });
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::Index LoopStructure::NoiseCoefficients() const {
+  Eigen::Index sum = 0;
+  for (const NoiseTerm& term : noise) sum += term.coefficients;
+  return sum;
+}
+
+LoopPoint ToPoint(const LoopStructure& structure, Eigen::Index flame,
+                  const Eigen::VectorXd& parameters) {
+  LoopPoint out;
+  const Eigen::Index dampings = structure.Frequencies();
+  const Eigen::Index residues = dampings + structure.Dampings();
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    LoopMode mode;
+    mode.omega = std::exp(parameters[structure.ratio ? 0 : k]);
+    if (structure.ratio) mode.omega *= FrequencyRatio(structure, k);
+    mode.xi = std::exp(parameters[dampings + (structure.own_damping ? k : 0)]);
+    mode.a = parameters[residues + k];
+    if (structure.complex_residues) mode.b = parameters[residues + structure.modes + k];
+    out.modes.push_back(mode);
+  }
+  Eigen::Index next = structure.Delay();
+  out.tau = std::exp(parameters[next++]);
+  out.flame = parameters.segment(next, flame);
+  next += flame;
+  for (const NoiseTerm& term : structure.noise) {
+    out.noise.emplace_back(parameters.segment(next, term.coefficients));
+    next += term.coefficients;
+  }
+  return out;
+}
+
+Eigen::VectorXd ToParameters(const LoopStructure& structure, const LoopPoint& point) {
+  Eigen::VectorXd out(structure.Delay() + 1 + point.flame.size() + structure.NoiseCoefficients());
+  Eigen::Index next = 0;
+  const auto mode = [&](Eigen::Index k) { return point.modes[static_cast<std::size_t>(k)]; };
+  for (Eigen::Index k = 0; k < structure.Frequencies(); ++k) out[next++] = std::log(mode(k).omega);
+  for (Eigen::Index k = 0; k < structure.Dampings(); ++k) out[next++] = std::log(mode(k).xi);
+  for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).a;
+  if (structure.complex_residues) {
+    for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).b;
+  }
+  out[next++] = std::log(point.tau);
+  out.segment(next, point.flame.size()) = point.flame;
+  next += point.flame.size();
+  for (const Eigen::VectorXd& source : point.noise) {
+    out.segment(next, source.size()) = source;
+    next += source.size();
+  }
+  return out;
+}
+
+LoopResiduals ResidualsOf(const RecordSpectra& record, const LoopStructure& structure,
+                          const LoopPoint& point) {
+  LoopResiduals out;
+  out.r = Transfer(point, record.s);
+  const double slope = record.slopes.dot(point.flame);
+  out.f = slope * Delayed(record.s, point.tau).cwiseProduct(SmallSignal(record));
+  out.acoustic =
+      Tapered(record.pressure - Transfer(point, record.edge_s).cwiseProduct(record.heat_release));
+  out.flame = Tapered(record.heat_release -
+                      Delayed(record.edge_s, point.tau).cwiseProduct(record.flame * point.flame));
+  out.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
+  for (std::size_t j = 0; j < structure.noise.size(); ++j) {
+    out.spectra.col(static_cast<Eigen::Index>(j)) =
+        LoopNoiseSpectrum(record.position, point.noise[j]);
+  }
+  return out;
+}
+
+void AddAcousticSlopes(const LoopStructure& structure, const LoopPoint& point, C s, C by,
+                       Eigen::VectorXd* out) {
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    ForEachSlope(structure, point, k, s,
+                 [&](Eigen::Index i, C slope) { (*out)[i] += (by * slope).real(); });
+  }
+}
+
+LoopDerivatives DerivativesOf(const RecordSpectra& record, const LoopStructure& structure,
+                              const LoopPoint& point) {
+  LoopDerivatives out;
+  out.r = AcousticColumns(structure, point, record.s);
+  out.acoustic = TaperedColumns(
+      -(record.heat_release.asDiagonal() * AcousticColumns(structure, point, record.edge_s)));
+  const Eigen::Index flame = point.flame.size();
+  const Eigen::VectorXcd path = Delayed(record.s, point.tau).cwiseProduct(SmallSignal(record));
+  out.f.resize(record.bins(), 1 + flame);
+  out.f.col(0) = -point.tau * record.slopes.dot(point.flame) * record.s.cwiseProduct(path);
+  out.f.rightCols(flame) = path * record.slopes.transpose();
+  const Eigen::MatrixXcd delayed = Delayed(record.edge_s, point.tau).asDiagonal() * record.flame;
+  out.flame.resize(record.bins(), 1 + flame);
+  out.flame.col(0) = point.tau * Tapered(record.edge_s.cwiseProduct(delayed * point.flame));
+  out.flame.rightCols(flame) = -TaperedColumns(delayed);
+  for (const NoiseTerm& term : structure.noise) {
+    out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));
+  }
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,72 @@
+// One operating point's loop, as the likelihood of its record has it (whittle.h):
+//
+//   R = sum_k (a_k s + b_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
+//   F = e^(-tau s) V(s) sum_k c_k slope_k,   E_B = Q - e^(-tau s) sum_k c_k b_k record_spectra.h ln
+//   S_j = sum_k n_jk T_k                                                          noise_sources.h
+//
+// with s over the cycle's angular frequency. The paper's acoustics (5a) have b = 0, one damping and
+// frequencies at 1, r, 2 r - 1, ...: those of a half-open duct for r = 3.
+//
+// All parameters are one vector: of the modes ln omega, ln xi, a and, where residues are complex, b
+// (omega_1 alone where the ratio is given, xi_1 alone where damping is shared); ln tau; c; n.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_
+#define HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_
+
+#include <Eigen/Core>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "estimation/record_fit/record_spectra.h"
+#include "estimation/record_fit/whittle.h"
+
+namespace howl {
+
+struct LoopStructure {
+  int modes = 1;
+  std::optional<double> ratio;  // of the second mode's frequency to the first's; none: all are free
+  bool own_damping = true;
+  bool complex_residues = true;
+  std::vector<NoiseTerm> noise;
+
+  Eigen::Index Frequencies() const { return ratio ? 1 : modes; }
+  Eigen::Index Dampings() const { return own_damping ? modes : 1; }
+  Eigen::Index Residues() const { return complex_residues ? 2 * modes : modes; }
+  Eigen::Index Acoustics() const { return Frequencies() + Dampings() + Residues(); }
+  Eigen::Index NoiseCoefficients() const;
+  // The index of ln tau; the flame's coefficients follow.
+  Eigen::Index Delay() const { return Acoustics(); }
+};
+
+// One mode, without units.
+struct LoopMode {
+  double omega = 1.0;
+  double xi = 0.1;
+  double a = 0.0;
+  double b = 0.0;
+};
+
+struct LoopPoint {
+  std::vector<LoopMode> modes;
+  double tau = 0.0;
+  Eigen::VectorXd flame;               // c
+  std::vector<Eigen::VectorXd> noise;  // one a source
+};
+
+LoopPoint ToPoint(const LoopStructure& structure, Eigen::Index flame,
+                  const Eigen::VectorXd& parameters);
+// The tied frequencies and dampings are those of the first mode.
+Eigen::VectorXd ToParameters(const LoopStructure& structure, const LoopPoint& point);
+
+// Adds the real part of `by` times dR at s, for each of the acoustics' parameters.
+void AddAcousticSlopes(const LoopStructure& structure, const LoopPoint& point,
+                       std::complex<double> s, std::complex<double> by, Eigen::VectorXd* out);
+
+LoopResiduals ResidualsOf(const RecordSpectra& record, const LoopStructure& structure,
+                          const LoopPoint& point);
+LoopDerivatives DerivativesOf(const RecordSpectra& record, const LoopStructure& structure,
+                              const LoopPoint& point);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_

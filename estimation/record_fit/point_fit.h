@@ -1,0 +1,53 @@
+// The most likely loop of one operating point, given its record (whittle.h) and priors
+// (point_prior.h), and its evidence.
+//
+//   maximise ln L + ln prior;  ln Z = ln L + ln prior - ln det(H / (2 pi)) / 2       (Laplace)
+//
+// Levenberg's and Marquardt's steps on the information H, with the damping set by the ratio of what
+// a step gains to what was foretold (Nielsen 1999). The likelihood has several maxima, since noise
+// and modes make up for one another: the fit is repeated from several starts (point_starts.h).
+#ifndef HOWL_ESTIMATION_RECORD_FIT_POINT_FIT_H_
+#define HOWL_ESTIMATION_RECORD_FIT_POINT_FIT_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/point_prior.h"
+
+namespace howl {
+
+struct PointFitOptions {
+  int iterations = 100;
+  double converged = 1e-3;  // nats that the next step would gain
+};
+
+struct PointFit {
+  Eigen::VectorXd parameters;
+  double log_likelihood = 0.0;
+  double log_posterior = 0.0;
+  double log_evidence = 0.0;
+  // Of the parameters, with the prior's precision in it. Its inverse is their covariance.
+  Eigen::MatrixXd information;
+  int iterations = 0;
+  bool converged = false;
+
+  Eigen::MatrixXd Covariance() const;
+};
+
+PointFit FitPoint(const RecordSpectra& record, const LoopStructure& structure,
+                  const PointPrior& prior, Eigen::VectorXd start,
+                  const PointFitOptions& options = {});
+
+// The best of the fits from all starts: all come near a maximum, and the best of them then go on to
+// it.
+PointFit FitPoint(const RecordSpectra& record, const LoopStructure& structure,
+                  const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
+                  const PointFitOptions& options = {});
+
+double LogLikelihood(const RecordSpectra& record, const LoopStructure& structure,
+                     const Eigen::VectorXd& parameters);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_POINT_FIT_H_

@@ -1,0 +1,149 @@
+#include "estimation/record_fit/point_starts.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "estimation/record_fit/pole_starts.h"
+#include "estimation/record_fit/start_least_squares.h"
+
+namespace howl {
+namespace {
+
+constexpr Eigen::Index kReach = 20;  // bins over which power is smoothed
+constexpr int kDelays = 64;
+constexpr double kMostCycles = 1.25;  // of delay
+constexpr std::size_t kBestDelays = 2;
+constexpr double kEulersGamma = 0.5772156649015329;
+constexpr double kQuiet = 0.1;  // share of bins
+constexpr double kWellDamped = 0.1;
+
+// The level of white noise of which a record's quietest bins consist.
+double QuietLevel(Eigen::VectorXd power) {
+  std::ranges::sort(power);
+  return std::log(power[static_cast<Eigen::Index>(kQuiet * static_cast<double>(power.size()))] /
+                  kQuiet);
+}
+
+class Starts {
+ public:
+  Starts(const RecordSpectra& record, const LoopStructure& structure)
+      : record_(record),
+        structure_(structure),
+        heat_release_(Tapered(record.heat_release)),
+        flame_(record.bins(), record.flame.cols()),
+        weight_(SmoothPower(heat_release_, kReach).cwiseSqrt().cwiseInverse()) {
+    for (Eigen::Index k = 0; k < flame_.cols(); ++k) flame_.col(k) = Tapered(record.flame.col(k));
+  }
+
+  std::vector<double> Delays() const;
+  Eigen::VectorXd At(std::vector<LoopMode> modes, double tau) const;
+
+ private:
+  StartSolution Flame(double tau) const;
+  Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
+
+  const RecordSpectra& record_;
+  const LoopStructure& structure_;
+  Eigen::VectorXcd heat_release_;
+  Eigen::MatrixXcd flame_;
+  Eigen::VectorXd weight_;
+};
+
+StartSolution Starts::Flame(double tau) const {
+  const Eigen::VectorXcd delay = (-tau * record_.s.array()).exp();
+  const Eigen::VectorXcd weight = delay.cwiseProduct(weight_);
+  return SolveStart(weight.asDiagonal() * flame_, weight_.cwiseProduct(heat_release_));
+}
+
+std::vector<double> Starts::Delays() const {
+  std::vector<double> tau(kDelays);
+  std::vector<double> left(kDelays);
+  for (std::size_t i = 0; i < kDelays; ++i) {
+    tau[i] = 2.0 * std::numbers::pi * kMostCycles * (static_cast<double>(i) + 0.5) / kDelays;
+    left[i] = Flame(tau[i]).left;
+  }
+  std::vector<std::pair<double, double>> minima;
+  for (std::size_t i = 0; i < kDelays; ++i) {
+    if (i > 0 && left[i - 1] < left[i]) continue;
+    if (i + 1 < kDelays && left[i + 1] < left[i]) continue;
+    minima.emplace_back(left[i], tau[i]);
+  }
+  std::ranges::sort(minima);
+  minima.resize(std::min(minima.size(), kBestDelays));
+  std::vector<double> out;
+  for (const auto& minimum : minima) out.push_back(minimum.second);
+  return out;
+}
+
+// The logarithm of a smooth spectrum, from that of bins whose power is exponentially distributed.
+Eigen::VectorXd Starts::LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const {
+  const Eigen::MatrixXd basis = ChebyshevColumns(record_.position, terms);
+  const Eigen::VectorXd values = power.array().max(1e-300).log() + kEulersGamma;
+  return (basis.transpose() * basis).ldlt().solve(basis.transpose() * values);
+}
+
+Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
+  LoopPoint point;
+  point.modes = std::move(modes);
+  point.tau = tau;
+  point.flame = Flame(tau).coefficients;
+  LoopStructure quiet = structure_;
+  quiet.noise.clear();
+  const LoopResiduals left = ResidualsOf(record_, quiet, point);
+  for (const NoiseTerm& term : structure_.noise) {
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(term.coefficients);
+    switch (term.source) {
+      case LoopNoise::kCombustion:
+        c = LogSpectrum(left.flame.cwiseAbs2(), term.coefficients);
+        break;
+      case LoopNoise::kDuct:
+        c = LogSpectrum(left.acoustic.cwiseAbs2().cwiseQuotient(left.r.cwiseAbs2()),
+                        term.coefficients);
+        break;
+      case LoopNoise::kPressureSensor:
+        c[0] = QuietLevel(left.acoustic.cwiseAbs2());
+        break;
+      case LoopNoise::kHeatReleaseSensor:
+        c[0] = QuietLevel(left.flame.cwiseAbs2());
+        break;
+    }
+    point.noise.push_back(c);
+  }
+  return ToParameters(structure_, point);
+}
+
+}  // namespace
+
+std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const LoopStructure& structure,
+                                      const PointPrior& prior, std::size_t count,
+                                      std::uint64_t seed) {
+  const Starts starts(record, structure);
+  const PoleStarts poles(record, structure);
+  const std::vector<double> delays = starts.Delays();
+  std::vector<std::vector<StartPole>> from = {poles.Greedy()};
+  if (!structure.ratio) {
+    from.push_back(poles.Relocated(poles.Spread()));
+    from.push_back(poles.Relocated(from[0]));
+  }
+  // The cycle's own damping is hidden in closed loop: sharp poles of the grid may be those of the
+  // closed loop, and better damped ones lead to the open loop's.
+  from.push_back(from[0]);
+  for (StartPole& pole : from.back()) pole.xi = kWellDamped;
+  RandomStream random(seed);
+  while (from.size() * delays.size() < count) from.push_back(poles.Drawn(&random));
+  std::vector<Eigen::VectorXd> out;
+  for (const std::vector<StartPole>& each : from) {
+    for (const double tau : delays) out.push_back(starts.At(poles.WithResidues(each), tau));
+  }
+  // Nothing may begin beyond where the prior is flat to rounding.
+  for (Eigen::VectorXd& start : out) {
+    start = start.cwiseMax(prior.mean - 6.0 * prior.deviation)
+                .cwiseMin(prior.mean + 6.0 * prior.deviation);
+  }
+  return out;
+}
+
+}  // namespace howl

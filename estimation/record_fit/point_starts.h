@@ -1,0 +1,24 @@
+// Where fits of one operating point begin (point_fit.h): poles from cut A (pole_starts.h), delays
+// from cut B, whose flame is linear once the delay is given, each with the other. What the two cuts
+// leave over starts the noise.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_POINT_STARTS_H_
+#define HOWL_ESTIMATION_RECORD_FIT_POINT_STARTS_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/point_prior.h"
+
+namespace howl {
+
+// At least four; `count` in all, the further ones with poles that are drawn.// At least `count`,
+// the further ones with poles that are drawn.
+std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const LoopStructure& structure,
+                                      const PointPrior& prior, std::size_t count,
+                                      std::uint64_t seed);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_POINT_STARTS_H_

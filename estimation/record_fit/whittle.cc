@@ -1,0 +1,298 @@
+#include "estimation/record_fit/whittle.h"
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+// Products without the checks for infinities that those of std::complex contain.
+inline C Times(C a, C b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+inline C ConjugateTimes(C a, C b) {
+  return {a.real() * b.real() + a.imag() * b.imag(), a.real() * b.imag() - a.imag() * b.real()};
+}
+
+struct Pair {
+  C a, b;
+};
+// x^T y, without a conjugate.
+inline C Dot(const Pair& x, const Pair& y) { return Times(x.a, y.a) + Times(x.b, y.b); }
+inline Pair Conjugate(const Pair& x) { return {std::conj(x.a), std::conj(x.b)}; }
+
+// [aa, ab; conj(ab), bb]
+struct Hermitian {
+  double aa = 0.0;
+  C ab = 0.0;
+  double bb = 0.0;
+
+  double Determinant() const { return aa * bb - std::norm(ab); }
+  Hermitian Inverse() const {
+    const double scale = 1.0 / Determinant();
+    return {bb * scale, -ab * scale, aa * scale};
+  }
+  Pair Apply(const Pair& x) const {
+    return {aa * x.a + Times(ab, x.b), ConjugateTimes(ab, x.a) + bb * x.b};
+  }
+  // x^T times this.
+  Pair Before(const Pair& x) const {
+    return {aa * x.a + ConjugateTimes(ab, x.b), Times(ab, x.a) + bb * x.b};
+  }
+};
+
+Pair Direction(LoopNoise source, C r, C f) {
+  const NoiseDirection u = DirectionOf(source, r, f);
+  return {u.acoustic, u.flame};
+}
+
+Hermitian Sigma(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, Eigen::Index i) {
+  Hermitian out;
+  for (std::size_t j = 0; j < noise.size(); ++j) {
+    const Pair u = Direction(noise[j].source, at.r[i], at.f[i]);
+    const double s = at.spectra(i, static_cast<Eigen::Index>(j));
+    out.aa += s * std::norm(u.a);
+    out.bb += s * std::norm(u.b);
+    out.ab += s * ConjugateTimes(u.b, u.a);
+  }
+  return out;
+}
+
+// Sums over bins of Re(x_k alpha y_l + x_k beta conj(y_l)).
+Eigen::MatrixXd Form(const Eigen::MatrixXcd& x, const Eigen::VectorXcd& alpha,
+                     const Eigen::VectorXcd& beta, const Eigen::MatrixXcd& y) {
+  const Eigen::MatrixXcd weighted = alpha.asDiagonal() * y + beta.asDiagonal() * y.conjugate();
+  return x.real().transpose() * weighted.real() - x.imag().transpose() * weighted.imag();
+}
+
+// What two parameters that move R or F have in common at each bin: the coefficients of dx dy and of
+// dx conj(dy).
+struct Coupling {
+  explicit Coupling(Eigen::Index bins) : alpha(bins), beta(bins) {}
+  Eigen::VectorXcd alpha;
+  Eigen::VectorXcd beta;
+};
+
+// All that the score needs of a bin, with its weight in it.
+struct Bins {
+  Bins(Eigen::Index bins, Eigen::Index sources)
+      : by_r(bins),
+        by_f(bins),
+        by_acoustic(bins),
+        by_flame(bins),
+        rr(bins),
+        rf(bins),
+        ff(bins),
+        aa(bins),
+        ab(bins),
+        bb(bins),
+        by_spectra(bins, sources),
+        r_spectra(bins, sources),
+        f_spectra(bins, sources),
+        spectra_spectra(bins, sources * sources) {}
+
+  // d ln L = Re(by_r dR + by_f dF + by_acoustic dE_A + by_flame dE_B)
+  Eigen::VectorXcd by_r, by_f, by_acoustic, by_flame;
+  Coupling rr, rf, ff;
+  Eigen::VectorXcd aa, ab, bb;            // of dE_A conj(dE_A), dE_A conj(dE_B), dE_B conj(dE_B)
+  Eigen::MatrixXd by_spectra;             // of d ln S_j
+  Eigen::MatrixXcd r_spectra, f_spectra;  // of dR d ln S_j
+  Eigen::MatrixXd spectra_spectra;
+};
+
+// M of a parameter that moves R is dR e_A x^T and its conjugate transpose, that of one that moves F
+// dF e_B y^T: x and y are the rows. Without the noise's part they are -B Sigma.
+struct Movement {
+  Pair row;     // x
+  Pair b;       // B = dR e_A b^T
+  Pair turned;  // x^T Sigma^-1
+};
+
+// With `information` the couplings too.
+void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double share,
+          bool information, Eigen::Index i, Bins* out) {
+  const C r = at.r[i];
+  const C f = at.f[i];
+  const Hermitian sigma = Sigma(noise, at, i);
+  const Hermitian w = sigma.Inverse();
+  const Pair we = w.Apply({at.acoustic[i], at.flame[i]});
+  const C closed = 1.0 / (1.0 - Times(r, f));
+  Movement by_r{{}, {-Times(closed, f), -closed}, {}};
+  Movement by_f{{}, {-closed, -Times(closed, r)}, {}};
+  for (Movement* m : {&by_r, &by_f}) {
+    const Pair moved = sigma.Before(m->b);
+    m->row = {-moved.a, -moved.b};
+  }
+  C gradient_r = 0.0;
+  C gradient_f = 0.0;
+  std::array<Pair, kMostNoiseTerms> wu;
+  std::array<Pair, kMostNoiseTerms> direction;
+  const auto sources = static_cast<Eigen::Index>(noise.size());
+  for (Eigen::Index j = 0; j < sources; ++j) {
+    const auto at_j = static_cast<std::size_t>(j);
+    const LoopNoise source = noise[at_j].source;
+    const double s = at.spectra(i, j);
+    const Pair u = Direction(source, r, f);
+    direction[at_j] = u;
+    wu[at_j] = w.Apply(u);
+    const NoiseTurn turn = TurnOf(source);
+    const C along = ConjugateTimes(u.a, we.a) + ConjugateTimes(u.b, we.b);
+    gradient_r += 2.0 * s * turn.by_r * (ConjugateTimes(we.a, along) - std::conj(wu[at_j].a));
+    gradient_f += 2.0 * s * turn.by_f * (ConjugateTimes(we.b, along) - std::conj(wu[at_j].b));
+    by_r.row.a += s * turn.by_r * std::conj(u.a);
+    by_r.row.b += s * turn.by_r * std::conj(u.b);
+    by_f.row.a += s * turn.by_f * std::conj(u.a);
+    by_f.row.b += s * turn.by_f * std::conj(u.b);
+    const double trace = (ConjugateTimes(u.a, wu[at_j].a) + ConjugateTimes(u.b, wu[at_j].b)).real();
+    out->by_spectra(i, j) = share * s * (std::norm(along) - trace);
+  }
+  out->by_r[i] = share * gradient_r;
+  out->by_f[i] = share * gradient_f;
+  out->by_acoustic[i] = -2.0 * share * std::conj(we.a);
+  out->by_flame[i] = -2.0 * share * std::conj(we.b);
+  if (!information) return;
+  by_r.turned = w.Before(by_r.row);
+  by_f.turned = w.Before(by_f.row);
+  // tr(W X W Y) and tr(W X W Y^H), of which the second loses what the means would tell.
+  const auto turned_a = [](const Movement& m) { return m.turned.a; };
+  const auto turned_b = [](const Movement& m) { return m.turned.b; };
+  const auto beta = [&](const Movement& x, const Movement& y, C w_yx) {
+    return Times(w_yx, Dot(x.turned, Conjugate(y.row)) - Dot(sigma.Before(x.b), Conjugate(y.b)));
+  };
+  const double two = 2.0 * share;
+  out->rr.alpha[i] = two * Times(turned_a(by_r), turned_a(by_r));
+  out->rr.beta[i] = two * beta(by_r, by_r, w.aa);
+  out->rf.alpha[i] = two * Times(turned_a(by_f), turned_b(by_r));
+  out->rf.beta[i] = two * beta(by_r, by_f, std::conj(w.ab));
+  out->ff.alpha[i] = two * Times(turned_b(by_f), turned_b(by_f));
+  out->ff.beta[i] = two * beta(by_f, by_f, w.bb);
+  out->aa[i] = two * w.aa;
+  out->ab[i] = two * std::conj(w.ab);
+  out->bb[i] = two * w.bb;
+  for (Eigen::Index j = 0; j < sources; ++j) {
+    const auto at_j = static_cast<std::size_t>(j);
+    const double s = two * at.spectra(i, j);
+    out->r_spectra(i, j) = s * ConjugateTimes(wu[at_j].a, Dot(by_r.turned, direction[at_j]));
+    out->f_spectra(i, j) = s * ConjugateTimes(wu[at_j].b, Dot(by_f.turned, direction[at_j]));
+    for (Eigen::Index k = 0; k < sources; ++k) {
+      const Pair& u = direction[static_cast<std::size_t>(k)];
+      out->spectra_spectra(i, j * sources + k) =
+          share * at.spectra(i, j) * at.spectra(i, k) *
+          std::norm(ConjugateTimes(u.a, wu[at_j].a) + ConjugateTimes(u.b, wu[at_j].b));
+    }
+  }
+}
+
+Eigen::VectorXd GatherGradient(const Bins& bins, const LoopDerivatives& d) {
+  const Eigen::Index acoustic = d.r.cols();
+  const Eigen::Index flame = d.f.cols();
+  Eigen::Index size = acoustic + flame;
+  for (const Eigen::MatrixXd& basis : d.log_spectra) size += basis.cols();
+  Eigen::VectorXd out(size);
+  out.head(acoustic) =
+      (d.r.transpose() * bins.by_r + d.acoustic.transpose() * bins.by_acoustic).real();
+  out.segment(acoustic, flame) =
+      (d.f.transpose() * bins.by_f + d.flame.transpose() * bins.by_flame).real();
+  Eigen::Index row = acoustic + flame;
+  for (std::size_t j = 0; j < d.log_spectra.size(); ++j) {
+    const Eigen::MatrixXd& basis = d.log_spectra[j];
+    out.segment(row, basis.cols()) =
+        basis.transpose() * bins.by_spectra.col(static_cast<Eigen::Index>(j));
+    row += basis.cols();
+  }
+  return out;
+}
+
+LoopScore Gather(const Bins& bins, const LoopDerivatives& d) {
+  const Eigen::Index acoustic = d.r.cols();
+  const Eigen::Index flame = d.f.cols();
+  LoopScore out;
+  out.gradient = GatherGradient(bins, d);
+  out.information.resize(out.gradient.size(), out.gradient.size());
+  const auto put = [&](Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block) {
+    out.information.block(row, column, block.rows(), block.cols()) = block;
+    if (row == column) return;
+    out.information.block(column, row, block.cols(), block.rows()) = block.transpose();
+  };
+  const Eigen::VectorXcd none = Eigen::VectorXcd::Zero(bins.by_r.size());
+  put(0, 0,
+      Form(d.r, bins.rr.alpha, bins.rr.beta, d.r) + Form(d.acoustic, none, bins.aa, d.acoustic));
+  put(0, acoustic,
+      Form(d.r, bins.rf.alpha, bins.rf.beta, d.f) + Form(d.acoustic, none, bins.ab, d.flame));
+  put(acoustic, acoustic,
+      Form(d.f, bins.ff.alpha, bins.ff.beta, d.f) + Form(d.flame, none, bins.bb, d.flame));
+  Eigen::Index row = acoustic + flame;
+  const auto sources = static_cast<Eigen::Index>(d.log_spectra.size());
+  for (Eigen::Index j = 0; j < sources; ++j) {
+    const Eigen::MatrixXd& basis = d.log_spectra[static_cast<std::size_t>(j)];
+    put(0, row, (d.r.transpose() * bins.r_spectra.col(j).asDiagonal()).real() * basis);
+    put(acoustic, row, (d.f.transpose() * bins.f_spectra.col(j).asDiagonal()).real() * basis);
+    Eigen::Index column = row;
+    for (Eigen::Index k = j; k < sources; ++k) {
+      const Eigen::MatrixXd& other = d.log_spectra[static_cast<std::size_t>(k)];
+      put(row, column,
+          basis.transpose() * bins.spectra_spectra.col(j * sources + k).asDiagonal() * other);
+      column += other.cols();
+    }
+    row += basis.cols();
+  }
+  return out;
+}
+
+}  // namespace
+
+double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
+                            const LoopResiduals& at) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < share.size(); ++i) {
+    const Hermitian sigma = Sigma(noise, at, i);
+    const double determinant = sigma.Determinant();
+    if (!(determinant > 0.0)) return -std::numeric_limits<double>::infinity();
+    const Pair we = sigma.Inverse().Apply({at.acoustic[i], at.flame[i]});
+    const double square =
+        (ConjugateTimes(at.acoustic[i], we.a) + ConjugateTimes(at.flame[i], we.b)).real();
+    sum -= share[i] * (std::log(determinant) + square);
+  }
+  return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
+}
+
+LoopScore WhittleScore(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
+                       const LoopResiduals& at, const LoopDerivatives& derivatives) {
+  const Eigen::Index bins = share.size();
+  Bins all(bins, static_cast<Eigen::Index>(noise.size()));
+  for (Eigen::Index i = 0; i < bins; ++i) Fill(noise, at, share[i], true, i, &all);
+  return Gather(all, derivatives);
+}
+
+Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
+                                const LoopResiduals& at, const LoopDerivatives& derivatives) {
+  const Eigen::Index bins = share.size();
+  Bins all(bins, static_cast<Eigen::Index>(noise.size()));
+  for (Eigen::Index i = 0; i < bins; ++i) {
+    Fill(noise, at, share[i], false, i, &all);
+  }
+  return GatherGradient(all, derivatives);
+}
+
+ForetoldErrors ErrorsOfForetelling(const std::vector<NoiseTerm>& noise, const LoopResiduals& at) {
+  const Eigen::Index bins = at.r.size();
+  ForetoldErrors out{Eigen::VectorXcd(bins), Eigen::VectorXcd(bins)};
+  for (Eigen::Index i = 0; i < bins; ++i) {
+    const Hermitian w = Sigma(noise, at, i).Inverse();
+    const Pair we = w.Apply({at.acoustic[i], at.flame[i]});
+    const auto error = [&](const Pair& u) {
+      const Pair wu = w.Apply(u);
+      return (ConjugateTimes(u.a, we.a) + ConjugateTimes(u.b, we.b)) /
+             (ConjugateTimes(u.a, wu.a) + ConjugateTimes(u.b, wu.b)).real();
+    };
+    out.pressure[i] = error({1.0, -at.f[i]});
+    out.heat_release[i] = error({-at.r[i], 1.0});
+  }
+  return out;
+}
+
+}  // namespace howl

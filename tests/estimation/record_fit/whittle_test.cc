@@ -1,0 +1,169 @@
+// Score and information of the likelihood of a loop's record, against differences, and against the
+// covariance of the score over drawn records.
+#include "estimation/record_fit/whittle.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <complex>
+
+#include "estimation/record_fit/return_difference.h"
+#include "model/noise/random_stream.h"
+#include "tests/estimation/record_fit/identified.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+TEST(Whittle, GradientIsThatOfTheLikelihood) {
+  const ModalLoop loop = DuctOfModes(2);
+  const Record record = SimulateModalLoop(loop, 0.5, 1);
+  const RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
+  for (const bool tied : {false, true}) {
+    LoopStructure structure = FreeStructure(2);
+    structure.noise.push_back({LoopNoise::kDuct, 2});
+    if (tied) {
+      structure.ratio = 2.2;
+      structure.own_damping = false;
+      structure.complex_residues = false;
+    }
+    const PointPrior prior = PriorOf(structure, spectra);
+    const Eigen::VectorXd at = StartsOf(spectra, structure, prior, 4, 1).back();
+    const LoopPoint point = ToPoint(structure, spectra.flame.cols(), at);
+    const Eigen::VectorXd gradient =
+        WhittleGradient(structure.noise, spectra.share, ResidualsOf(spectra, structure, point),
+                        DerivativesOf(spectra, structure, point)) +
+        LogDeterminantGradient(spectra, structure, point);
+    const double scale = gradient.cwiseAbs().maxCoeff();
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+      constexpr double kStep = 1e-5;
+      Eigen::VectorXd above = at;
+      Eigen::VectorXd below = at;
+      above[i] += kStep;
+      below[i] -= kStep;
+      const double difference =
+          (LogLikelihood(spectra, structure, above) - LogLikelihood(spectra, structure, below)) /
+          (2.0 * kStep);
+      EXPECT_NEAR(gradient[i], difference, 1e-6 * scale + 1e-4 * std::abs(difference))
+          << "parameter " << i << (tied ? ", tied" : "");
+    }
+  }
+}
+
+// A linear loop with R = x0 g + x1 h and F = x2 k + x3 l, whose residuals are drawn from all four
+// sources: bins are independent, and the information is exact.
+class LinearLoop {
+ public:
+  LinearLoop() : x_(0.5, 0.2, 0.4, -0.3) {}
+
+  LoopResiduals At(const Eigen::VectorXcd& p, const Eigen::VectorXcd& q) const {
+    LoopResiduals out;
+    out.r = x_[0] * Slope(0) + x_[1] * Slope(1);
+    out.f = x_[2] * Slope(2) + x_[3] * Slope(3);
+    out.acoustic = p - out.r.cwiseProduct(q);
+    out.flame = q - out.f.cwiseProduct(p);
+    out.spectra = Eigen::Vector4d(0.3, 0.05, 0.02, 0.2).transpose().replicate(kBins, 1);
+    return out;
+  }
+
+  LoopDerivatives Slopes(const Eigen::VectorXcd& p, const Eigen::VectorXcd& q) const {
+    LoopDerivatives out;
+    out.r.resize(kBins, 2);
+    out.f.resize(kBins, 2);
+    out.r << Slope(0), Slope(1);
+    out.f << Slope(2), Slope(3);
+    out.acoustic = -(q.asDiagonal() * out.r);
+    out.flame = -(p.asDiagonal() * out.f);
+    for (int j = 0; j < 4; ++j) out.log_spectra.emplace_back(Eigen::MatrixXd::Ones(kBins, 1));
+    return out;
+  }
+
+  void Draw(RandomStream* random, Eigen::VectorXcd* p, Eigen::VectorXcd* q) const {
+    p->resize(kBins);
+    q->resize(kBins);
+    const LoopResiduals loop = At(Eigen::VectorXcd::Zero(kBins), Eigen::VectorXcd::Zero(kBins));
+    for (Eigen::Index i = 0; i < kBins; ++i) {
+      Eigen::Vector2cd e(0.0, 0.0);
+      for (std::size_t j = 0; j < Noise().size(); ++j) {
+        const NoiseDirection u = DirectionOf(Noise()[j].source, loop.r[i], loop.f[i]);
+        const double deviation = std::sqrt(0.5 * loop.spectra(i, static_cast<Eigen::Index>(j)));
+        const C z(deviation * random->Normal(), deviation * random->Normal());
+        e += z * Eigen::Vector2cd(u.acoustic, u.flame);
+      }
+      Eigen::Matrix2cd a;
+      a << 1.0, -loop.r[i], -loop.f[i], 1.0;
+      const Eigen::Vector2cd signals = a.inverse() * e;
+      (*p)[i] = signals[0];
+      (*q)[i] = signals[1];
+    }
+  }
+
+  // Of 2 ln |1 - R F|.
+  Eigen::VectorXd DeterminantGradient() const {
+    const LoopResiduals loop = At(Eigen::VectorXcd::Zero(kBins), Eigen::VectorXcd::Zero(kBins));
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(8);
+    for (Eigen::Index i = 0; i < kBins; ++i) {
+      const C over = -2.0 / (1.0 - loop.r[i] * loop.f[i]);
+      for (int k = 0; k < 4; ++k) {
+        out[k] += (over * (k < 2 ? loop.f[i] : loop.r[i]) * Slope(k)[i]).real();
+      }
+    }
+    return out;
+  }
+
+  static std::vector<NoiseTerm> Noise() {
+    return {{LoopNoise::kCombustion, 1},
+            {LoopNoise::kPressureSensor, 1},
+            {LoopNoise::kHeatReleaseSensor, 1},
+            {LoopNoise::kDuct, 1}};
+  }
+  static constexpr Eigen::Index kBins = 40;
+
+ private:
+  static Eigen::VectorXcd Slope(int which) {
+    Eigen::VectorXcd out(kBins);
+    for (Eigen::Index i = 0; i < kBins; ++i) {
+      const double x = static_cast<double>(i) / kBins;
+      out[i] = std::polar(1.0 + 0.5 * std::cos(3.0 * x + which), 2.0 * x * (which + 1) + which);
+    }
+    return out;
+  }
+
+  Eigen::Vector4d x_;
+};
+
+TEST(Whittle, InformationIsTheCovarianceOfTheScore) {
+  constexpr int kDraws = 6000;
+  const LinearLoop loop;
+  const Eigen::VectorXd share = Eigen::VectorXd::Ones(LinearLoop::kBins);
+  const Eigen::VectorXd determinant = loop.DeterminantGradient();
+  RandomStream random(11);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(8, 8);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(8, 8);
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(8);
+  for (int i = 0; i < kDraws; ++i) {
+    Eigen::VectorXcd p;
+    Eigen::VectorXcd q;
+    loop.Draw(&random, &p, &q);
+    LoopScore score = WhittleScore(LinearLoop::Noise(), share, loop.At(p, q), loop.Slopes(p, q));
+    score.gradient += determinant;
+    mean += score.gradient / kDraws;
+    covariance += score.gradient * score.gradient.transpose() / kDraws;
+    information += score.information / kDraws;
+  }
+  for (Eigen::Index a = 0; a < 8; ++a) {
+    const double deviation = std::sqrt(information(a, a) / kDraws);
+    EXPECT_LT(std::abs(mean[a]), 4.5 * deviation) << a;
+    for (Eigen::Index b = 0; b <= a; ++b) {
+      const double spread = std::sqrt(
+          (information(a, a) * information(b, b) + information(a, b) * information(a, b)) / kDraws);
+      EXPECT_LT(std::abs(covariance(a, b) - information(a, b)), 5.0 * spread)
+          << a << " " << b << ": " << covariance(a, b) << " for " << information(a, b);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace howl
