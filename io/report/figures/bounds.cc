@@ -94,7 +94,6 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
   const auto count = static_cast<double>(experiments.size());
   const int rows = static_cast<int>((panels.size() + 2) / 3);
   Figure figure;
-  figure.name = "bounds";
   figure.title = "Guaranteed bounds of the family";
   figure.caption =
       "No model that passes the test lies outside the pale bars; members were found at both ends "

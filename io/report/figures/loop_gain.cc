@@ -64,8 +64,6 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
     csv.Cell(std::max(vanishing.lo, left)).Cell(std::min(vanishing.hi, right)).Cell("").EndRow();
   }
   Figure figure;
-  figure.name = "loop_gain";
-  figure.paper_figure = "7";
   figure.title = "Loop gain at the limit cycle";
   figure.caption = "gain · 2π f · |Φ'(0)|, condition (1b): a limit cycle needs more than one";
   figure.caption += any_interval ? ", with 95 % intervals." : ".";

@@ -50,8 +50,6 @@ std::optional<Figure> SpectrumComparisonFigure(const ReportInput& input) {
     }
   }
   Figure figure;
-  figure.name = "spectrum_comparison";
-  figure.paper_figure = "11";
   figure.title = "Simulated power spectrum of p, " + reference->name;
   figure.caption = measured != nullptr
                        ? "Measured record and what the loop gives when simulated with noise."
