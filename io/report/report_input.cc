@@ -191,13 +191,6 @@ void NoteAbsent(ReportInput& input) {
 
 }  // namespace
 
-const Json& JsonAt(const Json& json, const char* key) {
-  static const Json null;
-  if (!json.is_object()) return null;
-  const auto found = json.find(key);
-  return found != json.end() ? *found : null;
-}
-
 Estimate EstimateAt(const Json& json, const char* key) {
   if (!json.is_object() || !json.contains(key)) return {};
   return {NumberAt(json[key], "value"), NumberAt(json[key], "std")};
