@@ -4,13 +4,6 @@
 
 namespace howl {
 
-const nlohmann::json& JsonAt(const nlohmann::json& json, const char* key) {
-  static const nlohmann::json null;
-  if (!json.is_object()) return null;
-  const auto found = json.find(key);
-  return found != json.end() ? *found : null;
-}
-
 Estimate EstimateAt(const nlohmann::json& json, const char* key) {
   if (!json.is_object() || !json.contains(key)) return {};
   return {NumberAt(json[key], "value"), NumberAt(json[key], "std")};

@@ -63,8 +63,8 @@ Json StabilityMapJson(const MapReport& report) {
           {"interval", "95 % of the members"},
           {"points", report.map.cells.size()},
           // Of the points: where 97.5 % of the members grow, and where as many decay.
-          {"unstable", count([](const MapCell& cell) { return cell.growth_rate.lo > 0.0; })},
-          {"stable", count([](const MapCell& cell) { return cell.growth_rate.hi <= 0.0; })},
+          {"unstable", count(&MapCell::Grows)},
+          {"stable", count(&MapCell::Decays)},
           {"members", marks}};
 }
 

@@ -19,9 +19,25 @@ std::vector<const MemberPath*> Spread(std::span<const MemberPath> paths) {
   return chosen;
 }
 
-void Set(const MapAxis& axis, double value, OperatingLoop& loop) {
-  if (axis.quantity == MapQuantity::kOperatingPoint) return;
-  loop = WithMapValue(loop, axis.quantity, value);
+// Where the loop has it; none for the operating point.
+double* ValueOf(OperatingLoop& loop, MapQuantity parameter) {
+  switch (parameter) {
+    case MapQuantity::kOmega:
+      return &loop.model.omega_hz;
+    case MapQuantity::kXi:
+      return &loop.model.xi;
+    case MapQuantity::kN:
+      return &loop.model.N;
+    case MapQuantity::kM:
+      return &loop.model.M;
+    case MapQuantity::kTau:
+      return &loop.model.tau_s;
+    case MapQuantity::kFlameSlope:
+      return &loop.flame_slope;
+    case MapQuantity::kOperatingPoint:
+      break;
+  }
+  return nullptr;
 }
 
 MapCell Gather(const std::vector<double>& rates) {
@@ -42,48 +58,13 @@ MapCell Gather(const std::vector<double>& rates) {
 }  // namespace
 
 double MapValue(const OperatingLoop& loop, MapQuantity parameter) {
-  switch (parameter) {
-    case MapQuantity::kOmega:
-      return loop.model.omega_hz;
-    case MapQuantity::kXi:
-      return loop.model.xi;
-    case MapQuantity::kN:
-      return loop.model.N;
-    case MapQuantity::kM:
-      return loop.model.M;
-    case MapQuantity::kTau:
-      return loop.model.tau_s;
-    case MapQuantity::kFlameSlope:
-      return loop.flame_slope;
-    case MapQuantity::kOperatingPoint:
-      break;
-  }
-  return std::nan("");
+  OperatingLoop copy = loop;
+  const double* const value = ValueOf(copy, parameter);
+  return value != nullptr ? *value : std::nan("");
 }
 
 OperatingLoop WithMapValue(OperatingLoop loop, MapQuantity parameter, double value) {
-  switch (parameter) {
-    case MapQuantity::kOmega:
-      loop.model.omega_hz = value;
-      break;
-    case MapQuantity::kXi:
-      loop.model.xi = value;
-      break;
-    case MapQuantity::kN:
-      loop.model.N = value;
-      break;
-    case MapQuantity::kM:
-      loop.model.M = value;
-      break;
-    case MapQuantity::kTau:
-      loop.model.tau_s = value;
-      break;
-    case MapQuantity::kFlameSlope:
-      loop.flame_slope = value;
-      break;
-    case MapQuantity::kOperatingPoint:
-      break;
-  }
+  if (double* const place = ValueOf(loop, parameter)) *place = value;
   return loop;
 }
 
@@ -104,8 +85,8 @@ StabilityMap MakeStabilityMap(const OperatingPoints& points, std::span<const Mem
     for (const MemberPath* const path : chosen) {
       std::optional<OperatingLoop> loop = path->At(points, point);
       if (!loop) continue;
-      Set(x, at_x, *loop);
-      Set(y, at_y, *loop);
+      if (double* const place = ValueOf(*loop, x.quantity)) *place = at_x;
+      if (double* const place = ValueOf(*loop, y.quantity)) *place = at_y;
       if (loop->flame_slope == 0.0) continue;
       const std::optional<Pole> pole = LeadingPole(loop->model.Loop(), loop->flame_slope);
       if (pole) rates.push_back(pole->growth_rate);

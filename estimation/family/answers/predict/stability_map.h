@@ -51,6 +51,10 @@ struct MapCell {
   SampledValue growth_rate;  // 1/s
   // Of the paths with a loop; NaN without any.
   double share_unstable = std::numeric_limits<double>::quiet_NaN();
+
+  // For 97.5 % of the paths; both are false where there is none.
+  bool Grows() const { return growth_rate.lo > 0.0; }
+  bool Decays() const { return growth_rate.hi <= 0.0; }
 };
 
 struct StabilityMap {
