@@ -1,6 +1,7 @@
 // Guaranteed bounds of the family as bars: no member lies outside the pale bar, and members were
 // found at both ends of the dark one. The joint fit is one choice within.
 #include <cmath>
+#include <limits>
 
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
@@ -63,7 +64,7 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
   for (const Panel& panel : kPanels) {
     bool any = false;
     double low = INFINITY;
-    double high = -INFINITY;
+    double high = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < experiments.size(); ++i) {
       if (!bounds.contains(experiments[i]) || !bounds[experiments[i]].contains(panel.key)) continue;
       const auto& each = bounds[experiments[i]][panel.key];

@@ -15,8 +15,6 @@
 namespace howl {
 namespace {
 
-using std::string_literals::operator""s;
-
 constexpr const char* kHeader =
     "member,experiment,phi,omega_hz,xi,N,M,tau_s,loop_gain,gain_error,phase_error_deg,"
     "loop_phase_error_deg";
@@ -93,7 +91,8 @@ FamilyTable ReadFamilyCsv(const std::filesystem::path& path) {
     throw UserError(path.string(), 0, "", "no such file, expected the one that howl family writes");
   }
   std::string line;
-  const bool is_family = std::getline(file, line) && (line + ",").starts_with(kHeader + ","s);
+  const bool is_family =
+      std::getline(file, line) && (line + ",").starts_with(std::string(kHeader) + ",");
   if (!is_family) {
     throw UserError(path.string(), 1, "",
                     "not a family, expected the header " + std::string(kHeader));
