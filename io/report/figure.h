@@ -12,10 +12,14 @@
 
 namespace howl {
 
+// The sections of the page, in its order (page/page.cc has their titles).
+enum class PageSection { kData, kModels, kFamily, kPrediction, kDiagnosis, kTrial, kCampaign };
+
 struct Figure {
-  // These two come from the figure's line in figures/catalogue.h: the name of its files, and which
-  // figure of the paper it answers to ("7"; empty where there is none).
+  // These three come from the figure's line in figures/catalogue.h: the name of its files, its
+  // section of the page, and which figure of the paper it answers to ("7"; empty: none).
   std::string name;
+  PageSection section = PageSection::kData;
   std::string paper_figure;
   std::string title;
   std::string caption;  // what the figure shows, of which data

@@ -11,11 +11,13 @@ namespace {
 
 struct Entry {
   const char* name;
+  PageSection section;
   const char* paper_figure;
   std::optional<Figure> (*make)(const ReportInput&);
 };
 
-#define HOWL_FIGURE_ENTRY(Function, name, paper) {#name, paper, Function##Figure},
+#define HOWL_FIGURE_ENTRY(Function, name, section, paper) \
+  {#name, PageSection::section, paper, Function##Figure},
 constexpr Entry kFigures[] = {HOWL_FIGURES(HOWL_FIGURE_ENTRY)};
 #undef HOWL_FIGURE_ENTRY
 
@@ -37,6 +39,7 @@ std::vector<Figure> AllFigures(const ReportInput& input, int threads,
   for (std::size_t i = 0; i < kCount; ++i) {
     if (made[i]) {
       made[i]->name = kFigures[i].name;
+      made[i]->section = kFigures[i].section;
       made[i]->paper_figure = kFigures[i].paper_figure;
       figures.push_back(*std::move(made[i]));
     }

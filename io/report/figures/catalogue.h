@@ -13,39 +13,40 @@
 namespace howl {
 
 // The registry: one line a figure, the function that draws it (RecordsFigure), the name of its
-// files, and the figure of the paper that it answers to. What a figure needs its function asks of
-// the input, and returns nothing where that is not there.
-#define HOWL_FIGURES(X)                            \
-  X(Records, records, "1")                         \
-  X(Spectra, spectra, "2")                         \
-  X(Delay, delay, "4")                             \
-  X(FlameScatter, flame_scatter, "5")              \
-  X(FlameCurves, flame_curves, "6")                \
-  X(LoopGain, loop_gain, "7")                      \
-  X(FamilyBode, bode_family, "8")                  \
-  X(AllBode, bode_all, "9")                        \
-  X(Transfer, transfer, "")                        \
-  X(Lines, lines, "10")                            \
-  X(SpectrumComparison, spectrum_comparison, "11") \
-  X(Nyquist, nyquist, "12")                        \
-  X(OmegaSensitivity, sensitivity_omega, "13")     \
-  X(DelaySensitivity, sensitivity_tau, "14")       \
-  X(Bifurcation, bifurcation, "")                  \
-  X(Tradeoff, tradeoff, "")                        \
-  X(Bounds, bounds, "")                            \
-  X(Prediction, prediction, "")                    \
-  X(StabilityMap, stability_map, "")               \
-  X(GapMap, gap_map, "")                           \
-  X(Effects, effects, "")                          \
-  X(Remains, remains, "")                          \
-  X(Budget, budget, "")                            \
-  X(Confusion, confusion, "")                      \
-  X(Reliability, reliability, "")                  \
-  X(Power, power, "")                              \
-  X(CampaignQuantities, campaign_quantities, "")   \
-  X(CampaignGaps, campaign_gaps, "")
+// files, the section of the page in which it stands (figure.h), and the figure of the paper
+// that it answers to. The order is that of the page. What a figure needs its function asks of the
+// input, and returns nothing where that is not there.
+#define HOWL_FIGURES(X)                                     \
+  X(Records, records, kData, "1")                           \
+  X(Spectra, spectra, kData, "2")                           \
+  X(Delay, delay, kData, "4")                               \
+  X(FlameScatter, flame_scatter, kData, "5")                \
+  X(FlameCurves, flame_curves, kData, "6")                  \
+  X(LoopGain, loop_gain, kData, "7")                        \
+  X(Lines, lines, kData, "10")                              \
+  X(FamilyBode, bode_family, kModels, "8")                  \
+  X(AllBode, bode_all, kModels, "9")                        \
+  X(Transfer, transfer, kModels, "")                        \
+  X(Nyquist, nyquist, kModels, "12")                        \
+  X(SpectrumComparison, spectrum_comparison, kModels, "11") \
+  X(OmegaSensitivity, sensitivity_omega, kModels, "13")     \
+  X(DelaySensitivity, sensitivity_tau, kModels, "14")       \
+  X(Bifurcation, bifurcation, kModels, "")                  \
+  X(Tradeoff, tradeoff, kFamily, "")                        \
+  X(Bounds, bounds, kFamily, "")                            \
+  X(Prediction, prediction, kPrediction, "")                \
+  X(StabilityMap, stability_map, kPrediction, "")           \
+  X(GapMap, gap_map, kDiagnosis, "")                        \
+  X(Effects, effects, kDiagnosis, "")                       \
+  X(Budget, budget, kDiagnosis, "")                         \
+  X(Remains, remains, kDiagnosis, "")                       \
+  X(Confusion, confusion, kTrial, "")                       \
+  X(Reliability, reliability, kTrial, "")                   \
+  X(Power, power, kTrial, "")                               \
+  X(CampaignQuantities, campaign_quantities, kCampaign, "") \
+  X(CampaignGaps, campaign_gaps, kCampaign, "")
 
-#define HOWL_FIGURE_FUNCTION(Function, name, paper) \
+#define HOWL_FIGURE_FUNCTION(Function, name, section, paper) \
   std::optional<Figure> Function##Figure(const ReportInput& input);
 HOWL_FIGURES(HOWL_FIGURE_FUNCTION)
 #undef HOWL_FIGURE_FUNCTION

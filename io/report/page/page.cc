@@ -19,30 +19,20 @@ namespace howl {
 namespace {
 
 struct Section {
+  PageSection section;
   const char* id;
   const char* title;
-  std::vector<std::string> figures;
 };
 
-// Figures that no section names come last.
-const std::vector<Section>& Sections() {
-  static const std::vector<Section> sections = {
-      {"data",
-       "What the data show",
-       {"records", "spectra", "delay", "flame_scatter", "flame_curves", "loop_gain", "lines"}},
-      {"models",
-       "Loops that fit",
-       {"bode_family", "bode_all", "transfer", "nyquist", "spectrum_comparison",
-        "sensitivity_omega", "sensitivity_tau", "bifurcation"}},
-      {"family", "What the data leave open", {"tradeoff", "bounds"}},
-      {"prediction", "What to expect where nobody measured", {"prediction", "stability_map"}},
-      {"diagnosis",
-       "Where and why the model falls short",
-       {"gap_map", "effects", "budget", "remains"}},
-      {"trial", "How far to trust the diagnosis", {"confusion", "reliability", "power"}},
-      {"campaign", "All rigs", {"campaign_quantities", "campaign_gaps"}}};
-  return sections;
-}
+// A figure names its section in its line of figures/catalogue.h.
+constexpr Section kSections[] = {
+    {PageSection::kData, "data", "What the data show"},
+    {PageSection::kModels, "models", "Loops that fit"},
+    {PageSection::kFamily, "family", "What the data leave open"},
+    {PageSection::kPrediction, "prediction", "What to expect where nobody measured"},
+    {PageSection::kDiagnosis, "diagnosis", "Where and why the model falls short"},
+    {PageSection::kTrial, "trial", "How far to trust the diagnosis"},
+    {PageSection::kCampaign, "campaign", "All rigs"}};
 
 constexpr int kWide = 800;  // figures beyond this width have a row of their own
 
@@ -74,10 +64,8 @@ std::string FigureHtml(const Figure& figure, const std::map<std::string, std::st
 std::string FiguresHtml(const std::vector<Figure>& figures, const Section& section,
                         const std::map<std::string, std::string>& svgs) {
   std::vector<const Figure*> shown;
-  for (const std::string& name : section.figures) {
-    for (const Figure& figure : figures) {
-      if (figure.name == name) shown.push_back(&figure);
-    }
+  for (const Figure& figure : figures) {
+    if (figure.section == section.section) shown.push_back(&figure);
   }
   std::string out;
   bool second = false;  // in its row
@@ -162,7 +150,7 @@ std::string ReportPage(const ReportInput& input, const std::vector<Figure>& figu
   };
   const std::string summary = part("the summary", [&] { return SummaryHtml(input); });
   const std::string health = part("the health", [&] { return HealthHtml(input); });
-  for (const Section& section : Sections()) {
+  for (const Section& section : kSections) {
     std::string inside = part(std::string("the table under \"") + section.title + "\"",
                               [&] { return SectionText(section.id, input); });
     inside += FiguresHtml(figures, section, svgs);
