@@ -28,7 +28,7 @@ constexpr std::size_t kStarts = 12;
 
 struct NamedStructure {
   std::string name;
-  LoopStructure structure;
+  PointStructure structure;
 };
 
 std::vector<NoiseTerm> Noise(Eigen::Index combustion, Eigen::Index sensors, Eigen::Index duct) {
@@ -40,7 +40,7 @@ std::vector<NoiseTerm> Noise(Eigen::Index combustion, Eigen::Index sensors, Eige
 }
 
 std::vector<NamedStructure> Structures() {
-  LoopStructure loop;
+  PointStructure loop;
   loop.modes = 2;
   loop.ratio = 3.0;
   loop.own_damping = false;
@@ -80,12 +80,12 @@ struct Score {
   double delay_of_period = 0.0;
 };
 
-PointFit Fit(const RecordSpectra& record, const LoopStructure& structure) {
+PointFit Fit(const RecordSpectra& record, const PointStructure& structure) {
   const PointPrior prior = PriorOf(structure, record);
   return FitPoint(record, structure, prior, StartsOf(record, structure, prior, kStarts, 1));
 }
 
-Score ScoreOf(const Record& record, double cycle_hz, const LoopStructure& structure) {
+Score ScoreOf(const Record& record, double cycle_hz, const PointStructure& structure) {
   const RecordSpectra whole = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
   Score out;
   const PointFit fit = Fit(whole, structure);

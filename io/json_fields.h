@@ -16,6 +16,14 @@ inline const nlohmann::json* FieldAt(const nlohmann::json& json, const char* key
   return found != json.end() && ((*found).*is_type)() ? &*found : nullptr;
 }
 
+// Of any type; null where there is none.
+inline const nlohmann::json& JsonAt(const nlohmann::json& json, const char* key) {
+  static const nlohmann::json null;
+  if (!json.is_object()) return null;
+  const auto found = json.find(key);
+  return found != json.end() ? *found : null;
+}
+
 // "" where there is none.
 inline std::string TextAt(const nlohmann::json& json, const char* key) {
   const nlohmann::json* const field = FieldAt(json, key, &nlohmann::json::is_string);

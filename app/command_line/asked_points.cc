@@ -56,7 +56,9 @@ std::vector<double> ParseAskedPoints(const std::string& option, const std::strin
     if (to < from) throw UsageError(option + ": " + item + ", expected FROM below TO");
     const double steps = std::floor((to - from) / step * (1.0 + kRounding) + kRounding);
     CheckCount(option, static_cast<double>(points.size()) + steps + 1.0, most);
-    for (double k = 0.0; k <= steps; k += 1.0) points.push_back(from + k * step);
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(steps); ++k) {
+      points.push_back(from + static_cast<double>(k) * step);
+    }
   }
   return points;
 }

@@ -1,4 +1,4 @@
-// A command of the program: one file each, listed in commands.cc.
+// A command of the program: one file each in app/commands/, and a line in HOWL_COMMANDS.
 #ifndef HOWL_APP_COMMAND_LINE_COMMAND_H_
 #define HOWL_APP_COMMAND_LINE_COMMAND_H_
 
@@ -43,25 +43,32 @@ struct Command {
   bool TakesSeveral() const { return operands.ends_with("..."); }
 };
 
-const std::vector<Command>& Commands();
+// The registry: one line a command, whose file in app/commands/ defines FitCommand(). The order is
+// that of howl --help.
+#define HOWL_COMMANDS(X) \
+  X(Init)                \
+  X(Check)               \
+  X(Analyse)             \
+  X(Fit)                 \
+  X(Family)              \
+  X(List)                \
+  X(Predict)             \
+  X(Simulate)            \
+  X(Diagnose)            \
+  X(Export)              \
+  X(Trial)               \
+  X(Campaign)            \
+  X(Merge)               \
+  X(Submit)              \
+  X(Status)              \
+  X(Regress)             \
+  X(Report)
 
-Command AnalyseCommand();
-Command CampaignCommand();
-Command CheckCommand();
-Command DiagnoseCommand();
-Command ExportCommand();
-Command FitCommand();
-Command FamilyCommand();
-Command InitCommand();
-Command ListCommand();
-Command MergeCommand();
-Command PredictCommand();
-Command RegressCommand();
-Command ReportCommand();
-Command SimulateCommand();
-Command StatusCommand();
-Command SubmitCommand();
-Command TrialCommand();
+#define HOWL_COMMAND_FUNCTION(Name) Command Name##Command();
+HOWL_COMMANDS(HOWL_COMMAND_FUNCTION)
+#undef HOWL_COMMAND_FUNCTION
+
+const std::vector<Command>& Commands();
 
 }  // namespace howl
 

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/command_line/flag_words.h"
 #include "io/config/schema/nearest_key.h"
 #include "io/user_error.h"
 
@@ -54,48 +55,6 @@ std::deque<OwnFlag>& OwnFlags() {
 
 std::string Described(const char* flag) {
   return gflags::GetCommandLineFlagInfoOrDie(flag).description;
-}
-
-// "--save-every" is save_every to gflags.
-std::string Canonical(const std::string& flag) {
-  std::string name = flag.substr(std::min(flag.find_first_not_of('-'), flag.size()));
-  std::ranges::replace(name, '-', '_');
-  return name;
-}
-
-std::string Dashed(const std::string& name) {
-  return (name.starts_with("--") ? "" : name.starts_with('-') ? "-" : "--") + name;
-}
-
-const OptionHelp* FindIn(const std::vector<OptionHelp>& options, const std::string& flag) {
-  const auto found = std::ranges::find_if(
-      options, [&](const OptionHelp& each) { return Canonical(each.name) == Canonical(flag); });
-  return found == options.end() ? nullptr : &*found;
-}
-
-std::vector<std::string> SplitAtCommas(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
-    if (!part.empty()) parts.push_back(part);
-  }
-  return parts;
-}
-
-// Appends to the values that an option has already, if it may be given several times.
-std::string Joined(const OptionHelp& flag, const std::string& value) {
-  if (!flag.value.ends_with("...")) return value;
-  const std::string before =
-      gflags::GetCommandLineFlagInfoOrDie(Canonical(flag.name).c_str()).current_value;
-  return before.empty() ? value : before + "," + value;
-}
-
-std::string Expected(const OptionHelp& flag) {
-  if (flag.value.empty()) return "true, false or nothing";
-  if (flag.name == "--threads") return "a whole number from 1 to 1024";
-  if (flag.name == "--seed") return "a whole number from 0 to 2^64 - 1";
-  if (flag.name == "--v") return "a whole number";
-  return flag.value;
 }
 
 }  // namespace
@@ -165,7 +124,7 @@ void CommandLine::SetCommand(const Command& command) {
   command_ = &command;
   for (const OptionHelp& option : command.options) {
     OwnFlag& flag = OwnFlags().emplace_back();
-    flag.name = Canonical(option.name);
+    flag.name = CanonicalFlag(option.name);
     flag.text = option.text;
     flag.file = "howl " + command.name;
     if (option.value.empty()) {
@@ -179,24 +138,24 @@ void CommandLine::SetCommand(const Command& command) {
 }
 
 const OptionHelp* CommandLine::Find(const std::string& flag) const {
-  if (const OptionHelp* common = FindIn(CommonOptions(), flag)) return common;
-  return command_ == nullptr ? nullptr : FindIn(command_->options, flag);
+  if (const OptionHelp* common = FindOption(CommonOptions(), flag)) return common;
+  return command_ == nullptr ? nullptr : FindOption(command_->options, flag);
 }
 
 void CommandLine::FailUnknown(const Place& place, const std::string& flag) const {
   const std::string whose = command_ == nullptr ? "howl" : "howl " + command_->name;
   for (const Command& other : Commands()) {
-    if (FindIn(other.options, flag) == nullptr) continue;
+    if (FindOption(other.options, flag) == nullptr) continue;
     place.Fail(flag, command_ == nullptr
                          ? "an option of howl " + other.name + ", expected after the command"
                          : "no option of " + whose + ", but one of howl " + other.name);
   }
   std::vector<std::string> names;
-  for (const OptionHelp& each : CommonOptions()) names.push_back(Canonical(each.name));
+  for (const OptionHelp& each : CommonOptions()) names.push_back(CanonicalFlag(each.name));
   if (command_ != nullptr) {
-    for (const OptionHelp& each : command_->options) names.push_back(Canonical(each.name));
+    for (const OptionHelp& each : command_->options) names.push_back(CanonicalFlag(each.name));
   }
-  const std::optional<std::string> nearest = NearestKey(Canonical(flag), names, 1);
+  const std::optional<std::string> nearest = NearestKey(CanonicalFlag(flag), names, 1);
   place.Fail(flag, "no such option of " + whose + ", expected " +
                        (nearest ? "the nearest one, " + Find(*nearest)->name
                                 : "one that " + whose + " --help lists"));
@@ -210,15 +169,15 @@ void CommandLine::Read(const Place& place, const std::string& word,
     name = word.substr(0, equals);
     value = word.substr(equals + 1);
   }
-  name = Dashed(name == "-h" ? "help" : name);
+  name = DashedFlag(name == "-h" ? "help" : name);
   const OptionHelp* flag = Find(name);
-  if (flag == nullptr && !value && Canonical(name).starts_with("no")) {
-    flag = Find(Canonical(name).substr(2));
+  if (flag == nullptr && !value && CanonicalFlag(name).starts_with("no")) {
+    flag = Find(CanonicalFlag(name).substr(2));
     if (flag != nullptr && flag->value.empty()) value = "false";
     if (!value) flag = nullptr;
   }
   if (flag == nullptr) {
-    if (undefok_.contains(Canonical(name))) return;
+    if (undefok_.contains(CanonicalFlag(name))) return;
     FailUnknown(place, name);
   }
   if (!value) value = flag->value.empty() ? "true" : following();
@@ -232,10 +191,11 @@ void CommandLine::Set(const Place& place, const OptionHelp& flag, const std::str
   } else if (flag.name == "--fromenv" || flag.name == "--tryfromenv") {
     ReadEnvironment(place, value, flag.name == "--tryfromenv");
   } else if (flag.name == "--undefok") {
-    for (const std::string& name : SplitAtCommas(value)) undefok_.insert(Canonical(name));
-  } else if (gflags::SetCommandLineOption(Canonical(flag.name).c_str(), Joined(flag, value).c_str())
+    for (const std::string& name : SplitAtCommas(value)) undefok_.insert(CanonicalFlag(name));
+  } else if (gflags::SetCommandLineOption(CanonicalFlag(flag.name).c_str(),
+                                          JoinedValues(flag, value).c_str())
                  .empty()) {
-    place.Fail(flag.name, value + ", expected " + Expected(flag));
+    place.Fail(flag.name, value + ", expected " + ExpectedValue(flag));
   }
 }
 
@@ -267,17 +227,18 @@ void CommandLine::ReadFile(const Place& place, const std::string& path) {
 void CommandLine::ReadEnvironment(const Place& place, const std::string& names,
                                   bool may_be_absent) {
   for (const std::string& name : SplitAtCommas(names)) {
-    const OptionHelp* const flag = Find(Dashed(name));
+    const OptionHelp* const flag = Find(DashedFlag(name));
     if (flag == nullptr) {
-      if (undefok_.contains(Canonical(name))) continue;
-      FailUnknown(place, Dashed(name));
+      if (undefok_.contains(CanonicalFlag(name))) continue;
+      FailUnknown(place, DashedFlag(name));
     }
-    const std::string variable = "FLAGS_" + Canonical(name);
+    const std::string variable = "FLAGS_" + CanonicalFlag(name);
     const char* const value = gflags::StringFromEnv(variable.c_str(), nullptr);
     if (value != nullptr) {
       Set(place, *flag, value);
     } else if (!may_be_absent) {
-      place.Fail("--fromenv", variable + " is not in the environment, expected " + Expected(*flag));
+      place.Fail("--fromenv",
+                 variable + " is not in the environment, expected " + ExpectedValue(*flag));
     }
   }
 }
@@ -308,7 +269,7 @@ Options CommandLine::Finish(const std::vector<std::string>& operands) const {
   if (command_ == nullptr) return options;
   for (const OptionHelp& option : command_->options) {
     const gflags::CommandLineFlagInfo flag =
-        gflags::GetCommandLineFlagInfoOrDie(Canonical(option.name).c_str());
+        gflags::GetCommandLineFlagInfoOrDie(CanonicalFlag(option.name).c_str());
     const bool is_switch = option.value.empty();
     if (flag.is_default || (is_switch && flag.current_value != "true")) continue;
     options.own[option.name] = is_switch ? "" : flag.current_value;

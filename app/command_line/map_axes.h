@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/command_line/options.h"
-#include "estimation/family/answers/stability_map.h"
+#include "estimation/family/answers/predict/stability_map.h"
 #include "io/config/config.h"
 
 namespace howl {

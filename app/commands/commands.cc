@@ -3,11 +3,9 @@
 namespace howl {
 
 const std::vector<Command>& Commands() {
-  static const std::vector<Command> commands = {
-      InitCommand(),    CheckCommand(),    AnalyseCommand(),  FitCommand(),      FamilyCommand(),
-      ListCommand(),    PredictCommand(),  SimulateCommand(), DiagnoseCommand(), ExportCommand(),
-      TrialCommand(),   CampaignCommand(), MergeCommand(),    SubmitCommand(),   StatusCommand(),
-      RegressCommand(), ReportCommand()};
+#define HOWL_COMMAND_MADE(Name) Name##Command(),
+  static const std::vector<Command> commands = {HOWL_COMMANDS(HOWL_COMMAND_MADE)};
+#undef HOWL_COMMAND_MADE
   return commands;
 }
 

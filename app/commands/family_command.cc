@@ -7,8 +7,8 @@
 #include "app/input/without_conditions.h"
 #include "io/config/reading/config_reading.h"
 #include "io/result_files.h"
-#include "io/results/family_csv.h"
-#include "io/results/family_json.h"
+#include "io/results/family/family_csv.h"
+#include "io/results/family/family_json.h"
 #include "io/whole_file.h"
 
 namespace howl {

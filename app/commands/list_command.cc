@@ -11,7 +11,7 @@
 #include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
 #include "io/result_files.h"
-#include "io/results/family_csv.h"
+#include "io/results/family/family_csv.h"
 
 namespace howl {
 namespace {

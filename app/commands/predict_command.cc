@@ -18,8 +18,8 @@
 #include "app/text/predict_text.h"
 #include "io/config/reading/config_reading.h"
 #include "io/result_files.h"
-#include "io/results/predict_files.h"
-#include "io/results/stability_map_files.h"
+#include "io/results/family/predict_files.h"
+#include "io/results/family/stability_map_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 

@@ -7,7 +7,7 @@
 #include "app/process/interruption.h"
 #include "app/text/text_table.h"
 #include "io/report/figures/catalogue.h"
-#include "io/report/page.h"
+#include "io/report/page/page.h"
 #include "io/report/render.h"
 #include "io/report/report_input.h"
 #include "io/whole_file.h"

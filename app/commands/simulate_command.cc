@@ -6,14 +6,14 @@
 
 #include "app/command_line/command.h"
 #include "app/input/asked_models.h"
-#include "app/input/measured_flame.h"
 #include "app/input/problem_input.h"
-#include "app/simulate/flame_table_rig.h"
 #include "app/simulate/simulate_cases.h"
 #include "app/simulate/simulate_rig.h"
+#include "app/simulate/simulate_rigs.h"
 #include "app/simulate/simulate_sweep.h"
 #include "app/simulate/simulate_times.h"
 #include "app/text/text_table.h"
+#include "estimation/analysis/spectra/simulated_record.h"
 #include "estimation/family/problem/membership.h"
 #include "io/config/reading/config_reading.h"
 #include "io/records/records.h"
@@ -69,20 +69,12 @@ int Run(const Options& options) {
   CheckSimulationTimes(config, times, experiments);
   const std::vector<LoopModel> models = AskedModels(config, options, experiments);
   if (config.simulation.sweep) CheckSweep(config, times);
-  std::vector<SimulatedRig> rigs;
-  for (std::size_t i = 0; i < experiments.size(); ++i) {
-    rigs.push_back(
-        MakeRig(config, experiments[i], models[i], MeasuredFlame(input, experiments[i]), times));
-    if (config.simulation.flame_table) {
-      UseFlameTable(config, input, experiments[i], &rigs.back());
-    }
-  }
+  std::vector<SimulatedRig> rigs = MakeRigs(config, input, models, times);
   AddEffects(config, experiments, times.duration_s, &rigs);
   const std::vector<SimulationCase> cases = CasesOf(config, times, experiments, rigs, options.seed);
   const std::vector<SimulatedRecord> records = SimulateCases(cases, times, options.threads);
   for (std::size_t i = 0; i < records.size(); ++i) {
-    WriteRecordCsv(options.out / (experiments[i].name + ".csv"),
-                   {records[i].sampling_hz, records[i].pressure, records[i].heat_release});
+    WriteRecordCsv(options.out / (experiments[i].name + ".csv"), ToRecord(records[i]));
   }
   WriteWholeFile(options.out / "records.yaml", RecordsYaml(config, experiments, times.sampling_hz));
   WriteWholeFile(options.out / "simulation.json", LoopsText(options, experiments, rigs));

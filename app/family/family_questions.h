@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "estimation/family/answers/advise.h"
+#include "estimation/family/answers/predict/advise.h"
 #include "io/config/simulation_spec.h"
-#include "io/results/family_json.h"
+#include "io/results/family/family_json.h"
 
 namespace howl {
 

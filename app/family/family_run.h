@@ -9,14 +9,14 @@
 
 #include "app/command_line/options.h"
 #include "app/jobs/shard.h"
-#include "estimation/family/answers/conflict.h"
-#include "estimation/family/answers/predict.h"
+#include "estimation/family/answers/conflict/conflict.h"
+#include "estimation/family/answers/predict/predict.h"
 #include "estimation/family/answers/tradeoff.h"
 #include "estimation/family/bounds/enclose.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/sample.h"
 #include "io/config/config.h"
-#include "io/results/family_json.h"
+#include "io/results/family/family_json.h"
 
 namespace howl {
 

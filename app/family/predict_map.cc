@@ -55,8 +55,8 @@ std::string MapText(const MapReport& report) {
   std::size_t unstable = 0, stable = 0, without = 0;
   for (const MapCell& cell : report.map.cells) {
     if (cell.members == 0) ++without;
-    if (cell.growth_rate.lo > 0.0) ++unstable;
-    if (cell.growth_rate.hi <= 0.0) ++stable;
+    if (cell.Grows()) ++unstable;
+    if (cell.Decays()) ++stable;
   }
   std::string text = "map: growth rate over " + AxisText(report, report.map.x) + " and " +
                      AxisText(report, report.map.y);

@@ -8,7 +8,7 @@
 
 #include "app/command_line/map_axes.h"
 #include "app/family/family_run.h"
-#include "io/results/stability_map_files.h"
+#include "io/results/family/stability_map_files.h"
 
 namespace howl {
 

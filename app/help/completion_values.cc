@@ -10,11 +10,13 @@
 #include "app/command_line/command_line.h"
 #include "app/trial/trial_rig.h"
 #include "diagnosis/diagnosis.h"
+#include "estimation/family/problem/family_parameter.h"
 #include "estimation/family/problem/membership.h"
 #include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
 #include "io/result_files.h"
-#include "io/results/family_csv.h"
+#include "io/results/family/family_csv.h"
+#include "trial/outcome.h"
 
 namespace howl {
 namespace {
@@ -31,9 +33,11 @@ Names ExperimentNames(const ValueContext& context) {
 
 Names Quantities(const ValueContext& context) {
   Names names;
-  for (const std::string& experiment : ExperimentNames(context)) {
-    for (const char* const quantity : {"omega_hz", "xi", "N", "tau_s", "loop_gain"}) {
-      names.push_back(experiment + "." + quantity);
+  const Config config = LoadConfig(context.config);
+  for (const ExperimentConfig& each : config.experiments) {
+    for (const FamilyParameter parameter : kFamilyParameters) {
+      if (parameter == FamilyParameter::kM && config.model.modes == 1) continue;
+      names.push_back(each.experiment.name + "." + std::string(FamilyParameterName(parameter)));
     }
   }
   return names;
@@ -71,7 +75,11 @@ Names TrialEffects(const ValueContext& /*context*/) {
   return names;
 }
 
-Names Severities(const ValueContext& /*context*/) { return {"small", "medium", "large"}; }
+Names Severities(const ValueContext& /*context*/) {
+  Names names;
+  for (const double severity : kSeverities) names.push_back(SeverityName(severity));
+  return names;
+}
 
 Names LogLevels(const ValueContext& /*context*/) { return {"1", "2"}; }
 

@@ -5,7 +5,7 @@
 #include "app/input/config_fit.h"
 #include "estimation/fit/joint_fit.h"
 #include "io/result_files.h"
-#include "io/results/family_csv.h"
+#include "io/results/family/family_csv.h"
 
 namespace howl {
 namespace {

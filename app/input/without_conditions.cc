@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-#include "estimation/family/answers/limits.h"
+#include "estimation/family/answers/conflict/limits.h"
 #include "estimation/family/problem/membership.h"
 
 namespace howl {

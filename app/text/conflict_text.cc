@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/text/text_table.h"
-#include "io/results/family_changes.h"
+#include "io/results/family/family_changes.h"
 
 namespace howl {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "estimation/family/answers/conflict.h"
+#include "estimation/family/answers/conflict/conflict.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "io/results/predict_files.h"
+#include "io/results/family/predict_files.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 
 #include "diagnosis/budget/budget_search.h"
 #include "diagnosis/budget/common_ceiling.h"
-#include "diagnosis/budget/item_parameters.h"
+#include "diagnosis/budget/items/item_parameters.h"
 #include "diagnosis/budget/places_left.h"
 
 namespace howl {

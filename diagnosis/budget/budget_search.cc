@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "diagnosis/budget/item_removal.h"
+#include "diagnosis/budget/items/item_removal.h"
 #include "diagnosis/budget/step_memory.h"
 
 namespace howl {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "diagnosis/budget/item_starts.h"
+#include "diagnosis/budget/items/item_starts.h"
 
 namespace howl {
 namespace {

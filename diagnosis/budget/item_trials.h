@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/budget/budget_item.h"
 #include "diagnosis/budget/held_out.h"
+#include "diagnosis/budget/items/budget_item.h"
 
 namespace howl {
 

@@ -6,22 +6,6 @@
 #include "diagnosis/cuts/make_cut_records.h"
 
 namespace howl {
-namespace {
-
-constexpr Eigen::Index kPowerReach = 4;  // bins
-
-}  // namespace
-
-Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x) {
-  Eigen::VectorXd out(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Eigen::Index from = std::max<Eigen::Index>(i - kPowerReach, 0);
-    const Eigen::Index bins = std::min(i + kPowerReach + 1, x.size()) - from;
-    out[i] = x.segment(from, bins).squaredNorm() / static_cast<double>(bins);
-  }
-  return out;
-}
-
 Eigen::VectorXcd SineTapered(const Eigen::Ref<const Eigen::VectorXcd>& extended,
                              Eigen::Index count) {
   return extended.segment(kTapReach, count) - extended.segment(kTapReach + 1, count);
@@ -52,8 +36,8 @@ JointBand MakeJointBand(const CutRecord& record) {
   }
   out.acoustic_power = Eigen::VectorXd::Ones(out.count);
   out.flame_power = Eigen::VectorXd::Ones(out.count);
-  out.pressure_power = SmoothPower(out.pressure);
-  out.heat_release_power = SmoothPower(out.heat_release);
+  out.pressure_power = SmoothPower(out.pressure, kPowerReach);
+  out.heat_release_power = SmoothPower(out.heat_release, kPowerReach);
   return out;
 }
 

@@ -12,10 +12,11 @@
 #include <Eigen/Core>
 
 #include "diagnosis/records/cut_record.h"
+#include "estimation/record_fit/record_spectra.h"
 
 namespace howl {
 
-inline constexpr double kSineTaperShare = 1.0 / 1.5;
+inline constexpr Eigen::Index kPowerReach = 4;  // bins to either side, of smoothed powers
 
 struct JointBand {
   CutRecord record;  // with the flame driven by p as it was recorded
@@ -40,9 +41,6 @@ struct JointBand {
 };
 
 JointBand MakeJointBand(const CutRecord& record);
-
-// |x|^2, smoothed over a few bins.
-Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x);
 
 // A spectrum on the record's extended band after the taper: `count` bins.
 Eigen::VectorXcd SineTapered(const Eigen::Ref<const Eigen::VectorXcd>& extended,

@@ -17,7 +17,7 @@
 namespace howl {
 namespace {
 
-constexpr double kFullScale = 1.2;  // as model/effects/quantisation.cc has it
+constexpr double kFullScale = 1.2;  // as model/effects/forms/quantisation.cc has it
 
 double Mean(const std::vector<double>& x) {
   double sum = 0.0;

@@ -11,7 +11,7 @@
 namespace howl {
 namespace {
 
-constexpr int kMultiples[] = {1, 3, 5};  // as model/effects/mains_hum.cc simulates it
+constexpr int kMultiples[] = {1, 3, 5};  // as model/effects/forms/mains_hum.cc simulates it
 constexpr double kSlopeStep = 1e-3;      // of the flame's range
 
 void AddLine(double amplitude, double hz, double phase_rad, double sampling_hz,

@@ -163,11 +163,11 @@ void MoveOwn(const PointLayout& layout, Eigen::Index parameter, double step, Poi
     return;
   }
   k -= layout.BaseB();
-  if (k < 4 * layout.further_modes) {
+  if (k < layout.FurtherModes()) {
     point->modes[static_cast<std::size_t>(k / 4)][k % 4] += step;
     return;
   }
-  k -= 4 * layout.further_modes;
+  k -= layout.FurtherModes();
   if (layout.own_delays && k-- == 0) {
     point->log_delay += step;
     return;

@@ -29,7 +29,8 @@ struct PointLayout {
 
   Eigen::Index Base() const { return modes > 1 ? 4 : 3; }
   Eigen::Index BaseB() const { return complex_residues ? modes : 0; }
-  Eigen::Index Acoustics() const { return Base() + BaseB() + 4 * further_modes; }
+  Eigen::Index FurtherModes() const { return 4 * Eigen::Index{further_modes}; }
+  Eigen::Index Acoustics() const { return Base() + BaseB() + FurtherModes(); }
   Eigen::Index Loop() const { return Acoustics() + (own_delays ? 1 : 0); }
   Eigen::Index Own() const { return Loop() + noise; }
   Eigen::Index SharedLoopSize() const { return shared_fixed ? 0 : 1 + effect_values; }

@@ -38,8 +38,8 @@ Eigen::VectorXd LeastSquaresFlame(const FlamePart& flame) {
 }
 
 void ScaleErrors(const JointResiduals& residuals, const Eigen::VectorXd& flame, JointBand* band) {
-  band->acoustic_power = SmoothPower(band->pressure - residuals.acoustic->residual);
-  band->flame_power = SmoothPower(residuals.flame->columns * flame);
+  band->acoustic_power = SmoothPower(band->pressure - residuals.acoustic->residual, kPowerReach);
+  band->flame_power = SmoothPower(residuals.flame->columns * flame, kPowerReach);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 using C = std::complex<double>;
 
-double FrequencyRatio(const LoopStructure& structure, Eigen::Index mode) {
+double FrequencyRatio(const PointStructure& structure, Eigen::Index mode) {
   return 1.0 + (*structure.ratio - 1.0) * static_cast<double>(mode);
 }
 
@@ -38,7 +38,7 @@ Eigen::VectorXcd SmallSignal(const RecordSpectra& record) {
 
 // Calls `take` with the index of each parameter that moves mode k, and dR by it at s.
 template <typename Take>
-void ForEachSlope(const LoopStructure& structure, const LoopPoint& point, Eigen::Index k, C s,
+void ForEachSlope(const PointStructure& structure, const LoopPoint& point, Eigen::Index k, C s,
                   const Take& take) {
   const LoopMode& mode = point.modes[static_cast<std::size_t>(k)];
   const Eigen::Index dampings = structure.Frequencies();
@@ -53,7 +53,7 @@ void ForEachSlope(const LoopStructure& structure, const LoopPoint& point, Eigen:
   if (structure.complex_residues) take(residues + structure.modes + k, omega * over);
 }
 
-Eigen::MatrixXcd AcousticColumns(const LoopStructure& structure, const LoopPoint& point,
+Eigen::MatrixXcd AcousticColumns(const PointStructure& structure, const LoopPoint& point,
                                  const Eigen::VectorXcd& s) {
   Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(s.size(), structure.Acoustics());
   for (Eigen::Index k = 0; k < structure.modes; ++k) {
@@ -66,13 +66,13 @@ Eigen::MatrixXcd AcousticColumns(const LoopStructure& structure, const LoopPoint
 
 }  // namespace
 
-Eigen::Index LoopStructure::NoiseCoefficients() const {
+Eigen::Index PointStructure::NoiseCoefficients() const {
   Eigen::Index sum = 0;
   for (const NoiseTerm& term : noise) sum += term.coefficients;
   return sum;
 }
 
-LoopPoint ToPoint(const LoopStructure& structure, Eigen::Index flame,
+LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
                   const Eigen::VectorXd& parameters) {
   LoopPoint out;
   const Eigen::Index dampings = structure.Frequencies();
@@ -97,7 +97,7 @@ LoopPoint ToPoint(const LoopStructure& structure, Eigen::Index flame,
   return out;
 }
 
-Eigen::VectorXd ToParameters(const LoopStructure& structure, const LoopPoint& point) {
+Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& point) {
   Eigen::VectorXd out(structure.Delay() + 1 + point.flame.size() + structure.NoiseCoefficients());
   Eigen::Index next = 0;
   const auto mode = [&](Eigen::Index k) { return point.modes[static_cast<std::size_t>(k)]; };
@@ -117,7 +117,7 @@ Eigen::VectorXd ToParameters(const LoopStructure& structure, const LoopPoint& po
   return out;
 }
 
-LoopResiduals ResidualsOf(const RecordSpectra& record, const LoopStructure& structure,
+LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
                           const LoopPoint& point) {
   LoopResiduals out;
   out.r = Transfer(point, record.s);
@@ -135,7 +135,7 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const LoopStructure& stru
   return out;
 }
 
-void AddAcousticSlopes(const LoopStructure& structure, const LoopPoint& point, C s, C by,
+void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point, C s, C by,
                        Eigen::VectorXd* out) {
   for (Eigen::Index k = 0; k < structure.modes; ++k) {
     ForEachSlope(structure, point, k, s,
@@ -143,7 +143,7 @@ void AddAcousticSlopes(const LoopStructure& structure, const LoopPoint& point, C
   }
 }
 
-LoopDerivatives DerivativesOf(const RecordSpectra& record, const LoopStructure& structure,
+LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
                               const LoopPoint& point) {
   LoopDerivatives out;
   out.r = AcousticColumns(structure, point, record.s);

@@ -22,7 +22,7 @@
 
 namespace howl {
 
-struct LoopStructure {
+struct PointStructure {
   int modes = 1;
   std::optional<double> ratio;  // of the second mode's frequency to the first's; none: all are free
   bool own_damping = true;
@@ -53,18 +53,18 @@ struct LoopPoint {
   std::vector<Eigen::VectorXd> noise;  // one a source
 };
 
-LoopPoint ToPoint(const LoopStructure& structure, Eigen::Index flame,
+LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
                   const Eigen::VectorXd& parameters);
 // The tied frequencies and dampings are those of the first mode.
-Eigen::VectorXd ToParameters(const LoopStructure& structure, const LoopPoint& point);
+Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& point);
 
 // Adds the real part of `by` times dR at s, for each of the acoustics' parameters.
-void AddAcousticSlopes(const LoopStructure& structure, const LoopPoint& point,
+void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point,
                        std::complex<double> s, std::complex<double> by, Eigen::VectorXd* out);
 
-LoopResiduals ResidualsOf(const RecordSpectra& record, const LoopStructure& structure,
+LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
                           const LoopPoint& point);
-LoopDerivatives DerivativesOf(const RecordSpectra& record, const LoopStructure& structure,
+LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
                               const LoopPoint& point);
 
 }  // namespace howl

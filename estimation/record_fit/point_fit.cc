@@ -21,7 +21,7 @@ constexpr double kNear = 20.0;  // nats foretold, from which on the curvature is
 constexpr std::size_t kMostToFinish = 4;
 constexpr double kDifference = 1e-5;  // of the prior's deviation
 
-double Value(const RecordSpectra& record, const LoopStructure& structure, const PointPrior& prior,
+double Value(const RecordSpectra& record, const PointStructure& structure, const PointPrior& prior,
              const Eigen::VectorXd& parameters) {
   if (!parameters.allFinite()) return -std::numeric_limits<double>::infinity();
   return LogLikelihood(record, structure, parameters) + prior.LogDensity(parameters);
@@ -33,7 +33,7 @@ struct Quadratic {
 };
 
 // In units of the prior's deviations.
-Eigen::VectorXd Gradient(const RecordSpectra& record, const LoopStructure& structure,
+Eigen::VectorXd Gradient(const RecordSpectra& record, const PointStructure& structure,
                          const PointPrior& prior, const Eigen::VectorXd& parameters) {
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   const Eigen::VectorXd gradient =
@@ -44,7 +44,7 @@ Eigen::VectorXd Gradient(const RecordSpectra& record, const LoopStructure& struc
          (parameters - prior.mean).cwiseQuotient(prior.deviation);
 }
 
-Quadratic Expand(const RecordSpectra& record, const LoopStructure& structure,
+Quadratic Expand(const RecordSpectra& record, const PointStructure& structure,
                  const PointPrior& prior, const Eigen::VectorXd& parameters) {
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   const LoopScore score =
@@ -61,7 +61,7 @@ Quadratic Expand(const RecordSpectra& record, const LoopStructure& structure,
 
 // The curvature itself, by differences of the gradient. Where the model misses what the record
 // shows it differs from the information, and steps on the latter come near the maximum slowly.
-Eigen::MatrixXd Curvature(const RecordSpectra& record, const LoopStructure& structure,
+Eigen::MatrixXd Curvature(const RecordSpectra& record, const PointStructure& structure,
                           const PointPrior& prior, const Eigen::VectorXd& parameters) {
   const Eigen::Index size = parameters.size();
   const auto gradient = [&](Eigen::Index i, double step) {
@@ -90,7 +90,7 @@ void MakePositive(Eigen::MatrixXd* information) {
                  solver.eigenvectors().transpose() * scale.asDiagonal();
 }
 
-Quadratic Around(const RecordSpectra& record, const LoopStructure& structure,
+Quadratic Around(const RecordSpectra& record, const PointStructure& structure,
                  const PointPrior& prior, const Eigen::VectorXd& parameters, bool near) {
   Quadratic out = Expand(record, structure, prior, parameters);
   if (near) out.information = Curvature(record, structure, prior, parameters);
@@ -105,7 +105,7 @@ Eigen::MatrixXd PointFit::Covariance() const {
       Eigen::MatrixXd::Identity(information.rows(), information.cols()));
 }
 
-double LogLikelihood(const RecordSpectra& record, const LoopStructure& structure,
+double LogLikelihood(const RecordSpectra& record, const PointStructure& structure,
                      const Eigen::VectorXd& parameters) {
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   return WhittleLogLikelihood(structure.noise, record.share,
@@ -113,7 +113,7 @@ double LogLikelihood(const RecordSpectra& record, const LoopStructure& structure
          LogDeterminant(record, point);
 }
 
-PointFit FitPoint(const RecordSpectra& record, const LoopStructure& structure,
+PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, Eigen::VectorXd start, const PointFitOptions& options) {
   PointFit out;
   out.parameters = std::move(start);
@@ -160,7 +160,7 @@ PointFit FitPoint(const RecordSpectra& record, const LoopStructure& structure,
   return out;
 }
 
-PointFit FitPoint(const RecordSpectra& record, const LoopStructure& structure,
+PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options) {
   CHECK(!starts.empty());

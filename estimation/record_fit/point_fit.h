@@ -35,17 +35,17 @@ struct PointFit {
   Eigen::MatrixXd Covariance() const;
 };
 
-PointFit FitPoint(const RecordSpectra& record, const LoopStructure& structure,
+PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, Eigen::VectorXd start,
                   const PointFitOptions& options = {});
 
 // The best of the fits from all starts: all come near a maximum, and the best of them then go on to
 // it.
-PointFit FitPoint(const RecordSpectra& record, const LoopStructure& structure,
+PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options = {});
 
-double LogLikelihood(const RecordSpectra& record, const LoopStructure& structure,
+double LogLikelihood(const RecordSpectra& record, const PointStructure& structure,
                      const Eigen::VectorXd& parameters);
 
 }  // namespace howl

@@ -33,7 +33,7 @@ double PointPrior::LogDensity(const Eigen::VectorXd& parameters) const {
          0.5 * static_cast<double>(z.size()) * std::log(2.0 * std::numbers::pi);
 }
 
-PointPrior PriorOf(const LoopStructure& structure, const RecordSpectra& record) {
+PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record) {
   const Eigen::Index flame = record.flame.cols();
   const Eigen::Index size = structure.Delay() + 1 + flame + structure.NoiseCoefficients();
   PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)};

@@ -17,7 +17,7 @@ struct PointPrior {
   double LogDensity(const Eigen::VectorXd& parameters) const;
 };
 
-PointPrior PriorOf(const LoopStructure& structure, const RecordSpectra& record);
+PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record);
 
 }  // namespace howl
 

@@ -29,7 +29,7 @@ double QuietLevel(Eigen::VectorXd power) {
 
 class Starts {
  public:
-  Starts(const RecordSpectra& record, const LoopStructure& structure)
+  Starts(const RecordSpectra& record, const PointStructure& structure)
       : record_(record),
         structure_(structure),
         heat_release_(Tapered(record.heat_release)),
@@ -46,7 +46,7 @@ class Starts {
   Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
 
   const RecordSpectra& record_;
-  const LoopStructure& structure_;
+  const PointStructure& structure_;
   Eigen::VectorXcd heat_release_;
   Eigen::MatrixXcd flame_;
   Eigen::VectorXd weight_;
@@ -90,7 +90,7 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
   point.modes = std::move(modes);
   point.tau = tau;
   point.flame = Flame(tau).coefficients;
-  LoopStructure quiet = structure_;
+  PointStructure quiet = structure_;
   quiet.noise.clear();
   const LoopResiduals left = ResidualsOf(record_, quiet, point);
   for (const NoiseTerm& term : structure_.noise) {
@@ -117,7 +117,7 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
 
 }  // namespace
 
-std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const LoopStructure& structure,
+std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointStructure& structure,
                                       const PointPrior& prior, std::size_t count,
                                       std::uint64_t seed) {
   const Starts starts(record, structure);

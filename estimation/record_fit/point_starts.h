@@ -15,7 +15,7 @@ namespace howl {
 
 // At least four; `count` in all, the further ones with poles that are drawn.// At least `count`,
 // the further ones with poles that are drawn.
-std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const LoopStructure& structure,
+std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointStructure& structure,
                                       const PointPrior& prior, std::size_t count,
                                       std::uint64_t seed);
 

@@ -43,7 +43,7 @@ std::vector<StartPole> PolesOf(const Eigen::VectorXcd& roots) {
 
 }  // namespace
 
-PoleStarts::PoleStarts(const RecordSpectra& record, const LoopStructure& structure)
+PoleStarts::PoleStarts(const RecordSpectra& record, const PointStructure& structure)
     : record_(record),
       structure_(structure),
       heat_release_(Tapered(record.heat_release)),

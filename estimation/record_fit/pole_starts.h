@@ -24,7 +24,7 @@ struct StartPole {
 
 class PoleStarts {
  public:
-  PoleStarts(const RecordSpectra& record, const LoopStructure& structure);
+  PoleStarts(const RecordSpectra& record, const PointStructure& structure);
 
   std::vector<StartPole> Greedy() const;
   // Even over the band's logarithm.
@@ -39,7 +39,7 @@ class PoleStarts {
   std::vector<StartPole> Tied(double omega, double xi) const;
 
   const RecordSpectra& record_;
-  const LoopStructure& structure_;
+  const PointStructure& structure_;
   Eigen::VectorXcd heat_release_;
   Eigen::VectorXd weight_;
   Eigen::VectorXcd target_;  // weighted P

@@ -25,7 +25,6 @@ constexpr double kHighestOfSampling = 0.4;
 constexpr double kFilterEdge = 1.05;   // of the band's upper end
 constexpr double kFilterWidth = 0.25;  // of the edge
 constexpr double kCycleReach = 0.25;   // of the cycle's frequency, about it
-constexpr double kSineTaperShare = 1.0 / 1.5;
 constexpr double kRangeOverLargest = 1.02;
 // Combinations of splines that v hardly reaches are left out.
 constexpr double kLeastOfLargest = 1e-3;

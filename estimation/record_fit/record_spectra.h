@@ -26,6 +26,8 @@
 
 namespace howl {
 
+inline constexpr double kSineTaperShare = 1.0 / 1.5;
+
 enum class FlameInput : std::uint8_t { kPressureRate, kPressure, kVelocity };
 
 // v's transfer from p at s = j f over the cycle's frequency: s, 1 or 1 / s.

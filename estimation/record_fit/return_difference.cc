@@ -18,7 +18,7 @@ C WithoutSlope(const RecordSpectra& record, const LoopPoint& point, C s) {
 }
 
 // Its derivatives by the acoustics' parameters and ln tau, times `by`, are added.
-void AddSlopes(const RecordSpectra& record, const LoopStructure& structure, const LoopPoint& point,
+void AddSlopes(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
                C s, C value, C by, Eigen::VectorXd* out) {
   const C path = std::exp(-point.tau * s) * FlameInputResponse(record.flame_input, s);
   AddAcousticSlopes(structure, point, s, by * path, out);
@@ -48,7 +48,7 @@ double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
   return sum;
 }
 
-Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const LoopStructure& structure,
+Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointStructure& structure,
                                        const LoopPoint& point) {
   const Eigen::Index flame = point.flame.size();
   const Eigen::Index loop = structure.Delay() + 1;

@@ -26,7 +26,7 @@ namespace howl {
 double LogDeterminant(const RecordSpectra& record, const LoopPoint& point);
 
 // By the parameters that loop_point.h lists, of which the noise's have none.
-Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const LoopStructure& structure,
+Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointStructure& structure,
                                        const LoopPoint& point);
 
 }  // namespace howl

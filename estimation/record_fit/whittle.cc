@@ -5,18 +5,12 @@
 #include <complex>
 #include <limits>
 
+#include "model/numerics/complex_products.h"
+
 namespace howl {
 namespace {
 
 using C = std::complex<double>;
-
-// Products without the checks for infinities that those of std::complex contain.
-inline C Times(C a, C b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-inline C ConjugateTimes(C a, C b) {
-  return {a.real() * b.real() + a.imag() * b.imag(), a.real() * b.imag() - a.imag() * b.real()};
-}
 
 struct Pair {
   C a, b;

@@ -75,7 +75,7 @@ std::string PathText(const std::filesystem::path& file, const std::filesystem::p
     path = std::filesystem::absolute(file).lexically_normal().lexically_relative(
         std::filesystem::absolute(folder).lexically_normal());
   }
-  const std::string text = path.lexically_normal().string();
+  std::string text = path.lexically_normal().string();
   if (text.find("${") != std::string::npos) {
     throw UserError(file.string(), 0, "",
                     "has ${ in its path, which a config takes from the environment, expected "

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "estimation/parameters.h"
-#include "io/results/family_csv.h"
+#include "io/results/family/family_csv.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "io/records/columns/number_text.h"
-#include "io/report/page.h"
+#include "io/report/html_text.h"
 #include "io/report/script.h"
 #include "io/report/spelled_interval.h"
 

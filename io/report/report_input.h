@@ -85,8 +85,6 @@ struct ReportInput {
 // Throws UserError where the folder is missing or holds nothing that a command wrote.
 ReportInput ReadReportInput(const std::filesystem::path& folder, int threads);
 
-// What stands under the key; null where nothing does.
-const nlohmann::json& JsonAt(const nlohmann::json& json, const char* key);
 Estimate EstimateAt(const nlohmann::json& json, const char* key);
 
 }  // namespace howl

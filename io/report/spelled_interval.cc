@@ -46,7 +46,7 @@ std::string SpelledInterval(const Estimate& estimate, double scale, int digits) 
   const int leading = PowerOf(half / unit);
   const bool one_digit = half / unit >= kOneDigitFrom * std::pow(10.0, leading);
   const int decimals = (one_digit ? 0 : 1) - leading;
-  const std::string out = Rounded(value / unit, decimals) + " ± " + Rounded(half / unit, decimals);
+  std::string out = Rounded(value / unit, decimals) + " ± " + Rounded(half / unit, decimals);
   if (power == 0) return out;
   return "(" + out + ") · 10" + Raised(power);
 }

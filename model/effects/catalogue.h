@@ -1,7 +1,7 @@
-// The catalogue of effects: what howl tries to explain a gap with. An effect is one file here; it
-// joins the catalogue by its line in HOWL_EFFECTS. Where the physics leaves a form open (a filter
-// of first or second order, a spread before or after the flame) there is one member for each form,
-// all with the effect's identifier.
+// The catalogue of effects: what howl tries to explain a gap with. An effect is one file in forms/;
+// it joins the catalogue by its line in HOWL_EFFECTS. Where the physics leaves a form open (a
+// filter of first or second order, a spread before or after the flame) there is one member for each
+// form, all with the effect's identifier.
 #ifndef HOWL_MODEL_EFFECTS_CATALOGUE_H_
 #define HOWL_MODEL_EFFECTS_CATALOGUE_H_
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "diagnosis/budget/budget_search.h"
-#include "diagnosis/budget/item_removal.h"
-#include "diagnosis/budget/item_starts.h"
+#include "diagnosis/budget/items/item_removal.h"
+#include "diagnosis/budget/items/item_starts.h"
 #include "diagnosis/budget/prediction_gap.h"
 #include "diagnosis/budget/step_memory.h"
 #include "tests/diagnosis/simulated_rig.h"

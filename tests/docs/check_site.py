@@ -59,9 +59,10 @@ def missing_files(project):
 
 def faults_of_the_tree(project):
     yield from missing_files(project)
-    commands = re.findall(r"(\w+)Command\(\)", (project / "app/commands/commands.cc").read_text(encoding="utf-8"))
+    registry = "app/command_line/command.h"
+    commands = re.findall(r"^  X\((\w+)\)", (project / registry).read_text(encoding="utf-8"), re.MULTILINE)
     if not commands:
-        yield "app/commands/commands.cc: no commands found"
+        yield f"{registry}: no commands found"
     readme = (project / "README.md").read_text(encoding="utf-8")
     navigation = (project / "mkdocs.yml").read_text(encoding="utf-8")
     for command in (name.lower() for name in commands):

@@ -8,9 +8,9 @@
 
 #include "io/report/csv_table.h"
 #include "io/report/figures/catalogue.h"
-#include "io/report/page.h"
+#include "io/report/page/page.h"
 #include "io/report/report_input.h"
-#include "io/results/family_csv.h"
+#include "io/results/family/family_csv.h"
 #include "io/results/reference_file.h"
 #include "tests/fuzz/target.h"
 

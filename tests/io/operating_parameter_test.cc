@@ -6,7 +6,7 @@
 #include "io/report/csv_table.h"
 #include "io/report/family_members.h"
 #include "io/results/analysis_files.h"
-#include "io/results/family_csv.h"
+#include "io/results/family/family_csv.h"
 #include "tests/io/record_files.h"
 
 namespace howl {

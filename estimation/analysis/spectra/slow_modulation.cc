@@ -57,9 +57,10 @@ Eigen::MatrixXd PeriodicBasis(const Blocks& cycle, const SlowOscillation& slow, 
   for (Eigen::Index b = 0; b < rows; ++b) {
     const double theta = phase.At(first_s + static_cast<double>(b) * cycle.hop_s);
     basis(b, 0) = 1.0;
-    for (int k = 1; k <= harmonics; ++k) {
-      basis(b, 2 * k - 1) = std::cos(k * theta);
-      basis(b, 2 * k) = std::sin(k * theta);
+    for (Eigen::Index k = 1; k <= harmonics; ++k) {
+      const double angle = static_cast<double>(k) * theta;
+      basis(b, 2 * k - 1) = std::cos(angle);
+      basis(b, 2 * k) = std::sin(angle);
     }
   }
   return basis;

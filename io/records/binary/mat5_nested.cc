@@ -5,8 +5,7 @@
 namespace howl {
 namespace {
 
-constexpr std::uint32_t kCell = 1;
-constexpr std::uint32_t kStruct = 2;
+constexpr std::uint32_t kCell = 1;  // 2 is a structure
 constexpr std::uint32_t kObject = 3;
 constexpr int kDeepest = 32;
 
@@ -81,7 +80,8 @@ std::string Fault(Mat5Bytes variable, const Mat5Words& words, int depth) {
     const std::uint32_t letters = words.At(variable, width->begin);
     const auto names = Mat5ElementAt(variable, width->next, words);
     if (!names || !IsInside(*names, variable) || letters == 0) return kFault;
-    places *= static_cast<double>(names->length / letters);
+    const std::size_t fields = names->length / letters;
+    places *= static_cast<double>(fields);
     at = names->next;
   }
   const std::size_t left = at < variable.size() ? variable.size() - at : 0;
@@ -89,8 +89,7 @@ std::string Fault(Mat5Bytes variable, const Mat5Words& words, int depth) {
   for (double place = 0.0; place < places; place += 1.0) {
     const auto element = Mat5ElementAt(variable, at, words);
     if (!element || element->type != kMat5Matrix || !IsInside(*element, variable)) return kFault;
-    const std::string fault =
-        Fault(variable.subspan(element->begin, element->length), words, depth + 1);
+    std::string fault = Fault(variable.subspan(element->begin, element->length), words, depth + 1);
     if (!fault.empty()) return fault;
     at = element->next;
   }

@@ -50,6 +50,7 @@ class Restored final : public ByteSource {
 // Damage that shows at once is reported where the lines are read.
 class Damaged final : public ByteSource {
  public:
+  // NOLINTNEXTLINE(bugprone-throw-keyword-missing): it is kept for Read, which throws it.
   explicit Damaged(ByteError error) : error_(std::move(error)) {}
   std::size_t Read(char* /*to*/, std::size_t /*size*/) override { throw error_; }
   double FractionRead() const override { return 0.0; }

@@ -101,7 +101,6 @@ std::optional<Figure> BifurcationFigure(const ReportInput& input) {
   }
   if (branches.empty()) return std::nullopt;
   Figure figure;
-  figure.name = "bifurcation";
   figure.title = "Limit cycles over the loop gain, " + reference->name;
   figure.caption =
       "Amplitude of p on the cycles of the fitted loop as the flame's slope is turned, by harmonic "

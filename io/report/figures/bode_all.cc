@@ -52,8 +52,6 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
     csv.Cell(point->phase_deg.value).EndRow();
   }
   Figure figure;
-  figure.name = "bode_all";
-  figure.paper_figure = "9";
   figure.title = "Acoustics G at every operating point";
   figure.caption = "Solid: the joint fit, one choice among many" +
                    (steady ? "; dashed: member " + std::to_string(*steady + 1) +

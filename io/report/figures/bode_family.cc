@@ -45,8 +45,6 @@ std::optional<Figure> FamilyBodeFigure(const ReportInput& input) {
   csv.EndRow();
 
   Figure figure;
-  figure.name = "bode_family";
-  figure.paper_figure = "8";
   figure.title = "Acoustics G that the data cannot reject, " + reference->name;
   figure.caption = std::to_string(drawn.size()) + " of " +
                    std::to_string(input.members->models.size()) +

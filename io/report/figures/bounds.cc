@@ -1,6 +1,7 @@
 // Guaranteed bounds of the family as bars: no member lies outside the pale bar, and members were
 // found at both ends of the dark one. The joint fit is one choice within.
 #include <cmath>
+#include <limits>
 
 #include "io/report/figures/catalogue.h"
 #include "io/report/figures/curves.h"
@@ -63,7 +64,7 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
   for (const Panel& panel : kPanels) {
     bool any = false;
     double low = INFINITY;
-    double high = -INFINITY;
+    double high = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < experiments.size(); ++i) {
       if (!bounds.contains(experiments[i]) || !bounds[experiments[i]].contains(panel.key)) continue;
       const auto& each = bounds[experiments[i]][panel.key];
@@ -94,7 +95,6 @@ std::optional<Figure> BoundsFigure(const ReportInput& input) {
   const auto count = static_cast<double>(experiments.size());
   const int rows = static_cast<int>((panels.size() + 2) / 3);
   Figure figure;
-  figure.name = "bounds";
   figure.title = "Guaranteed bounds of the family";
   figure.caption =
       "No model that passes the test lies outside the pale bars; members were found at both ends "

@@ -34,7 +34,6 @@ std::optional<Figure> BudgetFigure(const ReportInput& input) {
   csv.Cell("left").Cell(0.0).Cell(gap).Cell(static_cast<double>(++row)).Cell("left").EndRow();
   names += Quoted("left") + " " + std::to_string(row);
   Figure figure;
-  figure.name = "budget";
   figure.title = "Budget of the gap";
   figure.caption =
       "What each cause takes off the gap on operating points and halves of records left out of the "

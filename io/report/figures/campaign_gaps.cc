@@ -28,7 +28,6 @@ std::optional<Figure> CampaignGapsFigure(const ReportInput& input) {
     csv.Cell(table.Text(row, "rig")).EndRow();
   }
   Figure figure;
-  figure.name = "campaign_gaps";
   figure.title = "The gap between model and rig";
   figure.caption =
       "Of each rig, the largest first: the gap of the model alone, and with the best effect added; "

@@ -101,7 +101,6 @@ std::optional<Figure> CampaignQuantitiesFigure(const ReportInput& input) {
   }
   if (panels.empty()) return std::nullopt;
   Figure figure;
-  figure.name = "campaign_quantities";
   figure.title = "The rigs side by side";
   figure.caption =
       "One bar a rig, in the order of the table, over all its experiments: dark, what was fitted "

@@ -11,37 +11,15 @@ namespace {
 
 struct Entry {
   const char* name;
+  PageSection section;
+  const char* paper_figure;
   std::optional<Figure> (*make)(const ReportInput&);
 };
 
-constexpr Entry kFigures[] = {{"records", RecordsFigure},
-                              {"spectra", SpectraFigure},
-                              {"delay", DelayFigure},
-                              {"flame_scatter", FlameScatterFigure},
-                              {"flame_curves", FlameCurvesFigure},
-                              {"loop_gain", LoopGainFigure},
-                              {"bode_family", FamilyBodeFigure},
-                              {"bode_all", AllBodeFigure},
-                              {"transfer", TransferFigure},
-                              {"lines", LinesFigure},
-                              {"spectrum_comparison", SpectrumComparisonFigure},
-                              {"nyquist", NyquistFigure},
-                              {"sensitivity_omega", OmegaSensitivityFigure},
-                              {"sensitivity_tau", DelaySensitivityFigure},
-                              {"bifurcation", BifurcationFigure},
-                              {"tradeoff", TradeoffFigure},
-                              {"bounds", BoundsFigure},
-                              {"prediction", PredictionFigure},
-                              {"stability_map", StabilityMapFigure},
-                              {"gap_map", GapMapFigure},
-                              {"effects", EffectsFigure},
-                              {"remains", RemainsFigure},
-                              {"budget", BudgetFigure},
-                              {"confusion", ConfusionFigure},
-                              {"reliability", ReliabilityFigure},
-                              {"power", PowerFigure},
-                              {"campaign_quantities", CampaignQuantitiesFigure},
-                              {"campaign_gaps", CampaignGapsFigure}};
+#define HOWL_FIGURE_ENTRY(Function, name, section, paper) \
+  {#name, PageSection::section, paper, Function##Figure},
+constexpr Entry kFigures[] = {HOWL_FIGURES(HOWL_FIGURE_ENTRY)};
+#undef HOWL_FIGURE_ENTRY
 
 }  // namespace
 
@@ -59,7 +37,12 @@ std::vector<Figure> AllFigures(const ReportInput& input, int threads,
   });
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < kCount; ++i) {
-    if (made[i]) figures.push_back(*std::move(made[i]));
+    if (made[i]) {
+      made[i]->name = kFigures[i].name;
+      made[i]->section = kFigures[i].section;
+      made[i]->paper_figure = kFigures[i].paper_figure;
+      figures.push_back(*std::move(made[i]));
+    }
     if (faults[i].empty()) continue;
     missing.push_back("the figure " + std::string(kFigures[i].name) + " is left out: " + faults[i]);
   }

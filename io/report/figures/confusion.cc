@@ -38,7 +38,6 @@ std::optional<Figure> ConfusionFigure(const ReportInput& input) {
     }
   }
   Figure figure;
-  figure.name = "confusion";
   figure.title = "What was withheld, and what was answered";
   figure.caption =
       "Cases of the trial by the effect that the rig had (rows; none: no effect) and by the answer "

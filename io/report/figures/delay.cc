@@ -44,8 +44,6 @@ std::optional<Figure> DelayFigure(const ReportInput& input) {
     }
   }
   Figure figure;
-  figure.name = "delay";
-  figure.paper_figure = "4";
   figure.title = "Delay, beside the period of the limit cycle";
   figure.caption = "The delay τ from the q-to-p phase, equation (3)" +
                    std::string(any_interval ? ", with 95 % intervals" : "") +

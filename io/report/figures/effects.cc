@@ -47,7 +47,6 @@ std::optional<Figure> EffectsFigure(const ReportInput& input) {
     names += (i == 0 ? "" : ", ") + TicLabel(row.effect) + " " + std::to_string(i + 1);
   }
   Figure figure;
-  figure.name = "effects";
   figure.title = "Effects by how far they shrink the gap";
   figure.caption =
       "Share of the gap that each effect removes on experiments left out of its fit, with 95 % "

@@ -34,8 +34,6 @@ std::optional<Figure> FlameCurvesFigure(const ReportInput& input) {
   }
   if (names.empty()) return std::nullopt;
   Figure figure;
-  figure.name = "flame_curves";
-  figure.paper_figure = "6";
   figure.title = measured ? "Flame characteristics" : "Flame characteristics, simulated records";
   figure.caption =
       "Means of q in bins of the delayed derivative of pressure, for each operating point." +

@@ -48,8 +48,6 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
     csv.Cell(curve.offset.value + share * curve.x_amplitude * curve.slope.value).Cell(NAN).EndRow();
   }
   Figure figure;
-  figure.name = "flame_scatter";
-  figure.paper_figure = "5";
   figure.title = std::string(shown->simulated ? "Flame, simulated record of " : "Flame, ") +
                  shown->record->name;
   figure.caption =

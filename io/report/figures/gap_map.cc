@@ -50,7 +50,6 @@ std::optional<Figure> GapMapFigure(const ReportInput& input) {
     names += (i == 0 ? "" : ", ") + TicLabel(experiments[i]) + " " + std::to_string(i + 1);
   }
   Figure figure;
-  figure.name = "gap_map";
   figure.title = "Where the model falls short";
   figure.caption =
       "Excess of the residual over its noise (gap) by signal, band and experiment, before and "

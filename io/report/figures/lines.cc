@@ -72,8 +72,6 @@ std::optional<Figure> LinesFigure(const ReportInput& input) {
     any_crossing = true;
   }
   Figure figure;
-  figure.name = "lines";
-  figure.paper_figure = "10";
   figure.title = "Harmonic and non-harmonic lines over the operating parameter";
   figure.caption =
       "Multiples of the measured limit-cycle frequency" +

@@ -1,6 +1,7 @@
 // Figure 7 of the paper: the loop's gain at rest over the operating parameter, and where it reaches
 // one and the limit cycle vanishes.
 #include <cmath>
+#include <limits>
 
 #include "estimation/analysis/loop/vanishing_phi.h"
 #include "estimation/analysis/spectra/half_width.h"
@@ -27,7 +28,7 @@ VanishingPhi Vanishing(const ReportInput& input) {
 std::optional<Figure> LoopGainFigure(const ReportInput& input) {
   CsvWriter csv("curve,operating_parameter,loop_gain,lo,hi,experiment");
   double low = INFINITY;
-  double high = -INFINITY;
+  double high = -std::numeric_limits<double>::infinity();
   bool any_interval = false;
   bool any_unreliable = false;
   for (const MeasuredPoint& point : input.measured) {
@@ -64,8 +65,6 @@ std::optional<Figure> LoopGainFigure(const ReportInput& input) {
     csv.Cell(std::max(vanishing.lo, left)).Cell(std::min(vanishing.hi, right)).Cell("").EndRow();
   }
   Figure figure;
-  figure.name = "loop_gain";
-  figure.paper_figure = "7";
   figure.title = "Loop gain at the limit cycle";
   figure.caption = "gain · 2π f · |Φ'(0)|, condition (1b): a limit cycle needs more than one";
   figure.caption += any_interval ? ", with 95 % intervals." : ".";

@@ -82,8 +82,6 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   csv.Cell("critical").Cell(-1.0).Cell(0.0).Cell(NAN).Cell("").EndRow();
 
   Figure figure;
-  figure.name = "nyquist";
-  figure.paper_figure = "12";
   figure.title = "Nyquist's curve of the loop, " + reference->name;
   figure.caption = "|Φ'(0)| L(j 2π f) up to " + Number(std::round(max_hz)) +
                    " Hz for the joint fit" + (drawn.empty() ? "" : " and some members (thin)") +

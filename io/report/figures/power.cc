@@ -39,7 +39,6 @@ std::optional<Figure> PowerFigure(const ReportInput& input) {
   }
   if (row == 0) return std::nullopt;
   Figure figure;
-  figure.name = "power";
   figure.title = "How large an effect is found";
   figure.caption =
       "Severity at which an effect is named in 90 % of cases, with 95 % intervals (cut at the "

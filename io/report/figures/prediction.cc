@@ -37,7 +37,6 @@ std::optional<Figure> PredictionFigure(const ReportInput& input) {
     csv.EndRow();
   }
   Figure figure;
-  figure.name = "prediction";
   figure.title = "What the members do over the operating parameter";
   figure.caption =
       "Median of the members and the interval that holds 95 % of them: the frequency at which the "

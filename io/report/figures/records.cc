@@ -38,8 +38,6 @@ std::optional<Figure> RecordsFigure(const ReportInput& input) {
   }
   const std::string name = shown->record->name;
   Figure figure;
-  figure.name = "records";
-  figure.paper_figure = "1";
   figure.title = (shown->simulated ? "Simulated record of " : "Record of ") + name;
   figure.caption = (shown->simulated ? "No measured record is at hand: this is what the loop "
                                        "does when simulated, in "

@@ -24,7 +24,6 @@ std::optional<Figure> ReliabilityFigure(const ReportInput& input) {
   }
   if (bins == 0) return std::nullopt;
   Figure figure;
-  figure.name = "reliability";
   figure.title = "Reliability of the probabilities";
   figure.caption =
       "Share of right answers among those given with a like probability, with 95 % (Wilson) "

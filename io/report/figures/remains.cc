@@ -34,7 +34,6 @@ std::optional<Figure> RemainsFigure(const ReportInput& input) {
   }
   if (count == 0) return std::nullopt;
   Figure figure;
-  figure.name = "remains";
   figure.title = "What remains of the gap";
   figure.caption =
       "Held out: root mean excess of the residuals' power over their noise. 0 means "

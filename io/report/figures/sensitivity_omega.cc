@@ -37,8 +37,6 @@ std::optional<Figure> OmegaSensitivityFigure(const ReportInput& input) {
     }
   }
   Figure figure;
-  figure.name = "sensitivity_omega";
-  figure.paper_figure = "13";
   figure.title = "How ω moves the oscillators, " + reference->name;
   figure.caption =
       "s G(s), the oscillators with both time derivatives, for the fitted ω and 7.5 % to either "

@@ -43,8 +43,6 @@ std::optional<Figure> DelaySensitivityFigure(const ReportInput& input) {
     }
   }
   Figure figure;
-  figure.name = "sensitivity_tau";
-  figure.paper_figure = "14";
   figure.title = "How τ moves the delay's phase, " + reference->name;
   figure.caption = "Phase of e^(−sτ) for the fitted τ and 3 % to either side.";
   const auto crossing = SecondCrossing(base, DrawnSlope(*reference, base), f);

@@ -102,8 +102,6 @@ std::optional<Figure> SpectraFigure(const ReportInput& input) {
   if (has_q) script.Line("unset multiplot");
 
   Figure figure;
-  figure.name = "spectra";
-  figure.paper_figure = "2";
   figure.title = (shown->simulated ? "Power spectra of the simulated record of "
                                    : "Power spectra of p and q, ") +
                  shown->record->name;

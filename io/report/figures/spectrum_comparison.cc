@@ -1,6 +1,7 @@
 // Figure 11 of the paper: measured and simulated power spectra of p. Where there is no measured
 // record, the simulated one is drawn with the measured frequencies.
 #include <cmath>
+#include <limits>
 
 #include "estimation/analysis/spectra/spectrum.h"
 #include "io/report/figures/catalogue.h"
@@ -24,7 +25,7 @@ std::optional<Figure> SpectrumComparisonFigure(const ReportInput& input) {
   const double max_hz = std::min(std::max(1000.0, ShownFrequencyMax(reference->frequency_hz.value)),
                                  0.45 * simulated->record.sampling_hz);
   CsvWriter csv("curve,frequency_hz,power_db");
-  double top = -INFINITY;
+  double top = -std::numeric_limits<double>::infinity();
   const auto add = [&](const char* curve, const Record& record) {
     const CrossSpectrum spectrum = WelchSpectrum(record.pressure, {}, record.sampling_hz);
     for (std::size_t k = 1; k < spectrum.pp.size(); ++k) {
@@ -50,8 +51,6 @@ std::optional<Figure> SpectrumComparisonFigure(const ReportInput& input) {
     }
   }
   Figure figure;
-  figure.name = "spectrum_comparison";
-  figure.paper_figure = "11";
   figure.title = "Simulated power spectrum of p, " + reference->name;
   figure.caption = measured != nullptr
                        ? "Measured record and what the loop gives when simulated with noise."

@@ -106,7 +106,6 @@ std::optional<Figure> StabilityMapFigure(const ReportInput& input) {
     any_member = true;
   }
   Figure figure;
-  figure.name = "stability_map";
   figure.title = "Where the loop is stable";
   const auto all = static_cast<double>(table.rows.size());
   const double phi = NumberAt(map, "phi");

@@ -50,7 +50,6 @@ std::optional<Figure> TradeoffFigure(const ReportInput& input) {
   const double region = std::max(members_top, std::isfinite(xi_test) ? xi_test : 0.0);
   if (region > 0.0) top = std::clamp(top, region, 3.0 * region);
   Figure figure;
-  figure.name = "tradeoff";
   figure.title = "Trade-off between constant ω and small damping";
   // With two modes the curve is what a search found, not a bound.
   const bool bound = !input.config || input.config->model.modes == 1;

@@ -104,7 +104,6 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
   }
   if (!(high > low)) return std::nullopt;
   Figure figure;
-  figure.name = "transfer";
   figure.title = "Coherent q-to-p transfer, and the model's";
   figure.caption =
       "Where p and q are coherent the records show G beyond the limit cycle: measured transfer "

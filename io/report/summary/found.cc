@@ -6,8 +6,14 @@
 namespace howl {
 namespace {
 
-// "exp1, 0.56": the operating parameter as it stands, not rounded to three digits.
+// "0.56": the operating parameter as it stands, not rounded to three digits.
 std::string Point(double phi) { return Spelled(phi, 6); }
+
+// "0.45 to 0.56"
+std::string Reach(const std::vector<double>& phis) {
+  if (phis.size() == 1) return Point(phis.front());
+  return Point(std::ranges::min(phis)) + " to " + Point(std::ranges::max(phis));
+}
 
 void AddCycles(const ReportInput& input, std::vector<std::string>& out) {
   if (input.measured.empty()) return;
@@ -27,11 +33,8 @@ void AddCycles(const ReportInput& input, std::vector<std::string>& out) {
     ++known;
     if (point.loop_gain.value <= 1.0) below.push_back(point.name);
   }
-  const std::string points =
-      Counted(input.measured.size(), "experiment") + " (" + input.operating_parameter + " " +
-      (phis.size() == 1 ? Point(phis.front())
-                        : Point(std::ranges::min(phis)) + " to " + Point(std::ranges::max(phis))) +
-      ")";
+  const std::string points = Counted(input.measured.size(), "experiment") + " (" +
+                             input.operating_parameter + " " + Reach(phis) + ")";
   if (frequencies.empty()) {
     out.push_back("None of the " + points + " shows a limit cycle.");
     return;
@@ -104,11 +107,8 @@ void AddPrediction(const ReportInput& input, std::vector<std::string>& out) {
     shares.push_back(100.0 * share);
   }
   if (!phis.empty()) {
-    out.push_back("Predicted for " + input.operating_parameter + " " +
-                  (phis.size() == 1
-                       ? Point(phis.front())
-                       : Point(std::ranges::min(phis)) + " to " + Point(std::ranges::max(phis))) +
-                  ": " + FromTo(frequencies, "Hz") + ", unstable at rest for " +
+    out.push_back("Predicted for " + input.operating_parameter + " " + Reach(phis) + ": " +
+                  FromTo(frequencies, "Hz") + ", unstable at rest for " +
                   FromTo(shares, "% of the members") + ".");
   }
   const nlohmann::json& cycle = JsonAt(input.prediction, "cycle");

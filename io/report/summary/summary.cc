@@ -1,6 +1,6 @@
 #include "io/report/summary/summary.h"
 
-#include "io/report/page.h"
+#include "io/report/html_text.h"
 
 namespace howl {
 namespace {

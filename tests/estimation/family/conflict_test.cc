@@ -1,4 +1,4 @@
-#include "estimation/family/answers/conflict.h"
+#include "estimation/family/answers/conflict/conflict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

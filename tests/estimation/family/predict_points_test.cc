@@ -1,4 +1,4 @@
-#include "estimation/family/answers/predict_points.h"
+#include "estimation/family/answers/predict/predict_points.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "estimation/analysis/loop/closed_form.h"
-#include "estimation/family/answers/oscillation_pole.h"
+#include "estimation/family/answers/predict/oscillation_pole.h"
 #include "estimation/family/members/enumerate.h"
 #include "model/loop/poles.h"
 #include "tests/estimation/family/reference.h"

@@ -1,9 +1,9 @@
-#include "estimation/family/answers/predict.h"
+#include "estimation/family/answers/predict/predict.h"
 
 #include <gtest/gtest.h>
 
 #include "estimation/analysis/loop/closed_form.h"
-#include "estimation/family/answers/advise.h"
+#include "estimation/family/answers/predict/advise.h"
 #include "estimation/family/members/enumerate.h"
 #include "estimation/family/members/sample.h"
 #include "tests/estimation/family/reference.h"

@@ -7,7 +7,7 @@
 #include <complex>
 #include <random>
 
-#include "estimation/family/answers/conflict.h"
+#include "estimation/family/answers/conflict/conflict.h"
 #include "estimation/family/bounds/contract/cell_contractor.h"
 #include "estimation/family/bounds/contract/contract.h"
 #include "estimation/family/bounds/contract/second_mode_bound.h"

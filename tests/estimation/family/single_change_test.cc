@@ -1,14 +1,14 @@
 // The smallest single changes of drawn empty families. Truth: the falsification test written a
 // second time (reference.h) says that the member found is one; draws at random and the exact
 // windows or a proof by intervals say that one per cent less of the change has none.
-#include "estimation/family/answers/single_change.h"
+#include "estimation/family/answers/conflict/single_change.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "estimation/family/answers/conflict.h"
+#include "estimation/family/answers/conflict/conflict.h"
 #include "estimation/family/bounds/feasible.h"
 #include "estimation/family/members/enumerate.h"
 #include "tests/estimation/family/drawn_empty.h"

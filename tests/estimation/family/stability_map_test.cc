@@ -1,4 +1,4 @@
-#include "estimation/family/answers/stability_map.h"
+#include "estimation/family/answers/predict/stability_map.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "estimation/family/answers/leading_pole.h"
+#include "estimation/family/answers/predict/leading_pole.h"
 #include "estimation/family/members/enumerate.h"
 #include "model/loop/poles.h"
 #include "tests/estimation/family/reference.h"

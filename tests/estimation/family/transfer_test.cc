@@ -12,7 +12,7 @@
 #include <random>
 
 #include "estimation/analysis/transfer/joint_deviation.h"
-#include "estimation/family/answers/conflict.h"
+#include "estimation/family/answers/conflict/conflict.h"
 #include "estimation/family/answers/tradeoff.h"
 #include "estimation/family/bounds/enclose.h"
 #include "estimation/family/bounds/inside.h"

@@ -30,8 +30,8 @@ struct IdentifiedLoop {
   std::vector<IdentifiedParameter> parameters;
 };
 
-inline LoopStructure FreeStructure(int modes) {
-  LoopStructure out;
+inline PointStructure FreeStructure(int modes) {
+  PointStructure out;
   out.modes = modes;
   out.noise = {{LoopNoise::kCombustion, 6},
                {LoopNoise::kPressureSensor, 1},
@@ -41,7 +41,7 @@ inline LoopStructure FreeStructure(int modes) {
 
 inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std::size_t starts) {
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
-  const LoopStructure structure = FreeStructure(static_cast<int>(loop.modes.size()));
+  const PointStructure structure = FreeStructure(static_cast<int>(loop.modes.size()));
   const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
   const PointPrior prior = PriorOf(structure, spectra);
   IdentifiedLoop out;

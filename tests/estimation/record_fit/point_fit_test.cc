@@ -35,7 +35,7 @@ TEST(PointFit, EvidencePrefersTheModesThatAreThere) {
   const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
   std::map<int, double> evidence;
   for (const int modes : {1, 2, 3}) {
-    const LoopStructure structure = FreeStructure(modes);
+    const PointStructure structure = FreeStructure(modes);
     const PointPrior prior = PriorOf(structure, spectra);
     evidence[modes] =
         FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, 6, 1)).log_evidence;

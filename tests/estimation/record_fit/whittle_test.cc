@@ -22,7 +22,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
   const Record record = SimulateModalLoop(loop, 0.5, 1);
   const RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
   for (const bool tied : {false, true}) {
-    LoopStructure structure = FreeStructure(2);
+    PointStructure structure = FreeStructure(2);
     structure.noise.push_back({LoopNoise::kDuct, 2});
     if (tied) {
       structure.ratio = 2.2;
