@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
-#include "estimation/record_fit/flame_basis.h"
 #include "diagnosis/records/cut_record.h"
+#include "estimation/record_fit/flame_basis.h"
 
 namespace howl {
 

@@ -6,6 +6,7 @@
 #include "diagnosis/cuts/make_cut_records.h"
 
 namespace howl {
+
 Eigen::VectorXcd SineTapered(const Eigen::Ref<const Eigen::VectorXcd>& extended,
                              Eigen::Index count) {
   return extended.segment(kTapReach, count) - extended.segment(kTapReach + 1, count);
