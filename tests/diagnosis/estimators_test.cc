@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "estimation/record_fit/flame_basis.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/noise/noise_fit.h"
 #include "diagnosis/numerics/real_fft.h"
 #include "diagnosis/records/cut_record.h"
+#include "estimation/record_fit/flame_basis.h"
 
 namespace howl {
 namespace {
