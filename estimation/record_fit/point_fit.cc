@@ -92,8 +92,9 @@ void MakePositive(Eigen::MatrixXd* information) {
 
 Quadratic Around(const RecordSpectra& record, const PointStructure& structure,
                  const PointPrior& prior, const Eigen::VectorXd& parameters, bool near) {
-  Quadratic out = Expand(record, structure, prior, parameters);
-  if (near) out.information = Curvature(record, structure, prior, parameters);
+  Quadratic out = near ? Quadratic{Gradient(record, structure, prior, parameters),
+                                   Curvature(record, structure, prior, parameters)}
+                       : Expand(record, structure, prior, parameters);
   MakePositive(&out.information);
   return out;
 }
@@ -131,7 +132,9 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     const Eigen::VectorXd there = out.parameters + step.cwiseProduct(prior.deviation);
     const double value = Value(record, structure, prior, there);
     const double ratio = (value - out.log_posterior) / foretold;
-    if (damping < 1.0 && foretold < options.converged && (near || options.converged >= kNear)) {
+    // A fit that only comes near needs no curvature.
+    const bool exact = near || options.converged >= kNear;
+    if (exact && damping < 1.0 && foretold < options.converged) {
       out.converged = true;
       break;
     }
@@ -150,13 +153,10 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   out.log_likelihood = out.log_posterior - prior.LogDensity(out.parameters);
   const Eigen::VectorXd precision = prior.deviation.cwiseInverse();
   out.information = precision.asDiagonal() * here.information * precision.asDiagonal();
-  out.log_evidence =
-      out.log_posterior -
-      0.5 *
-          Eigen::LLT<Eigen::MatrixXd>(here.information).matrixLLT().diagonal().array().log().sum() *
-          2.0 +
-      prior.deviation.array().log().sum() +
-      0.5 * static_cast<double>(precision.size()) * std::log(2.0 * std::numbers::pi);
+  const Eigen::LLT<Eigen::MatrixXd> root(here.information);
+  out.log_evidence = out.log_posterior - root.matrixLLT().diagonal().array().log().sum() +
+                     prior.deviation.array().log().sum() +
+                     0.5 * static_cast<double>(precision.size()) * std::log(2.0 * std::numbers::pi);
   return out;
 }
 
