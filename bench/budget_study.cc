@@ -11,11 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/load_rig.h"
 #include "bench/measured_rig.h"
 #include "diagnosis/budget/budget.h"
-#include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
-#include "io/records/records.h"
 
 namespace howl {
 namespace {
@@ -27,14 +26,7 @@ double Number(const char* name) {
 
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1]);
-  MeasuredRig rig;
-  for (const ExperimentConfig& each : config.experiments) {
-    bool wanted = argc < 3;
-    for (int i = 2; i < argc; ++i) wanted = wanted || each.experiment.name == argv[i];
-    if (!wanted) continue;
-    rig.push_back({each.experiment.name, each.experiment.phi,
-                   LoadRecord(*each.record, config.source.string(), each.record_line)});
-  }
+  MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
   if (const double hz = Number("LOWPASS_Q_HZ"); hz > 0.0) LowPassQ(&rig, hz);
   if (const double skew_s = Number("SKEW_Q_S"); skew_s != 0.0) SkewQ(&rig, skew_s);
   if (const double fraction = Number("CLIP_P"); fraction > 0.0)

@@ -5,13 +5,12 @@
 #include <cstdio>
 #include <string>
 
+#include "bench/load_rig.h"
 #include "bench/measured_rig.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/gap/slack.h"
-#include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
-#include "io/records/records.h"
 
 namespace howl {
 namespace {
@@ -62,13 +61,10 @@ void Report(const std::string& title, const MeasuredRig& rig) {
 }
 
 void Study(const std::filesystem::path& path) {
-  const Config config = LoadConfig(path);
-  MeasuredRig all;
+  const MeasuredRig all = LoadRig(LoadConfig(path));
   double largest = 0.0;
-  for (const ExperimentConfig& each : config.experiments) {
-    all.push_back({each.experiment.name, each.experiment.phi,
-                   LoadRecord(*each.record, config.source.string(), each.record_line)});
-    largest = std::max(largest, AmplitudeOf(all.back().record.pressure));
+  for (const DiagnosisExperiment& each : all) {
+    largest = std::max(largest, AmplitudeOf(each.record.pressure));
   }
   MeasuredRig cycling;
   MeasuredRig even;

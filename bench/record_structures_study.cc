@@ -8,18 +8,17 @@
 // the halves are better than with the structure before; and the delays.
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <cstdio>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "bench/measured_rig.h"
+#include "bench/load_rig.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/point_starts.h"
-#include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
-#include "io/records/records.h"
 
 namespace howl {
 namespace {
@@ -65,15 +64,6 @@ std::vector<NamedStructure> Structures() {
   return out;
 }
 
-Record Half(const Record& record, bool second) {
-  const auto middle = static_cast<std::ptrdiff_t>(record.pressure.size() / 2);
-  const auto part = [&](const std::vector<double>& x) {
-    return second ? std::vector<double>(x.begin() + middle, x.begin() + 2 * middle)
-                  : std::vector<double>(x.begin(), x.begin() + middle);
-  };
-  return {record.sampling_hz, part(record.pressure), part(record.heat_release)};
-}
-
 struct Score {
   double evidence = 0.0;
   double halves = 0.0;
@@ -85,7 +75,8 @@ PointFit Fit(const RecordSpectra& record, const PointStructure& structure) {
   return FitPoint(record, structure, prior, StartsOf(record, structure, prior, kStarts, 1));
 }
 
-Score ScoreOf(const Record& record, double cycle_hz, const PointStructure& structure) {
+Score ScoreOf(const Record& record, const std::array<Record, 2>& halves, double cycle_hz,
+              const PointStructure& structure) {
   const RecordSpectra whole = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
   Score out;
   const PointFit fit = Fit(whole, structure);
@@ -93,32 +84,28 @@ Score ScoreOf(const Record& record, double cycle_hz, const PointStructure& struc
   out.delay_of_period =
       ToPoint(structure, whole.flame.cols(), fit.parameters).tau / (2.0 * std::numbers::pi);
   const PointPrior prior = PriorOf(structure, whole);
-  for (const bool second : {false, true}) {
-    const RecordSpectra fitted = MakeRecordSpectra(Half(record, second), whole);
-    const RecordSpectra other = MakeRecordSpectra(Half(record, !second), whole);
-    const PointFit half = FitPoint(fitted, structure, prior, fit.parameters);
-    out.halves += LogLikelihood(other, structure, half.parameters);
+  for (const std::size_t half : {0, 1}) {
+    const RecordSpectra fitted = MakeRecordSpectra(halves[half], whole);
+    const RecordSpectra other = MakeRecordSpectra(halves[1 - half], whole);
+    const PointFit fit_of_half = FitPoint(fitted, structure, prior, fit.parameters);
+    out.halves += LogLikelihood(other, structure, fit_of_half.parameters);
   }
   return out;
 }
 
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1]);
-  MeasuredRig rig;
-  for (const ExperimentConfig& each : config.experiments) {
-    bool wanted = argc < 3;
-    for (int i = 2; i < argc; ++i) wanted = wanted || each.experiment.name == argv[i];
-    if (!wanted) continue;
-    rig.push_back({each.experiment.name, each.experiment.phi,
-                   LoadRecord(*each.record, config.source.string(), each.record_line)});
-  }
+  const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
+  const MeasuredRig first_half = HalfOfRecords(rig, false);
+  const MeasuredRig second_half = HalfOfRecords(rig, true);
   const std::vector<CutRecord> cuts = MakeCutRecords(rig);
   std::vector<Score> first;
   std::vector<Score> before;
   for (const NamedStructure& each : Structures()) {
     std::vector<Score> scores(rig.size());
     tbb::parallel_for(std::size_t{0}, rig.size(), [&](std::size_t e) {
-      scores[e] = ScoreOf(rig[e].record, cuts[e].at.cycle_frequency_hz, each.structure);
+      scores[e] = ScoreOf(rig[e].record, {first_half[e].record, second_half[e].record},
+                          cuts[e].at.cycle_frequency_hz, each.structure);
     });
     if (first.empty()) first = before = scores;
     Score sum;

@@ -9,10 +9,9 @@
 #include <functional>
 #include <string>
 
+#include "bench/load_rig.h"
 #include "bench/measured_rig.h"
-#include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
-#include "io/records/records.h"
 
 namespace howl {
 namespace {
@@ -38,16 +37,6 @@ std::vector<Known> KnownEffects() {
       {"mains_hum", "0.03", [](MeasuredRig* rig) { HumInQ(rig, 0.03); }},
       {"crosstalk_p_to_q", "0.30", [](MeasuredRig* rig) { CrosstalkToQ(rig, 0.30); }},
       {"crosstalk_p_to_q", "0.10", [](MeasuredRig* rig) { CrosstalkToQ(rig, 0.10); }}};
-}
-
-MeasuredRig Load(const std::filesystem::path& path) {
-  const Config config = LoadConfig(path);
-  MeasuredRig rig;
-  for (const ExperimentConfig& each : config.experiments) {
-    rig.push_back({each.experiment.name, each.experiment.phi,
-                   LoadRecord(*each.record, config.source.string(), each.record_line)});
-  }
-  return rig;
 }
 
 // Those in a cycle: the amplitude of p is above a fifth of the largest.
@@ -115,6 +104,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string mode = argc > 2 ? argv[2] : "halves";
-  howl::Study(howl::Load(argv[1]), mode, argc > 3 ? argv[3] : "");
+  howl::Study(howl::LoadRig(howl::LoadConfig(argv[1])), mode, argc > 3 ? argv[3] : "");
   return 0;
 }

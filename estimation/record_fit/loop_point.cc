@@ -14,26 +14,12 @@ double FrequencyRatio(const PointStructure& structure, Eigen::Index mode) {
 
 Eigen::VectorXcd Delayed(const Eigen::VectorXcd& s, double tau) { return (-tau * s.array()).exp(); }
 
-Eigen::VectorXcd Transfer(const LoopPoint& point, const Eigen::VectorXcd& at) {
-  Eigen::VectorXcd out = Eigen::VectorXcd::Zero(at.size());
-  const auto s = at.array();
-  for (const LoopMode& mode : point.modes) {
-    out.array() += (mode.a * s + mode.b * mode.omega) /
-                   (s * s + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega);
-  }
-  return out;
+Eigen::VectorXcd Transfer(const LoopPoint& point, const Eigen::VectorXcd& s) {
+  return s.unaryExpr([&](C each) { return AcousticTransfer(point, each); });
 }
 
 Eigen::MatrixXcd TaperedColumns(const Eigen::MatrixXcd& x) {
   return x.topRows(x.rows() - 1) - x.bottomRows(x.rows() - 1);
-}
-
-Eigen::VectorXcd SmallSignal(const RecordSpectra& record) {
-  Eigen::VectorXcd out(record.bins());
-  for (Eigen::Index i = 0; i < out.size(); ++i) {
-    out[i] = FlameInputResponse(record.flame_input, record.s[i]);
-  }
-  return out;
 }
 
 // Calls `take` with the index of each parameter that moves mode k, and dR by it at s.
@@ -122,7 +108,7 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   LoopResiduals out;
   out.r = Transfer(point, record.s);
   const double slope = record.slopes.dot(point.flame);
-  out.f = slope * Delayed(record.s, point.tau).cwiseProduct(SmallSignal(record));
+  out.f = slope * Delayed(record.s, point.tau).cwiseProduct(record.input);
   out.acoustic =
       Tapered(record.pressure - Transfer(point, record.edge_s).cwiseProduct(record.heat_release));
   out.flame = Tapered(record.heat_release -
@@ -131,6 +117,15 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   for (std::size_t j = 0; j < structure.noise.size(); ++j) {
     out.spectra.col(static_cast<Eigen::Index>(j)) =
         LoopNoiseSpectrum(record.position, point.noise[j]);
+  }
+  return out;
+}
+
+C AcousticTransfer(const LoopPoint& point, C s) {
+  C out = 0.0;
+  for (const LoopMode& mode : point.modes) {
+    out += (mode.a * s + mode.b * mode.omega) /
+           (s * s + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega);
   }
   return out;
 }
@@ -150,7 +145,7 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   out.acoustic = TaperedColumns(
       -(record.heat_release.asDiagonal() * AcousticColumns(structure, point, record.edge_s)));
   const Eigen::Index flame = point.flame.size();
-  const Eigen::VectorXcd path = Delayed(record.s, point.tau).cwiseProduct(SmallSignal(record));
+  const Eigen::VectorXcd path = Delayed(record.s, point.tau).cwiseProduct(record.input);
   out.f.resize(record.bins(), 1 + flame);
   out.f.col(0) = -point.tau * record.slopes.dot(point.flame) * record.s.cwiseProduct(path);
   out.f.rightCols(flame) = path * record.slopes.transpose();

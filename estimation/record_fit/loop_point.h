@@ -58,6 +58,8 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
 // The tied frequencies and dampings are those of the first mode.
 Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& point);
 
+// R at s.
+std::complex<double> AcousticTransfer(const LoopPoint& point, std::complex<double> s);
 // Adds the real part of `by` times dR at s, for each of the acoustics' parameters.
 void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point,
                        std::complex<double> s, std::complex<double> by, Eigen::VectorXd* out);

@@ -12,7 +12,6 @@
 namespace howl {
 namespace {
 
-constexpr Eigen::Index kReach = 20;  // bins over which power is smoothed
 constexpr int kDelays = 64;
 constexpr double kMostCycles = 1.25;  // of delay
 constexpr std::size_t kBestDelays = 2;
@@ -34,7 +33,7 @@ class Starts {
         structure_(structure),
         heat_release_(Tapered(record.heat_release)),
         flame_(record.bins(), record.flame.cols()),
-        weight_(SmoothPower(heat_release_, kReach).cwiseSqrt().cwiseInverse()) {
+        weight_(SmoothPower(heat_release_, kStartReach).cwiseSqrt().cwiseInverse()) {
     for (Eigen::Index k = 0; k < flame_.cols(); ++k) flame_.col(k) = Tapered(record.flame.col(k));
   }
 

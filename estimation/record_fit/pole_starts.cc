@@ -14,7 +14,6 @@ namespace {
 
 using C = std::complex<double>;
 
-constexpr Eigen::Index kReach = 20;  // bins over which power is smoothed
 constexpr int kFrequencies = 40;
 constexpr int kRelocations = 12;
 constexpr double kSpreadXi = 0.05;
@@ -47,7 +46,7 @@ PoleStarts::PoleStarts(const RecordSpectra& record, const PointStructure& struct
     : record_(record),
       structure_(structure),
       heat_release_(Tapered(record.heat_release)),
-      weight_(SmoothPower(Tapered(record.pressure), kReach).cwiseSqrt().cwiseInverse()),
+      weight_(SmoothPower(Tapered(record.pressure), kStartReach).cwiseSqrt().cwiseInverse()),
       target_(weight_.cwiseProduct(Tapered(record.pressure))),
       low_(std::abs(record.s[0])),
       high_(std::abs(record.s[record.bins() - 1])) {}

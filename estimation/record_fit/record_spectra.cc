@@ -132,6 +132,7 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
        static_cast<double>(band.first) + 0.5) *
       bin_of_cycle;
   out.s = C(0.0, 1.0) * middle;
+  out.input = out.s.unaryExpr([&](C s) { return FlameInputResponse(input, s); });
   out.edge_s = C(0.0, bin_of_cycle) *
                Eigen::VectorXd::LinSpaced(band.count + 1, static_cast<double>(band.first),
                                           static_cast<double>(band.first + band.count));

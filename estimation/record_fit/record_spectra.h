@@ -47,6 +47,7 @@ struct RecordSpectra {
   FlameInput flame_input = FlameInput::kPressureRate;
   double bin_hz = 0.0;
   Eigen::VectorXcd s;        // j f over the cycle's frequency
+  Eigen::VectorXcd input;    // V: v's transfer from p
   Eigen::VectorXd position;  // -1 .. 1 over the band, in log f
   // Of the transform, one more than there are bins: j f, P, Q, and b_k without delay, one column
   // each.

@@ -8,22 +8,24 @@ namespace {
 
 using C = std::complex<double>;
 
-C WithoutSlope(const RecordSpectra& record, const LoopPoint& point, C s) {
-  C r = 0.0;
-  for (const LoopMode& mode : point.modes) {
-    r += (mode.a * s + mode.b * mode.omega) /
-         (s * s + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega);
-  }
-  return r * std::exp(-point.tau * s) * FlameInputResponse(record.flame_input, s);
-}
+// At one frequency, e^(-tau s) V(s) and U: that times R.
+struct OpenLoop {
+  OpenLoop(const RecordSpectra& record, const LoopPoint& point, C at)
+      : s(at),
+        path(std::exp(-point.tau * s) * FlameInputResponse(record.flame_input, s)),
+        u(AcousticTransfer(point, s) * path) {}
 
-// Its derivatives by the acoustics' parameters and ln tau, times `by`, are added.
-void AddSlopes(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
-               C s, C value, C by, Eigen::VectorXd* out) {
-  const C path = std::exp(-point.tau * s) * FlameInputResponse(record.flame_input, s);
-  AddAcousticSlopes(structure, point, s, by * path, out);
-  (*out)[structure.Delay()] -= (by * point.tau * s * value).real();
-}
+  // Adds the real part of `by` times dU, by the acoustics' parameters and ln tau.
+  void AddSlopes(const PointStructure& structure, const LoopPoint& point, C by,
+                 Eigen::VectorXd* out) const {
+    AddAcousticSlopes(structure, point, s, by * path, out);
+    (*out)[structure.Delay()] -= (by * point.tau * s * u).real();
+  }
+
+  C s;
+  C path;
+  C u;
+};
 
 // The partner of a frequency that is 1 at the cycle; no partner above twice the cycle's.
 C Partner(C s) { return C(0.0, 2.0) - s; }
@@ -37,10 +39,10 @@ double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const C s = record.s[i];
-    const C u = WithoutSlope(record, point, s);
+    const C u = OpenLoop(record, point, s).u;
     C d = (1.0 - phi_0 * u) * (1.0 - phi_0 * u);
     if (HasPartner(s)) {
-      const C w = std::conj(WithoutSlope(record, point, Partner(s)));
+      const C w = std::conj(OpenLoop(record, point, Partner(s)).u);
       d = (1.0 - phi_0 * u) * (1.0 - phi_0 * w) - square * u * w;
     }
     sum += record.share[i] * std::log(std::abs(d));
@@ -51,35 +53,36 @@ double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
 Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointStructure& structure,
                                        const LoopPoint& point) {
   const Eigen::Index flame = point.flame.size();
-  const Eigen::Index loop = structure.Delay() + 1;
+  const Eigen::Index parameters = structure.Delay() + 1;
   const double phi_0 = record.slopes.dot(point.flame);
   const C phi_2 = (record.coupling.transpose() * point.flame).value();
   const double square = std::norm(phi_2);
-  Eigen::VectorXd of_loop = Eigen::VectorXd::Zero(loop);
+  Eigen::VectorXd of_loop = Eigen::VectorXd::Zero(parameters);
   double by_phi_0 = 0.0;
   double by_square = 0.0;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const C s = record.s[i];
-    const C u = WithoutSlope(record, point, s);
+    const OpenLoop loop(record, point, s);
+    const C u = loop.u;
     if (!HasPartner(s)) {
       const C over = -2.0 * record.share[i] / (1.0 - phi_0 * u);
-      AddSlopes(record, structure, point, s, u, phi_0 * over, &of_loop);
+      loop.AddSlopes(structure, point, phi_0 * over, &of_loop);
       by_phi_0 += (over * u).real();
       continue;
     }
-    const C partner = WithoutSlope(record, point, Partner(s));
-    const C w = std::conj(partner);
+    const OpenLoop partner(record, point, Partner(s));
+    const C w = std::conj(partner.u);
     const C over = record.share[i] / ((1.0 - phi_0 * u) * (1.0 - phi_0 * w) - square * u * w);
     const C by_u = over * (-phi_0 * (1.0 - phi_0 * w) - square * w);
     const C by_w = over * (-phi_0 * (1.0 - phi_0 * u) - square * u);
-    AddSlopes(record, structure, point, s, u, by_u, &of_loop);
-    AddSlopes(record, structure, point, Partner(s), partner, std::conj(by_w), &of_loop);
+    loop.AddSlopes(structure, point, by_u, &of_loop);
+    partner.AddSlopes(structure, point, std::conj(by_w), &of_loop);
     by_phi_0 -= (over * (u * (1.0 - phi_0 * w) + w * (1.0 - phi_0 * u))).real();
     by_square -= (over * u * w).real();
   }
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(loop + flame + structure.NoiseCoefficients());
-  out.head(loop) = of_loop;
-  out.segment(loop, flame) =
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(parameters + flame + structure.NoiseCoefficients());
+  out.head(parameters) = of_loop;
+  out.segment(parameters, flame) =
       by_phi_0 * record.slopes + 2.0 * by_square * (std::conj(phi_2) * record.coupling).real();
   return out;
 }

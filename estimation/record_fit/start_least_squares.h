@@ -7,6 +7,8 @@
 
 namespace howl {
 
+inline constexpr Eigen::Index kStartReach = 20;  // bins, over which weights are smoothed
+
 struct StartSolution {
   Eigen::VectorXd coefficients;
   double left = 0.0;  // |y - X c|^2

@@ -152,17 +152,15 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
   by_r.turned = w.Before(by_r.row);
   by_f.turned = w.Before(by_f.row);
   // tr(W X W Y) and tr(W X W Y^H), of which the second loses what the means would tell.
-  const auto turned_a = [](const Movement& m) { return m.turned.a; };
-  const auto turned_b = [](const Movement& m) { return m.turned.b; };
   const auto beta = [&](const Movement& x, const Movement& y, C w_yx) {
     return Times(w_yx, Dot(x.turned, Conjugate(y.row)) - Dot(sigma.Before(x.b), Conjugate(y.b)));
   };
   const double two = 2.0 * share;
-  out->rr.alpha[i] = two * Times(turned_a(by_r), turned_a(by_r));
+  out->rr.alpha[i] = two * Times(by_r.turned.a, by_r.turned.a);
   out->rr.beta[i] = two * beta(by_r, by_r, w.aa);
-  out->rf.alpha[i] = two * Times(turned_a(by_f), turned_b(by_r));
+  out->rf.alpha[i] = two * Times(by_f.turned.a, by_r.turned.b);
   out->rf.beta[i] = two * beta(by_r, by_f, std::conj(w.ab));
-  out->ff.alpha[i] = two * Times(turned_b(by_f), turned_b(by_f));
+  out->ff.alpha[i] = two * Times(by_f.turned.b, by_f.turned.b);
   out->ff.beta[i] = two * beta(by_f, by_f, w.bb);
   out->aa[i] = two * w.aa;
   out->ab[i] = two * std::conj(w.ab);
@@ -270,23 +268,6 @@ Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen
     Fill(noise, at, share[i], false, i, &all);
   }
   return GatherGradient(all, derivatives);
-}
-
-ForetoldErrors ErrorsOfForetelling(const std::vector<NoiseTerm>& noise, const LoopResiduals& at) {
-  const Eigen::Index bins = at.r.size();
-  ForetoldErrors out{Eigen::VectorXcd(bins), Eigen::VectorXcd(bins)};
-  for (Eigen::Index i = 0; i < bins; ++i) {
-    const Hermitian w = Sigma(noise, at, i).Inverse();
-    const Pair we = w.Apply({at.acoustic[i], at.flame[i]});
-    const auto error = [&](const Pair& u) {
-      const Pair wu = w.Apply(u);
-      return (ConjugateTimes(u.a, we.a) + ConjugateTimes(u.b, we.b)) /
-             (ConjugateTimes(u.a, wu.a) + ConjugateTimes(u.b, wu.b)).real();
-    };
-    out.pressure[i] = error({1.0, -at.f[i]});
-    out.heat_release[i] = error({-at.r[i], 1.0});
-  }
-  return out;
 }
 
 }  // namespace howl

@@ -66,14 +66,6 @@ LoopScore WhittleScore(const std::vector<NoiseTerm>& noise, const Eigen::VectorX
 Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                                 const LoopResiduals& at, const LoopDerivatives& derivatives);
 
-// The most likely value of each signal's error, given the other signal: P and Q less what the model
-// foretells of them.
-struct ForetoldErrors {
-  Eigen::VectorXcd pressure;
-  Eigen::VectorXcd heat_release;
-};
-ForetoldErrors ErrorsOfForetelling(const std::vector<NoiseTerm>& noise, const LoopResiduals& at);
-
 }  // namespace howl
 
 #endif  // HOWL_ESTIMATION_RECORD_FIT_WHITTLE_H_
