@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench/load_rig.h"
+#include "bench/record_structures.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/point_starts.h"
@@ -24,45 +25,6 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kStarts = 12;
-
-struct NamedStructure {
-  std::string name;
-  PointStructure structure;
-};
-
-std::vector<NoiseTerm> Noise(Eigen::Index combustion, Eigen::Index sensors, Eigen::Index duct) {
-  std::vector<NoiseTerm> out = {{LoopNoise::kCombustion, combustion},
-                                {LoopNoise::kPressureSensor, sensors},
-                                {LoopNoise::kHeatReleaseSensor, sensors}};
-  if (duct > 0) out.push_back({LoopNoise::kDuct, duct});
-  return out;
-}
-
-std::vector<NamedStructure> Structures() {
-  PointStructure loop;
-  loop.modes = 2;
-  loop.ratio = 3.0;
-  loop.own_damping = false;
-  loop.complex_residues = false;
-  loop.noise = Noise(6, 1, 0);
-  std::vector<NamedStructure> out = {{"the paper's loop", loop}};
-  loop.noise = Noise(6, 4, 0);
-  out.push_back({"coloured sensors", loop});
-  loop.ratio.reset();
-  loop.own_damping = true;
-  out.push_back({"free modes", loop});
-  loop.complex_residues = true;
-  out.push_back({"complex residues", loop});
-  loop.noise = Noise(6, 4, 6);
-  out.push_back({"duct's noise", loop});
-  loop.modes = 3;
-  out.push_back({"three modes", loop});
-  loop.modes = 4;
-  out.push_back({"four modes", loop});
-  loop.noise = Noise(12, 8, 12);
-  out.push_back({"finer noise", loop});
-  return out;
-}
 
 struct Score {
   double evidence = 0.0;
@@ -101,7 +63,7 @@ int Run(int argc, char** argv) {
   const std::vector<CutRecord> cuts = MakeCutRecords(rig);
   std::vector<Score> first;
   std::vector<Score> before;
-  for (const NamedStructure& each : Structures()) {
+  for (const NamedStructure& each : RecordStructures()) {
     std::vector<Score> scores(rig.size());
     tbb::parallel_for(std::size_t{0}, rig.size(), [&](std::size_t e) {
       scores[e] = ScoreOf(rig[e].record, {first_half[e].record, second_half[e].record},

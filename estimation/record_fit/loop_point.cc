@@ -3,6 +3,8 @@
 #include <cmath>
 #include <complex>
 
+#include "model/numerics/complex_products.h"
+
 namespace howl {
 namespace {
 
@@ -30,12 +32,13 @@ void ForEachSlope(const PointStructure& structure, const LoopPoint& point, Eigen
   const Eigen::Index dampings = structure.Frequencies();
   const Eigen::Index residues = dampings + structure.Dampings();
   const double omega = mode.omega;
-  const C over = 1.0 / (s * s + 2.0 * mode.xi * omega * s + omega * omega);
-  const C r = (mode.a * s + mode.b * omega) * over;
   const C damped = 2.0 * mode.xi * omega * s;
-  take(structure.ratio ? 0 : k, mode.b * omega * over - r * over * (damped + 2.0 * omega * omega));
-  take(dampings + (structure.own_damping ? k : 0), -r * over * damped);
-  take(residues + k, s * over);
+  const C over = Reciprocal(Times(s, s) + damped + omega * omega);
+  const C r_over = Times(Times(mode.a * s + mode.b * omega, over), over);
+  take(structure.ratio ? 0 : k,
+       mode.b * omega * over - Times(r_over, damped + 2.0 * omega * omega));
+  take(dampings + (structure.own_damping ? k : 0), -Times(r_over, damped));
+  take(residues + k, Times(s, over));
   if (structure.complex_residues) take(residues + structure.modes + k, omega * over);
 }
 
@@ -124,8 +127,9 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
 C AcousticTransfer(const LoopPoint& point, C s) {
   C out = 0.0;
   for (const LoopMode& mode : point.modes) {
-    out += (mode.a * s + mode.b * mode.omega) /
-           (s * s + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega);
+    out +=
+        Times(mode.a * s + mode.b * mode.omega,
+              Reciprocal(Times(s, s) + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega));
   }
   return out;
 }
@@ -134,7 +138,7 @@ void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point, 
                        Eigen::VectorXd* out) {
   for (Eigen::Index k = 0; k < structure.modes; ++k) {
     ForEachSlope(structure, point, k, s,
-                 [&](Eigen::Index i, C slope) { (*out)[i] += (by * slope).real(); });
+                 [&](Eigen::Index i, C slope) { (*out)[i] += Times(by, slope).real(); });
   }
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -17,8 +18,12 @@ namespace {
 
 constexpr double kFirstDamping = 0.1;
 constexpr double kMostDamping = 1e12;
-constexpr double kNear = 20.0;  // nats foretold, from which on the curvature is used
-constexpr std::size_t kMostToFinish = 4;
+constexpr double kNear = 20.0;  // nats foretold, from which on steps correct the information
+constexpr int kMostCorrections = 12;
+constexpr double kLeastCosine =
+    1e-8;  // of a correction's denominator (Nocedal & Wright 2006, 6.26)
+constexpr std::size_t kMostToCompare = 4;
+constexpr int kIterationsToCompare = 30;
 constexpr double kDifference = 1e-5;  // of the prior's deviation
 
 double Value(const RecordSpectra& record, const PointStructure& structure, const PointPrior& prior,
@@ -79,25 +84,29 @@ Eigen::MatrixXd Curvature(const RecordSpectra& record, const PointStructure& str
 // Far from the maximum the record's share may leave the information without a sign: the steps then
 // take the size of its curvature, as Greenstadt's modified Newton steps do. What has less than the
 // prior tells has that.
-void MakePositive(Eigen::MatrixXd* information) {
-  const Eigen::VectorXd scale = information->diagonal().cwiseMax(1.0).cwiseSqrt();
+Eigen::MatrixXd Positive(const Eigen::MatrixXd& information) {
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1.0).cwiseSqrt();
   const Eigen::VectorXd inverse = scale.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * *information *
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * information *
                                                               inverse.asDiagonal());
-  if (solver.eigenvalues()[0] > 1e-9) return;
-  *information = scale.asDiagonal() * solver.eigenvectors() *
-                 solver.eigenvalues().cwiseAbs().cwiseMax(1e-6).asDiagonal() *
-                 solver.eigenvectors().transpose() * scale.asDiagonal();
+  if (solver.eigenvalues()[0] > 1e-9) return information;
+  return scale.asDiagonal() * solver.eigenvectors() *
+         solver.eigenvalues().cwiseAbs().cwiseMax(1e-6).asDiagonal() *
+         solver.eigenvectors().transpose() * scale.asDiagonal();
 }
 
-Quadratic Around(const RecordSpectra& record, const PointStructure& structure,
-                 const PointPrior& prior, const Eigen::VectorXd& parameters, bool near) {
-  Quadratic out = near ? Quadratic{Gradient(record, structure, prior, parameters),
-                                   Curvature(record, structure, prior, parameters)}
-                       : Expand(record, structure, prior, parameters);
-  MakePositive(&out.information);
-  return out;
+// The symmetric update of rank one (SR1): what a step has shown of the curvature along it, at the
+// cost of one gradient. It need not have a sign, which the curvature has not either.
+void CorrectAlong(const Eigen::VectorXd& step, const Eigen::VectorXd& fall_of_gradient,
+                  Eigen::MatrixXd* information) {
+  const Eigen::VectorXd missed = fall_of_gradient - *information * step;
+  const double along = missed.dot(step);
+  if (std::abs(along) < kLeastCosine * missed.norm() * step.norm()) return;
+  *information += missed * missed.transpose() / along;
 }
+
+// What the quadratic about the present parameters consists of.
+enum class Source : std::uint8_t { kInformation, kCorrected, kCurvature };
 
 }  // namespace
 
@@ -121,35 +130,57 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   out.log_posterior = Value(record, structure, prior, out.parameters);
   double damping = kFirstDamping;
   double raise = 2.0;
-  bool near = false;
-  Quadratic here = Around(record, structure, prior, out.parameters, near);
+  int corrections = 0;
+  Source source = Source::kInformation;
+  Quadratic here = Expand(record, structure, prior, out.parameters);
   while (out.iterations < options.iterations && damping < kMostDamping) {
     ++out.iterations;
-    Eigen::MatrixXd damped = here.information;
+    const Eigen::MatrixXd information = Positive(here.information);
+    Eigen::MatrixXd damped = information;
     damped.diagonal().array() *= 1.0 + damping;
     const Eigen::VectorXd step = damped.ldlt().solve(here.gradient);
-    const double foretold = here.gradient.dot(step) - 0.5 * step.dot(here.information * step);
+    const double foretold = here.gradient.dot(step) - 0.5 * step.dot(information * step);
+    if (damping < 1.0 && foretold < options.converged) {
+      if (source == Source::kCurvature || options.converged >= kNear) {
+        out.converged = true;
+        break;
+      }
+      here.information = Curvature(record, structure, prior, out.parameters);
+      source = Source::kCurvature;
+      continue;
+    }
     const Eigen::VectorXd there = out.parameters + step.cwiseProduct(prior.deviation);
     const double value = Value(record, structure, prior, there);
-    const double ratio = (value - out.log_posterior) / foretold;
-    // A fit that only comes near needs no curvature.
-    const bool exact = near || options.converged >= kNear;
-    if (exact && damping < 1.0 && foretold < options.converged) {
-      out.converged = true;
-      break;
+    const double gain = value - out.log_posterior;
+    const bool taken = gain > 0.0;
+    Quadratic next;
+    if (source == Source::kInformation && foretold >= kNear) {
+      if (taken) next = Expand(record, structure, prior, there);
+    } else if (std::isfinite(value)) {
+      next.gradient = Gradient(record, structure, prior, there);
+      next.information = here.information;
+      CorrectAlong(step, here.gradient - next.gradient, &next.information);
+      here.information = next.information;
+      source = Source::kCorrected;
+      if (++corrections > kMostCorrections) {
+        next.information = Curvature(record, structure, prior, taken ? there : out.parameters);
+        here.information = next.information;
+        source = Source::kCurvature;
+        corrections = 0;
+      }
     }
-    if (!(ratio > 0.0)) {
+    if (!taken) {
       damping *= raise;
       raise *= 2.0;
       continue;
     }
     out.parameters = there;
     out.log_posterior = value;
-    damping *= std::max(1.0 / 5.0, 1.0 - std::pow(2.0 * ratio - 1.0, 3.0));
+    here = std::move(next);
+    damping *= std::max(1.0 / 5.0, 1.0 - std::pow(2.0 * gain / foretold - 1.0, 3.0));
     raise = 2.0;
-    near = near || foretold < kNear;
-    here = Around(record, structure, prior, out.parameters, near);
   }
+  here.information = Positive(here.information);
   out.log_likelihood = out.log_posterior - prior.LogDensity(out.parameters);
   const Eigen::VectorXd precision = prior.deviation.cwiseInverse();
   out.information = precision.asDiagonal() * here.information * precision.asDiagonal();
@@ -164,20 +195,25 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options) {
   CHECK(!starts.empty());
-  PointFitOptions rough = options;
-  rough.converged = kNear;
+  std::vector<Eigen::VectorXd> from = starts;
   std::vector<PointFit> fits;
-  for (const Eigen::VectorXd& start : starts) {
-    fits.push_back(FitPoint(record, structure, prior, start, rough));
+  // Near a maximum, then past the valleys that lead there, and at last on it.
+  PointFitOptions stage = options;
+  stage.converged = kNear;
+  for (const std::size_t kept : {kMostToCompare, std::size_t{1}}) {
+    fits.clear();
+    for (const Eigen::VectorXd& start : from) {
+      fits.push_back(FitPoint(record, structure, prior, start, stage));
+    }
+    std::ranges::stable_sort(fits, std::ranges::greater(), &PointFit::log_posterior);
+    fits.resize(std::min(fits.size(), kept));
+    from.clear();
+    for (const PointFit& fit : fits) from.push_back(fit.parameters);
+    stage.converged = options.converged;
+    stage.iterations = std::min(options.iterations, kIterationsToCompare);
   }
-  std::ranges::stable_sort(fits, std::ranges::greater(), &PointFit::log_posterior);
-  fits.resize(std::min(fits.size(), kMostToFinish));
-  PointFit best;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    PointFit fit = FitPoint(record, structure, prior, fits[i].parameters, options);
-    if (i == 0 || fit.log_posterior > best.log_posterior) best = std::move(fit);
-  }
-  return best;
+  if (fits[0].converged) return fits[0];
+  return FitPoint(record, structure, prior, fits[0].parameters, options);
 }
 
 }  // namespace howl

@@ -39,9 +39,9 @@ class Starts {
 
   std::vector<double> Delays() const;
   Eigen::VectorXd At(std::vector<LoopMode> modes, double tau) const;
+  StartSolution Flame(double tau) const;
 
  private:
-  StartSolution Flame(double tau) const;
   Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
 
   const RecordSpectra& record_;
@@ -115,6 +115,10 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
 }
 
 }  // namespace
+
+Eigen::VectorXd FlameStart(const RecordSpectra& record, double tau) {
+  return Starts(record, PointStructure{}).Flame(tau).coefficients;
+}
 
 std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointStructure& structure,
                                       const PointPrior& prior, std::size_t count,

@@ -13,11 +13,13 @@
 
 namespace howl {
 
-// At least four; `count` in all, the further ones with poles that are drawn.// At least `count`,
-// the further ones with poles that are drawn.
+// At least four; `count` in all, the further ones with poles that are drawn.
 std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointStructure& structure,
                                       const PointPrior& prior, std::size_t count,
                                       std::uint64_t seed);
+
+// The flame's coefficients that leave least of q, given its delay.
+Eigen::VectorXd FlameStart(const RecordSpectra& record, double tau);
 
 }  // namespace howl
 

@@ -89,33 +89,40 @@ std::vector<StartPole> PoleStarts::Tied(double omega, double xi) const {
   return out;
 }
 
-std::vector<StartPole> PoleStarts::Greedy() const {
-  std::vector<StartPole> poles;
-  Eigen::MatrixXcd columns(record_.bins(), 0);
-  const int rounds = structure_.ratio ? 1 : structure_.modes;
-  for (int k = 0; k < rounds; ++k) {
-    StartPole best{1.0, 0.1};
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kFrequencies; ++i) {
-      const double omega = low_ * std::pow(high_ / low_, (i + 0.5) / kFrequencies);
-      for (const double xi : {0.02, 0.06, 0.18}) {
-        double left = 0.0;
-        if (structure_.ratio) {
-          left = SolveStart(Columns(Tied(omega, xi)), target_).left;
-        } else {
-          Eigen::MatrixXcd with = columns;
-          AddColumns({omega, xi}, &with);
-          left = SolveStart(with, target_).left;
-        }
-        if (left >= least) continue;
-        least = left;
-        best = {omega, xi};
-      }
+// The grid's pole that leaves least with `columns`, which gives the columns of a pole.
+template <typename ColumnsOf>
+StartPole PoleStarts::BestOfGrid(const ColumnsOf& columns) const {
+  StartPole best{1.0, 0.1};
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kFrequencies; ++i) {
+    const double omega = low_ * std::pow(high_ / low_, (i + 0.5) / kFrequencies);
+    for (const double xi : {0.02, 0.06, 0.18}) {
+      const double left = SolveStart(columns(StartPole{omega, xi}), target_).left;
+      if (left >= least) continue;
+      least = left;
+      best = {omega, xi};
     }
-    if (structure_.ratio) return Tied(best.omega, best.xi);
-    poles.push_back(best);
-    AddColumns(best, &columns);
   }
+  return best;
+}
+
+StartPole PoleStarts::Next(const std::vector<StartPole>& poles) const {
+  const Eigen::MatrixXcd had = Columns(poles);
+  return BestOfGrid([&](const StartPole& pole) {
+    Eigen::MatrixXcd with = had;
+    AddColumns(pole, &with);
+    return with;
+  });
+}
+
+std::vector<StartPole> PoleStarts::Greedy() const {
+  if (structure_.ratio) {
+    const StartPole first =
+        BestOfGrid([&](const StartPole& pole) { return Columns(Tied(pole.omega, pole.xi)); });
+    return Tied(first.omega, first.xi);
+  }
+  std::vector<StartPole> poles;
+  for (int k = 0; k < structure_.modes; ++k) poles.push_back(Next(poles));
   return poles;
 }
 

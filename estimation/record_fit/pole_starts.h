@@ -27,6 +27,8 @@ class PoleStarts {
   PoleStarts(const RecordSpectra& record, const PointStructure& structure);
 
   std::vector<StartPole> Greedy() const;
+  // One more than these, where it leaves least. Frequencies are free.
+  StartPole Next(const std::vector<StartPole>& poles) const;
   // Even over the band's logarithm.
   std::vector<StartPole> Spread() const;
   std::vector<StartPole> Relocated(std::vector<StartPole> poles) const;
@@ -37,6 +39,8 @@ class PoleStarts {
   void AddColumns(const StartPole& pole, Eigen::MatrixXcd* columns) const;
   Eigen::MatrixXcd Columns(const std::vector<StartPole>& poles) const;
   std::vector<StartPole> Tied(double omega, double xi) const;
+  template <typename ColumnsOf>
+  StartPole BestOfGrid(const ColumnsOf& columns) const;
 
   const RecordSpectra& record_;
   const PointStructure& structure_;

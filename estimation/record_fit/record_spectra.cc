@@ -116,6 +116,7 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
   out.flame_input = input;
   const Eigen::VectorXd p = Centred(record.pressure, scale.pressure);
   const Eigen::Index samples = p.size();
+  out.sampling_hz = record.sampling_hz;
   out.bin_hz = record.sampling_hz / static_cast<double>(samples);
   const double bin_of_cycle = out.bin_hz / scale.cycle_hz;
   const double highest =

@@ -45,6 +45,7 @@ struct RecordScale {
 struct RecordSpectra {
   RecordScale scale;
   FlameInput flame_input = FlameInput::kPressureRate;
+  double sampling_hz = 0.0;
   double bin_hz = 0.0;
   Eigen::VectorXcd s;        // j f over the cycle's frequency
   Eigen::VectorXcd input;    // V: v's transfer from p

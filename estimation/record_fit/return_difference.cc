@@ -3,6 +3,8 @@
 #include <cmath>
 #include <complex>
 
+#include "model/numerics/complex_products.h"
+
 namespace howl {
 namespace {
 
@@ -65,14 +67,15 @@ Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointS
     const OpenLoop loop(record, point, s);
     const C u = loop.u;
     if (!HasPartner(s)) {
-      const C over = -2.0 * record.share[i] / (1.0 - phi_0 * u);
+      const C over = -2.0 * record.share[i] * Reciprocal(1.0 - phi_0 * u);
       loop.AddSlopes(structure, point, phi_0 * over, &of_loop);
       by_phi_0 += (over * u).real();
       continue;
     }
     const OpenLoop partner(record, point, Partner(s));
     const C w = std::conj(partner.u);
-    const C over = record.share[i] / ((1.0 - phi_0 * u) * (1.0 - phi_0 * w) - square * u * w);
+    const C over = record.share[i] *
+                   Reciprocal(Times(1.0 - phi_0 * u, 1.0 - phi_0 * w) - square * Times(u, w));
     const C by_u = over * (-phi_0 * (1.0 - phi_0 * w) - square * w);
     const C by_w = over * (-phi_0 * (1.0 - phi_0 * u) - square * u);
     loop.AddSlopes(structure, point, by_u, &of_loop);

@@ -114,7 +114,7 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
   const Hermitian sigma = Sigma(noise, at, i);
   const Hermitian w = sigma.Inverse();
   const Pair we = w.Apply({at.acoustic[i], at.flame[i]});
-  const C closed = 1.0 / (1.0 - Times(r, f));
+  const C closed = Reciprocal(1.0 - Times(r, f));
   Movement by_r{{}, {-Times(closed, f), -closed}, {}};
   Movement by_f{{}, {-closed, -Times(closed, r)}, {}};
   for (Movement* m : {&by_r, &by_f}) {

@@ -1,0 +1,90 @@
+#include "estimation/joint_records/parameter_law.h"
+
+#include <glog/logging.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace howl {
+namespace {
+
+// A parameter's change over one deviation of the operating parameter, and its typical spread about
+// that, as shares of the prior's deviation: of what the prior allows, a rig's points show a part.
+constexpr double kTrend = 0.3;
+constexpr double kTypicalSpread = 0.1;
+constexpr int kIterations = 300;
+constexpr double kConverged = 1e-4;  // of the largest change of ln s
+
+}  // namespace
+
+PointPrior ParameterLaw::PriorAt(double z) const { return {mean + z * trend, spread}; }
+
+PointPrior ParameterLaw::PredictionAt(double z) const {
+  PointPrior out = PriorAt(z);
+  const Eigen::Vector2d x(1.0, z);
+  for (Eigen::Index i = 0; i < out.deviation.size(); ++i) {
+    out.deviation[i] =
+        std::sqrt(spread[i] * spread[i] + x.dot(covariance[static_cast<std::size_t>(i)] * x));
+  }
+  return out;
+}
+
+ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const PointPrior& base) {
+  CHECK(!points.empty());
+  const Eigen::Index size = base.mean.size();
+  const auto count = static_cast<double>(points.size());
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  for (const ParameterEvidence& point : points) {
+    const Eigen::Vector2d x(1.0, point.z);
+    moments += x * x.transpose();
+  }
+  ParameterLaw law{base.mean, Eigen::VectorXd::Zero(size), base.deviation,
+                   std::vector<Eigen::Matrix2d>(static_cast<std::size_t>(size))};
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    // What is expected of each point, given the law.
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
+    Eigen::VectorXd sum_z = Eigen::VectorXd::Zero(size);
+    std::vector<Eigen::VectorXd> value;
+    std::vector<Eigen::VectorXd> variance;
+    for (const ParameterEvidence& point : points) {
+      const PointPrior prior = law.PriorAt(point.z);
+      const Eigen::VectorXd precision = prior.deviation.array().square().inverse();
+      Eigen::MatrixXd posterior = point.precision;
+      posterior.diagonal() += precision;
+      const Eigen::MatrixXd covariance =
+          posterior.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+      value.push_back(covariance * (point.information + precision.cwiseProduct(prior.mean)));
+      variance.push_back(covariance.diagonal());
+      sum += value.back();
+      sum_z += point.z * value.back();
+    }
+    double change = 0.0;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const double deviation = base.deviation[i];
+      const double square = law.spread[i] * law.spread[i];
+      Eigen::Matrix2d precision = moments / square;
+      precision(0, 0) += 1.0 / (deviation * deviation);
+      precision(1, 1) += 1.0 / std::pow(kTrend * deviation, 2);
+      const Eigen::Matrix2d covariance = precision.inverse();
+      const Eigen::Vector2d law_of_i =
+          covariance * Eigen::Vector2d(sum[i] / square + base.mean[i] / (deviation * deviation),
+                                       sum_z[i] / square);
+      law.mean[i] = law_of_i[0];
+      law.trend[i] = law_of_i[1];
+      law.covariance[static_cast<std::size_t>(i)] = covariance;
+      double squares = std::pow(kTypicalSpread * deviation, 2);
+      for (std::size_t e = 0; e < points.size(); ++e) {
+        squares +=
+            variance[e][i] + std::pow(value[e][i] - law.mean[i] - law.trend[i] * points[e].z, 2);
+      }
+      const double spread = std::sqrt(squares / (count + 3.0));  // its most likely value
+      change = std::max(change, std::abs(std::log(spread / law.spread[i])));
+      law.spread[i] = spread;
+    }
+    if (change < kConverged) break;
+  }
+  return law;
+}
+
+}  // namespace howl

@@ -1,0 +1,48 @@
+// How the parameters of a rig's operating points vary with the operating parameter, estimated from
+// what each record tells of them.
+//
+//   u_e = m + b z_e + s e_e,   e_e standard normal,   z the operating parameter less its mean over
+//   its deviation
+//
+// for each parameter by itself. m and b have normal priors; s^2 is scaled inverse chi-squared with
+// one degree of freedom, so that what the points have in common may come near to being the same.
+// What a record tells is normal about its most likely parameters (Laplace), and m, b and s maximise
+// the posterior density by expectation and maximisation (Dempster, Laird & Rubin 1977; the random
+// effects of Laird & Ware 1982).
+#ifndef HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_
+#define HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "estimation/record_fit/point_prior.h"
+
+namespace howl {
+
+// What one record tells of the parameters: ln L = information' u - u' precision u / 2.
+struct ParameterEvidence {
+  double z = 0.0;
+  Eigen::MatrixXd precision;
+  Eigen::VectorXd information;
+};
+
+struct ParameterLaw {
+  Eigen::VectorXd mean;    // m
+  Eigen::VectorXd trend;   // b
+  Eigen::VectorXd spread;  // s
+  // Of (m, b), for each parameter.
+  std::vector<Eigen::Matrix2d> covariance;
+
+  // Of a point that was among those from which the law was estimated.
+  PointPrior PriorAt(double z) const;
+  // Of another point.
+  PointPrior PredictionAt(double z) const;
+};
+
+// `base`: the prior of a point when nothing is known of the others.
+ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const PointPrior& base);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_

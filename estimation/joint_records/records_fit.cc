@@ -1,0 +1,301 @@
+#include "estimation/joint_records/records_fit.h"
+
+#include <glog/logging.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "estimation/record_fit/point_starts.h"
+#include "estimation/record_fit/richer_structure.h"
+#include "estimation/unit_seed.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kMostCandidates = 4;
+constexpr int kIterationsOfCandidate = 30;
+constexpr int kRounds = 12;
+constexpr double kLeastTold = 0.1;   // of what the prior tells
+constexpr double kConverged = 0.02;  // of a parameter's spread, the largest move of the law's mean
+
+double GeometricMean(const std::vector<OperatingPoint>& points, auto value) {
+  double sum = 0.0;
+  for (const OperatingPoint& point : points) sum += std::log(value(point.record));
+  return std::exp(sum / static_cast<double>(points.size()));
+}
+
+ReferenceUnits ReferenceOf(const std::vector<OperatingPoint>& points) {
+  return {GeometricMean(points, [](const RecordSpectra& r) { return r.scale.cycle_hz; }),
+          GeometricMean(points, [](const RecordSpectra& r) { return r.scale.pressure; }),
+          GeometricMean(points, [](const RecordSpectra& r) { return r.scale.heat_release; }),
+          GeometricMean(points, [](const RecordSpectra& r) { return r.sampling_hz; })};
+}
+
+std::vector<double> Standardised(const std::vector<OperatingPoint>& points) {
+  const auto count = static_cast<double>(points.size());
+  double mean = 0.0;
+  for (const OperatingPoint& point : points) mean += point.operating_parameter / count;
+  double square = 0.0;
+  for (const OperatingPoint& point : points) {
+    square += std::pow(point.operating_parameter - mean, 2) / count;
+  }
+  std::vector<double> out;
+  for (const OperatingPoint& point : points) {
+    out.push_back(square > 0.0 ? (point.operating_parameter - mean) / std::sqrt(square) : 0.0);
+  }
+  return out;
+}
+
+// What the record alone tells of the shared parameters, the flame's integrated out.
+ParameterEvidence EvidenceOf(const PointFit& fit, const PointPrior& prior, const SharedUnits& units,
+                             double z) {
+  const Eigen::Index size = units.size();
+  const Eigen::MatrixXd whole = fit.Covariance();
+  Eigen::MatrixXd covariance(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j) {
+      covariance(i, j) =
+          units.scale()[i] * units.scale()[j] * whole(units.IndexOf(i), units.IndexOf(j));
+    }
+  }
+  const PointPrior common = units.ToCommon(prior);
+  const Eigen::VectorXd deviation = common.deviation;
+  // Without the prior, in its units. A direction of which the record tells next to nothing, or in
+  // which its density has a minimum, tells nothing: a force without a curvature has no limit.
+  Eigen::MatrixXd told = deviation.asDiagonal() *
+                         covariance.ldlt().solve(Eigen::MatrixXd::Identity(size, size)) *
+                         deviation.asDiagonal();
+  told.diagonal().array() -= 1.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (told + told.transpose()));
+  const Eigen::VectorXd kept =
+      (solver.eigenvalues().array() > kLeastTold).select(solver.eigenvalues(), 0.0);
+  const Eigen::MatrixXd turn =
+      solver.eigenvectors().transpose() * Eigen::MatrixXd(deviation.cwiseInverse().asDiagonal());
+  ParameterEvidence out;
+  out.z = z;
+  out.precision = turn.transpose() * kept.asDiagonal() * turn;
+  // So that with the prior the most likely parameters are the fit's.
+  const Eigen::VectorXd at = units.ToCommon(fit.parameters);
+  const Eigen::VectorXd pull = (kept.array() > 0.0).select((turn * (at - common.mean)).eval(), 0.0);
+  out.information = out.precision * at + turn.transpose() * pull;
+  return out;
+}
+
+// Where all points begin, one row a candidate.
+using Candidates = std::vector<std::vector<Eigen::VectorXd>>;
+
+class RecordsFitter {
+ public:
+  RecordsFitter(const std::vector<OperatingPoint>& points, const PointStructure& structure,
+                const ReferenceUnits& reference, std::vector<double> z)
+      : points_(points), structure_(structure), z_(std::move(z)) {
+    for (const OperatingPoint& point : points) {
+      units_.emplace_back(structure, point.record, reference);
+      base_.push_back(PriorOf(structure, point.record));
+    }
+    common_base_ = MeanBase();
+  }
+
+  std::size_t size() const { return points_.size(); }
+  const PointPrior& base(std::size_t e) const { return base_[e]; }
+  PointPrior Prior(std::size_t e, const PointPrior& common) const {
+    return units_[e].FromCommon(common, base_[e]);
+  }
+
+  std::vector<PointFit> Alone(const RecordsFitOptions& options) const;
+  Candidates FromOneAnother(const std::vector<PointFit>& alone) const;
+  Candidates FromPoorer(const RecordsFit& poorer) const;
+  std::vector<PointFit> Best(const Candidates& candidates) const;
+  ParameterLaw Law(const std::vector<ParameterEvidence>& evidence) const {
+    return FitParameterLaw(evidence, common_base_);
+  }
+  std::vector<ParameterEvidence> Evidence(const std::vector<PointFit>& fits,
+                                          const std::vector<PointPrior>& priors) const;
+  // Begun where the point stands and at what the others expect.
+  PointFit Under(std::size_t e, const PointPrior& common, const Eigen::VectorXd& at,
+                 bool from_law) const;
+
+ private:
+  // The base prior of each point, in common units, at its mean over the points.
+  PointPrior MeanBase() const;
+  Eigen::VectorXd StartFrom(std::size_t e, const Eigen::VectorXd& common) const;
+  // The points that give candidates, evenly.
+  std::vector<std::size_t> Drawn() const;
+
+  const std::vector<OperatingPoint>& points_;
+  const PointStructure& structure_;
+  std::vector<double> z_;
+  std::vector<SharedUnits> units_;
+  std::vector<PointPrior> base_;
+  PointPrior common_base_;
+};
+
+PointPrior RecordsFitter::MeanBase() const {
+  const Eigen::Index size = units_[0].size();
+  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)};
+  const auto count = static_cast<double>(this->size());
+  for (std::size_t e = 0; e < this->size(); ++e) {
+    const PointPrior common = units_[e].ToCommon(base_[e]);
+    out.mean += common.mean / count;
+    out.deviation += common.deviation.cwiseAbs2() / count;
+  }
+  out.deviation = out.deviation.cwiseSqrt();
+  return out;
+}
+
+std::vector<PointFit> RecordsFitter::Alone(const RecordsFitOptions& options) const {
+  std::vector<PointFit> out(size());
+  tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t e) {
+    const RecordSpectra& record = points_[e].record;
+    out[e] = FitPoint(record, structure_, base_[e],
+                      StartsOf(record, structure_, base_[e], options.starts,
+                               UnitSeed(options.seed, "starts of a point", e)));
+  });
+  return out;
+}
+
+Eigen::VectorXd RecordsFitter::StartFrom(std::size_t e, const Eigen::VectorXd& common) const {
+  const RecordSpectra& record = points_[e].record;
+  const Eigen::VectorXd shared = units_[e].FromCommon(common, base_[e].mean);
+  LoopPoint point = ToPoint(structure_, record.flame.cols(), shared);
+  point.flame = FlameStart(record, point.tau);
+  return ToParameters(structure_, point);
+}
+
+std::vector<std::size_t> RecordsFitter::Drawn() const {
+  const std::size_t count = std::min(size(), kMostCandidates);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < count; ++i) out.push_back(i * size() / count);
+  return out;
+}
+
+Candidates RecordsFitter::FromOneAnother(const std::vector<PointFit>& alone) const {
+  Candidates out;
+  for (const std::size_t from : Drawn()) {
+    const Eigen::VectorXd common = units_[from].ToCommon(alone[from].parameters);
+    std::vector<Eigen::VectorXd>& row = out.emplace_back();
+    for (std::size_t e = 0; e < size(); ++e) {
+      row.push_back(e == from ? alone[e].parameters : StartFrom(e, common));
+    }
+  }
+  return out;
+}
+
+Candidates RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
+  Candidates out;
+  for (const std::size_t from : Drawn()) {
+    const std::vector<LoopMode> further = FurtherModes(points_[from].record, poorer.structure,
+                                                       poorer.points[from].parameters, structure_);
+    std::vector<Eigen::VectorXd>& row = out.emplace_back();
+    for (std::size_t e = 0; e < size(); ++e) {
+      const RecordScale& at = points_[e].record.scale;
+      const RecordScale& of = points_[from].record.scale;
+      std::vector<LoopMode> here = further;
+      const double cycle = of.cycle_hz / at.cycle_hz;
+      const double residue = cycle * of.pressure / of.heat_release * at.heat_release / at.pressure;
+      for (LoopMode& mode : here) {
+        mode = {mode.omega * cycle, mode.xi, mode.a * residue, mode.b * residue};
+      }
+      row.push_back(InRicherStructure(points_[e].record, poorer.structure,
+                                      poorer.points[e].parameters, structure_, here));
+    }
+    if (further.empty()) break;
+  }
+  return out;
+}
+
+std::vector<PointFit> RecordsFitter::Best(const Candidates& candidates) const {
+  PointFitOptions rough;
+  rough.iterations = kIterationsOfCandidate;
+  std::vector<std::vector<PointFit>> all(candidates.size(), std::vector<PointFit>(size()));
+  tbb::parallel_for(std::size_t{0}, candidates.size() * size(), [&](std::size_t i) {
+    const std::size_t c = i / size();
+    const std::size_t e = i % size();
+    all[c][e] = FitPoint(points_[e].record, structure_, base_[e], candidates[c][e], rough);
+  });
+  std::size_t best = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    double sum = 0.0;
+    for (const PointFit& fit : all[c]) sum += fit.log_posterior;
+    if (sum > most) best = c;
+    most = std::max(sum, most);
+  }
+  return all[best];
+}
+
+std::vector<ParameterEvidence> RecordsFitter::Evidence(
+    const std::vector<PointFit>& fits, const std::vector<PointPrior>& priors) const {
+  std::vector<ParameterEvidence> out;
+  for (std::size_t e = 0; e < size(); ++e) {
+    out.push_back(EvidenceOf(fits[e], priors[e], units_[e], z_[e]));
+  }
+  return out;
+}
+
+PointFit RecordsFitter::Under(std::size_t e, const PointPrior& common, const Eigen::VectorXd& at,
+                              bool from_law) const {
+  const RecordSpectra& record = points_[e].record;
+  const PointPrior prior = Prior(e, common);
+  PointFit best = FitPoint(record, structure_, prior, at);
+  if (from_law) {
+    PointFit other = FitPoint(record, structure_, prior, StartFrom(e, common.mean));
+    if (other.log_posterior > best.log_posterior) best = std::move(other);
+  }
+  return best;
+}
+
+}  // namespace
+
+RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStructure& structure,
+                      const RecordsFitOptions& options, const RecordsFit* poorer) {
+  CHECK(!points.empty());
+  RecordsFit out;
+  out.structure = structure;
+  out.reference = ReferenceOf(points);
+  out.z = Standardised(points);
+  const RecordsFitter fitter(points, structure, out.reference, out.z);
+  Candidates candidates = fitter.FromOneAnother(fitter.Alone(options));
+  if (poorer != nullptr) {
+    for (auto& row : fitter.FromPoorer(*poorer)) candidates.push_back(std::move(row));
+  }
+  out.points = fitter.Best(candidates);
+  for (std::size_t e = 0; e < points.size(); ++e) out.prior.push_back(fitter.base(e));
+  for (int round = 0; round < kRounds; ++round) {
+    const ParameterLaw law = fitter.Law(fitter.Evidence(out.points, out.prior));
+    const bool first = round == 0;
+    const bool converged =
+        !first &&
+        ((law.mean - out.law.mean).cwiseAbs().array() < kConverged * law.spread.array()).all();
+    out.law = law;
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t e) {
+      const PointPrior common = law.PriorAt(out.z[e]);
+      out.points[e] = fitter.Under(e, common, out.points[e].parameters, round < 2);
+      out.prior[e] = fitter.Prior(e, common);
+    });
+    VLOG(1) << "round " << round << " of the law of the parameters";
+    if (converged) break;
+  }
+  return out;
+}
+
+std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,
+                                     const RecordsFit& fit) {
+  const RecordsFitter fitter(points, fit.structure, fit.reference, fit.z);
+  const std::vector<ParameterEvidence> evidence = fitter.Evidence(fit.points, fit.prior);
+  std::vector<double> out(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t e) {
+    std::vector<ParameterEvidence> others = evidence;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
+    const PointPrior common = fitter.Law(others).PredictionAt(fit.z[e]);
+    out[e] = fitter.Under(e, common, fit.points[e].parameters, true).log_evidence;
+  });
+  return out;
+}
+
+}  // namespace howl

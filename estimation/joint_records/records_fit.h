@@ -1,0 +1,56 @@
+// The loops of several operating points of one rig, from their records together.
+//
+// Each point's loop has parameters of its own (point_fit.h), whose prior is the law by which they
+// vary over the points (parameter_law.h), which is estimated with them: points that say little of a
+// parameter lean on those that say more. Alternately the law is estimated from what each record
+// tells, and each point's loop under the law.
+//
+// A mode of one point must be the same mode at the others. The loop found at each point (at up to
+// four) in turn is where all points begin, and the one from which all together become most likely
+// gives the modes their order. Where a poorer structure was fitted before, all points begin as well
+// with what it found there.
+//
+// The work grows as the number of points does, and points run in parallel.
+#ifndef HOWL_ESTIMATION_JOINT_RECORDS_RECORDS_FIT_H_
+#define HOWL_ESTIMATION_JOINT_RECORDS_RECORDS_FIT_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "estimation/joint_records/parameter_law.h"
+#include "estimation/joint_records/shared_units.h"
+#include "estimation/record_fit/point_fit.h"
+
+namespace howl {
+
+struct OperatingPoint {
+  double operating_parameter = 0.0;
+  RecordSpectra record;
+};
+
+struct RecordsFitOptions {
+  std::size_t starts = 12;  // of each point by itself
+  std::uint64_t seed = 1;
+};
+
+struct RecordsFit {
+  PointStructure structure;
+  ReferenceUnits reference;
+  std::vector<double> z;          // parameter_law.h
+  std::vector<PointFit> points;   // under the law
+  ParameterLaw law;               // in common units (shared_units.h)
+  std::vector<PointPrior> prior;  // of each point, by the law
+};
+
+// `poorer`: a fit of these points by a structure that this one contains (richer_structure.h).
+RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStructure& structure,
+                      const RecordsFitOptions& options = {}, const RecordsFit* poorer = nullptr);
+
+// ln of the predictive density of each point's record, by the law that all other points give.
+std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,
+                                     const RecordsFit& fit);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_JOINT_RECORDS_RECORDS_FIT_H_

@@ -1,0 +1,57 @@
+#include "estimation/joint_records/shared_units.h"
+
+#include <cmath>
+
+namespace howl {
+
+SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& record,
+                         const ReferenceUnits& reference)
+    : flame_begin_(structure.Delay() + 1), flame_(record.flame.cols()) {
+  const Eigen::Index size = flame_begin_ + structure.NoiseCoefficients();
+  scale_ = Eigen::VectorXd::Ones(size);
+  shift_ = Eigen::VectorXd::Zero(size);
+  const double cycle = record.scale.cycle_hz / reference.cycle_hz;
+  const double pressure = record.scale.pressure / reference.pressure;
+  const double heat_release = record.scale.heat_release / reference.heat_release;
+  shift_.head(structure.Frequencies()).setConstant(std::log(cycle));
+  scale_.segment(structure.Frequencies() + structure.Dampings(), structure.Residues())
+      .setConstant(cycle * pressure / heat_release);
+  shift_[structure.Delay()] = -std::log(cycle);
+  Eigen::Index next = flame_begin_;
+  for (const NoiseTerm& term : structure.noise) {
+    const double unit = term.source == LoopNoise::kPressureSensor ? pressure : heat_release;
+    shift_[next] = 2.0 * std::log(unit) - std::log(record.sampling_hz / reference.sampling_hz);
+    next += term.coefficients;
+  }
+}
+
+Eigen::VectorXd SharedUnits::ToCommon(const Eigen::VectorXd& parameters) const {
+  Eigen::VectorXd out(size());
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    out[i] = scale_[i] * parameters[IndexOf(i)] + shift_[i];
+  }
+  return out;
+}
+
+Eigen::VectorXd SharedUnits::FromCommon(const Eigen::VectorXd& common,
+                                        const Eigen::VectorXd& base) const {
+  Eigen::VectorXd out = base;
+  for (Eigen::Index i = 0; i < size(); ++i) out[IndexOf(i)] = (common[i] - shift_[i]) / scale_[i];
+  return out;
+}
+
+PointPrior SharedUnits::FromCommon(const PointPrior& common, const PointPrior& base) const {
+  PointPrior out{FromCommon(common.mean, base.mean), base.deviation};
+  for (Eigen::Index i = 0; i < size(); ++i)
+    out.deviation[IndexOf(i)] = common.deviation[i] / scale_[i];
+  return out;
+}
+
+PointPrior SharedUnits::ToCommon(const PointPrior& prior) const {
+  PointPrior out{ToCommon(prior.mean), Eigen::VectorXd(size())};
+  for (Eigen::Index i = 0; i < size(); ++i)
+    out.deviation[i] = prior.deviation[IndexOf(i)] * scale_[i];
+  return out;
+}
+
+}  // namespace howl

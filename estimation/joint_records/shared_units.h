@@ -1,0 +1,54 @@
+// The parameters that the operating points of one rig have in common (all of loop_point.h but the
+// flame's), in units that are the same at every point: those of a reference point.
+//
+//   common = scale u + shift,   u without unit as in loop_point.h
+//
+//   ln omega: + ln c     ln tau: - ln c     a, b: times c P / Q     ln S_j: + 2 ln(P or Q) - ln F
+//
+// c, P, Q and F: the point's cycle, root mean squares of p and q, and sampling rate, over those of
+// the reference. The shape of a spectrum is over the band, which follows the cycle.
+#ifndef HOWL_ESTIMATION_JOINT_RECORDS_SHARED_UNITS_H_
+#define HOWL_ESTIMATION_JOINT_RECORDS_SHARED_UNITS_H_
+
+#include <Eigen/Core>
+
+#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/point_prior.h"
+
+namespace howl {
+
+struct ReferenceUnits {
+  double cycle_hz = 1.0;
+  double pressure = 1.0;
+  double heat_release = 1.0;
+  double sampling_hz = 1.0;
+};
+
+class SharedUnits {
+ public:
+  SharedUnits(const PointStructure& structure, const RecordSpectra& record,
+              const ReferenceUnits& reference);
+
+  Eigen::Index size() const { return scale_.size(); }
+  // Where shared parameter i stands in the point's vector.
+  Eigen::Index IndexOf(Eigen::Index i) const { return i < flame_begin_ ? i : i + flame_; }
+
+  Eigen::VectorXd ToCommon(const Eigen::VectorXd& parameters) const;
+  // `base` gives the flame's.
+  Eigen::VectorXd FromCommon(const Eigen::VectorXd& common, const Eigen::VectorXd& base) const;
+  // The prior of a point whose shared parameters are normal with these common means and deviations.
+  PointPrior FromCommon(const PointPrior& common, const PointPrior& base) const;
+  PointPrior ToCommon(const PointPrior& prior) const;
+
+  const Eigen::VectorXd& scale() const { return scale_; }
+
+ private:
+  Eigen::Index flame_begin_;
+  Eigen::Index flame_;
+  Eigen::VectorXd scale_;
+  Eigen::VectorXd shift_;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_JOINT_RECORDS_SHARED_UNITS_H_

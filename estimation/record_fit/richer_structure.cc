@@ -1,0 +1,71 @@
+#include "estimation/record_fit/richer_structure.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+
+#include "estimation/record_fit/pole_starts.h"
+
+namespace howl {
+namespace {
+
+constexpr double kHardlyShows = 4.0;  // nats below the prior's level
+
+const NoiseTerm* TermOf(const PointStructure& structure, LoopNoise source) {
+  const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
+  return at == structure.noise.end() ? nullptr : &*at;
+}
+
+}  // namespace
+
+bool Contains(const PointStructure& rich, const PointStructure& poor) {
+  if (rich.modes < poor.modes || (rich.ratio && rich.ratio != poor.ratio)) return false;
+  if (rich.ratio && rich.modes != poor.modes) return false;
+  if (poor.own_damping && !rich.own_damping) return false;
+  if (poor.complex_residues && !rich.complex_residues) return false;
+  return std::ranges::all_of(poor.noise, [&](const NoiseTerm& term) {
+    const NoiseTerm* of_rich = TermOf(rich, term.source);
+    return of_rich != nullptr && of_rich->coefficients >= term.coefficients;
+  });
+}
+
+std::vector<LoopMode> FurtherModes(const RecordSpectra& record, const PointStructure& poor,
+                                   const Eigen::VectorXd& parameters, const PointStructure& rich) {
+  if (rich.modes == poor.modes) return {};
+  const PoleStarts starts(record, rich);
+  std::vector<StartPole> poles;
+  for (const LoopMode& mode : ToPoint(poor, record.flame.cols(), parameters).modes) {
+    poles.push_back({mode.omega, mode.xi});
+  }
+  while (static_cast<int>(poles.size()) < rich.modes) poles.push_back(starts.Next(poles));
+  std::vector<LoopMode> modes = starts.WithResidues(poles);
+  modes.erase(modes.begin(), modes.begin() + poor.modes);
+  return modes;
+}
+
+Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStructure& poor,
+                                  const Eigen::VectorXd& parameters, const PointStructure& rich,
+                                  const std::vector<LoopMode>& further) {
+  CHECK(Contains(rich, poor));
+  CHECK_EQ(static_cast<int>(further.size()), rich.modes - poor.modes);
+  LoopPoint point = ToPoint(poor, record.flame.cols(), parameters);
+  point.modes.insert(point.modes.end(), further.begin(), further.end());
+  const PointPrior prior = PriorOf(rich, record);
+  std::vector<Eigen::VectorXd> noise;
+  Eigen::Index level = rich.Delay() + 1 + record.flame.cols();
+  for (const NoiseTerm& term : rich.noise) {
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(term.coefficients);
+    c[0] = prior.mean[level] - kHardlyShows;
+    for (std::size_t j = 0; j < poor.noise.size(); ++j) {
+      if (poor.noise[j].source != term.source) continue;
+      c[0] = 0.0;
+      c.head(point.noise[j].size()) = point.noise[j];
+    }
+    level += term.coefficients;
+    noise.push_back(c);
+  }
+  point.noise = std::move(noise);
+  return ToParameters(rich, point);
+}
+
+}  // namespace howl
