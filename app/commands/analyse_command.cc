@@ -152,7 +152,7 @@ bool AnyHeatRelease(const AnalysisSet& set) {
 }
 
 int Run(const Options& options) {
-  const Config config = LoadConfig(options.config);
+  const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   const std::vector<NamedRecord> records = LoadRecords(config);
   if (records.empty()) {
     throw UserError(config.source.string(), config.experiments.front().line, "experiments",

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "app/command_line/command.h"
+#include "app/fit/record_fit_run.h"
 #include "app/input/config_fit.h"
 #include "app/input/problem_input.h"
 #include "app/input/record_input.h"
@@ -115,7 +116,8 @@ Health CheckAll(const Config& config, const Options& options, const ProblemInput
 }
 
 int Run(const Options& options) {
-  const Config config = LoadConfig(options.config);
+  const Config config = LoadConfig(options.config, LoopsTaken::kAny);
+  if (config.record_loop) return RunRecordFit(config, options);
   const ProblemInput input = LoadInput(config, options);
   RequireExperiments(config, options, input);
   const JointProblem problem = MakeJointProblem(config, input.experiments);

@@ -79,7 +79,7 @@ std::vector<std::string> ShownColumns(const FamilyTable& table, const Options& o
 }
 
 int Run(const Options& options) {
-  const Config config = LoadConfig(options.config);
+  const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   FamilyTable table = ReadFamilyCsv(options.out / kFamilyCsv);
   const std::size_t all = table.rows.size();
   if (all == 0) {

@@ -25,7 +25,7 @@ using Names = std::vector<std::string>;
 
 Names ExperimentNames(const ValueContext& context) {
   Names names;
-  for (const ExperimentConfig& each : LoadConfig(context.config).experiments) {
+  for (const ExperimentConfig& each : LoadConfig(context.config, LoopsTaken::kAny).experiments) {
     names.push_back(each.experiment.name);
   }
   return names;
@@ -33,7 +33,7 @@ Names ExperimentNames(const ValueContext& context) {
 
 Names Quantities(const ValueContext& context) {
   Names names;
-  const Config config = LoadConfig(context.config);
+  const Config config = LoadConfig(context.config, LoopsTaken::kAny);
   for (const ExperimentConfig& each : config.experiments) {
     for (const FamilyParameter parameter : kFamilyParameters) {
       if (parameter == FamilyParameter::kM && config.model.modes == 1) continue;

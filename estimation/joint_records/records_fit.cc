@@ -1,7 +1,6 @@
 #include "estimation/joint_records/records_fit.h"
 
 #include <glog/logging.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -10,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "estimation/parallel.h"
 #include "estimation/record_fit/point_starts.h"
 #include "estimation/record_fit/richer_structure.h"
 #include "estimation/unit_seed.h"
@@ -92,8 +92,8 @@ using Candidates = std::vector<std::vector<Eigen::VectorXd>>;
 class RecordsFitter {
  public:
   RecordsFitter(const std::vector<OperatingPoint>& points, const PointStructure& structure,
-                const ReferenceUnits& reference, std::vector<double> z)
-      : points_(points), structure_(structure), z_(std::move(z)) {
+                const ReferenceUnits& reference, std::vector<double> z, int threads)
+      : points_(points), structure_(structure), z_(std::move(z)), threads_(threads) {
     for (const OperatingPoint& point : points) {
       units_.emplace_back(structure, point.record, reference);
       base_.push_back(PriorOf(structure, point.record));
@@ -130,6 +130,7 @@ class RecordsFitter {
   const std::vector<OperatingPoint>& points_;
   const PointStructure& structure_;
   std::vector<double> z_;
+  int threads_;
   std::vector<SharedUnits> units_;
   std::vector<PointPrior> base_;
   PointPrior common_base_;
@@ -150,7 +151,7 @@ PointPrior RecordsFitter::MeanBase() const {
 
 std::vector<PointFit> RecordsFitter::Alone(const RecordsFitOptions& options) const {
   std::vector<PointFit> out(size());
-  tbb::parallel_for(std::size_t{0}, size(), [&](std::size_t e) {
+  RunUnits(size(), threads_, [&](std::size_t e) {
     const RecordSpectra& record = points_[e].record;
     out[e] = FitPoint(record, structure_, base_[e],
                       StartsOf(record, structure_, base_[e], options.starts,
@@ -213,7 +214,7 @@ std::vector<PointFit> RecordsFitter::Best(const Candidates& candidates) const {
   PointFitOptions rough;
   rough.iterations = kIterationsOfCandidate;
   std::vector<std::vector<PointFit>> all(candidates.size(), std::vector<PointFit>(size()));
-  tbb::parallel_for(std::size_t{0}, candidates.size() * size(), [&](std::size_t i) {
+  RunUnits(candidates.size() * size(), threads_, [&](std::size_t i) {
     const std::size_t c = i / size();
     const std::size_t e = i % size();
     all[c][e] = FitPoint(points_[e].record, structure_, base_[e], candidates[c][e], rough);
@@ -259,13 +260,17 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
   out.structure = structure;
   out.reference = ReferenceOf(points);
   out.z = Standardised(points);
-  const RecordsFitter fitter(points, structure, out.reference, out.z);
+  const RecordsFitter fitter(points, structure, out.reference, out.z, options.threads);
   Candidates candidates = fitter.FromOneAnother(fitter.Alone(options));
   if (poorer != nullptr) {
     for (auto& row : fitter.FromPoorer(*poorer)) candidates.push_back(std::move(row));
   }
   out.points = fitter.Best(candidates);
   for (std::size_t e = 0; e < points.size(); ++e) out.prior.push_back(fitter.base(e));
+  if (points.size() == 1) {
+    out.points[0] = FitPoint(points[0].record, structure, out.prior[0], out.points[0].parameters);
+    return out;
+  }
   for (int round = 0; round < kRounds; ++round) {
     const ParameterLaw law = fitter.Law(fitter.Evidence(out.points, out.prior));
     const bool first = round == 0;
@@ -273,7 +278,7 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
         !first &&
         ((law.mean - out.law.mean).cwiseAbs().array() < kConverged * law.spread.array()).all();
     out.law = law;
-    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t e) {
+    RunUnits(points.size(), options.threads, [&](std::size_t e) {
       const PointPrior common = law.PriorAt(out.z[e]);
       out.points[e] = fitter.Under(e, common, out.points[e].parameters, round < 2);
       out.prior[e] = fitter.Prior(e, common);
@@ -285,11 +290,12 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
 }
 
 std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,
-                                     const RecordsFit& fit) {
-  const RecordsFitter fitter(points, fit.structure, fit.reference, fit.z);
+                                     const RecordsFit& fit, int threads) {
+  if (points.size() == 1) return {fit.points[0].log_evidence};
+  const RecordsFitter fitter(points, fit.structure, fit.reference, fit.z, threads);
   const std::vector<ParameterEvidence> evidence = fitter.Evidence(fit.points, fit.prior);
   std::vector<double> out(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t e) {
+  RunUnits(points.size(), threads, [&](std::size_t e) {
     std::vector<ParameterEvidence> others = evidence;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
     const PointPrior common = fitter.Law(others).PredictionAt(fit.z[e]);

@@ -10,7 +10,8 @@
 // gives the modes their order. Where a poorer structure was fitted before, all points begin as well
 // with what it found there.
 //
-// The work grows as the number of points does, and points run in parallel.
+// The work grows as the number of points does, and points run in parallel. One point by itself is
+// fitted under its own prior.
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_RECORDS_FIT_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_RECORDS_FIT_H_
 
@@ -32,6 +33,7 @@ struct OperatingPoint {
 struct RecordsFitOptions {
   std::size_t starts = 12;  // of each point by itself
   std::uint64_t seed = 1;
+  int threads = 0;  // 0: all cores
 };
 
 struct RecordsFit {
@@ -47,9 +49,10 @@ struct RecordsFit {
 RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStructure& structure,
                       const RecordsFitOptions& options = {}, const RecordsFit* poorer = nullptr);
 
-// ln of the predictive density of each point's record, by the law that all other points give.
+// ln of the predictive density of each point's record, by the law that all other points give. Of
+// one point alone: the evidence of its record.
 std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,
-                                     const RecordsFit& fit);
+                                     const RecordsFit& fit, int threads = 0);
 
 }  // namespace howl
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kDelays = 64;
 constexpr double kMostCycles = 1.25;  // of delay
-constexpr std::size_t kBestDelays = 2;
+constexpr std::size_t kBestDelays = 3;
 constexpr double kEulersGamma = 0.5772156649015329;
 constexpr double kQuiet = 0.1;  // share of bins
 constexpr double kWellDamped = 0.1;
@@ -42,6 +42,7 @@ class Starts {
   StartSolution Flame(double tau) const;
 
  private:
+  void RaiseNoise(LoopPoint* point) const;
   Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
 
   const RecordSpectra& record_;
@@ -65,9 +66,9 @@ std::vector<double> Starts::Delays() const {
     left[i] = Flame(tau[i]).left;
   }
   std::vector<std::pair<double, double>> minima;
-  for (std::size_t i = 0; i < kDelays; ++i) {
-    if (i > 0 && left[i - 1] < left[i]) continue;
-    if (i + 1 < kDelays && left[i + 1] < left[i]) continue;
+  // Without the ends: what q tells of p at once, through the acoustics, leaves least at no delay.
+  for (std::size_t i = 1; i + 1 < kDelays; ++i) {
+    if (left[i - 1] < left[i] || left[i + 1] < left[i]) continue;
     minima.emplace_back(left[i], tau[i]);
   }
   std::ranges::sort(minima);
@@ -111,7 +112,24 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
     }
     point.noise.push_back(c);
   }
+  RaiseNoise(&point);
   return ToParameters(structure_, point);
+}
+
+// Together all sources have the level that is most likely: what a start misses at the cycle's lines
+// is far more than what smooth spectra hold. ln L = c - 2 n x - Q e^(-x) at x above the level.
+void Starts::RaiseNoise(LoopPoint* point) const {
+  const auto log_likelihood = [&](double x) {
+    LoopPoint moved = *point;
+    for (Eigen::VectorXd& source : moved.noise) source[0] += x;
+    return WhittleLogLikelihood(structure_.noise, record_.share,
+                                ResidualsOf(record_, structure_, moved));
+  };
+  const double twice_bins = 2.0 * record_.share.sum();
+  const double square =
+      (log_likelihood(1.0) - log_likelihood(0.0) + twice_bins) / (1.0 - std::exp(-1.0));
+  if (!(square > twice_bins)) return;
+  for (Eigen::VectorXd& source : point->noise) source[0] += std::log(square / twice_bins);
 }
 
 }  // namespace

@@ -151,10 +151,14 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
   const double step = 1e-4 * scale.input_range;
   const Eigen::MatrixXd rises =
       (basis.Columns(v.array() + step) - basis.Columns(v.array() - step)) / (2.0 * step);
+  const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
+  const Eigen::MatrixXd at_rest = basis.Columns(about_rest);
   const Eigen::VectorXcd turn = CyclePhase(v, bin_of_cycle).array().conjugate().square();
   if (scale.functions.size() == 0) scale.functions = OrthogonalFunctions(spectra);
   out.flame = spectra * scale.functions;
   out.slopes = scale.functions.transpose() * rises.colwise().mean().transpose();
+  out.rest_slopes =
+      scale.functions.transpose() * (at_rest.row(0) - at_rest.row(1)).transpose() / (2.0 * step);
   out.coupling =
       scale.functions.transpose() * (rises.transpose() * turn) / static_cast<double>(samples);
   out.scale = std::move(scale);

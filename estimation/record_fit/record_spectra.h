@@ -56,7 +56,8 @@ struct RecordSpectra {
   Eigen::VectorXcd pressure;
   Eigen::VectorXcd heat_release;
   Eigen::MatrixXcd flame;
-  Eigen::VectorXd slopes;  // mean of d b_k / d v over the record
+  Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
+  Eigen::VectorXd rest_slopes;  // d b_k / d v at v = 0
   // Mean of d b_k / d v e^(-2 j theta), theta the phase of the cycle in v (return_difference.h).
   Eigen::VectorXcd coupling;
   Eigen::VectorXd share;  // what each bin counts for

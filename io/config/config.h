@@ -15,6 +15,7 @@
 #include "estimation/analysis/loop/experiment.h"
 #include "estimation/family/problem/family_spec.h"
 #include "estimation/fit/solver_spec.h"
+#include "estimation/joint_records/record_loop_spec.h"
 #include "estimation/parameters.h"
 #include "estimation/residual_spec.h"
 #include "io/config/simulation_spec.h"
@@ -38,6 +39,8 @@ struct Config {
   std::string operating_parameter = "phi";  // the key that experiments carry in place of phi
   std::vector<ExperimentConfig> experiments;
   ModelSpec model = DefaultModelSpec();
+  std::optional<RecordLoopSpec> record_loop;  // where `model` states more than the paper's loop
+  int model_line = 0;                         // of the section; 0 without
   ResidualSet residuals = DefaultResidualSet();
   SolverSpec solver;
   FamilySpec family;

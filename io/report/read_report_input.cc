@@ -78,13 +78,13 @@ void ReadConfig(ReportInput& input) {
             "the config has changed since the last command ran: what the "
             "files hold may belong to its former text");
       }
-      input.config = LoadConfig(run.config);
+      input.config = LoadConfig(run.config, LoopsTaken::kAny);
     } else {
       const auto copy = std::filesystem::temp_directory_path() /
                         ("howl_report_" + std::to_string(getpid()) + ".yaml");
       WriteWholeFile(copy, run.config_text);
       try {
-        input.config = LoadConfig(copy);
+        input.config = LoadConfig(copy, LoopsTaken::kAny);
       } catch (...) {
         std::filesystem::remove(copy);
         throw;

@@ -4,6 +4,7 @@
 #define HOWL_IO_CONFIG_READING_CONFIG_READING_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -25,9 +26,13 @@ struct ConfigReading {
 
 ConfigReading ReadConfigOn(const std::filesystem::path& path);
 
+// The loops that a command can take: the paper's, or richer ones that records alone can show
+// (Config::record_loop).
+enum class LoopsTaken : std::uint8_t { kPapers, kAny };
+
 // Throws UserError at the first mistake, in the order of the file's lines for what the schema
 // states; then come the rules that join several keys.
-Config LoadConfig(const std::filesystem::path& path);
+Config LoadConfig(const std::filesystem::path& path, LoopsTaken loops = LoopsTaken::kPapers);
 
 }  // namespace howl
 

@@ -14,7 +14,7 @@
 
 namespace howl {
 
-Config LoadConfig(const std::filesystem::path& path) {
+Config LoadConfig(const std::filesystem::path& path, LoopsTaken loops) {
   const std::string file = path.string();
   const LocatedNode tree = ParseYaml(file, ReadConfigText(path));
   CheckIsMapping(file, tree);
@@ -35,6 +35,11 @@ Config LoadConfig(const std::filesystem::path& path) {
   ReadSimulation(root, config);
   ReadEffects(root, config);
   config.tree = tree;
+  if (config.record_loop && loops == LoopsTaken::kPapers) {
+    throw UserError(file, config.model_line, "model",
+                    "states a loop that howl fit alone takes, expected modes: 1 or 2, ratio: a "
+                    "number, damping: shared, residue: real, flame_input: pressure_rate");
+  }
   return config;
 }
 

@@ -55,8 +55,9 @@ void CheckSecondMode(const ConfigCursor& parameters, const ModelSpec& model) {
 
 void ReadModel(const ConfigCursor& root, Config& config) {
   if (const auto model = root.Find("model")) {
-    model->Read("modes", config.model.modes);
+    config.model_line = model->Line();
     model->Read("harmonic_ratio", config.model.harmonic_ratio);
+    ReadRecordLoop(*model, config);
   }
   const auto parameters = root.Find("parameters");
   if (!parameters) return;

@@ -26,6 +26,8 @@ struct ExperimentMistakes {
 void ReadExperiments(const ConfigCursor& root, Config& config,
                      ExperimentMistakes* mistakes = nullptr);
 void ReadModel(const ConfigCursor& root, Config& config);      // `model`, `parameters`
+// `model` where it states more than the paper's loop.
+void ReadRecordLoop(const ConfigCursor& model, Config& config);
 void ReadResiduals(const ConfigCursor& root, Config& config);  // after the experiments
 void ReadFamily(const ConfigCursor& root, Config& config);
 void ReadSolver(const ConfigCursor& root, Config& config);

@@ -1,0 +1,90 @@
+#include "app/fit/record_fit_run.h"
+
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/command_line/command.h"
+#include "app/input/record_input.h"
+#include "app/process/progress_line.h"
+#include "app/text/record_fit_text.h"
+#include "estimation/analysis/analyse.h"
+#include "estimation/parallel.h"
+#include "io/results/record_solution_json.h"
+#include "io/user_error.h"
+#include "io/whole_file.h"
+
+namespace howl {
+namespace {
+
+void RequireRecords(const Config& config) {
+  for (const ExperimentConfig& each : config.experiments) {
+    if (each.record) continue;
+    throw UserError(config.source.string(), each.line, "experiments",
+                    each.experiment.name +
+                        " has no record, expected one of p and q: the config's model states a loop "
+                        "that is fitted to records");
+  }
+}
+
+// The cycle's frequency, or that of the strongest peak where there is no cycle.
+double CycleOf(const Analysis& analysis) {
+  const Characteristics& c = analysis.characteristics;
+  return c.state == CycleState::kNoLimitCycle ? c.peak.frequency_hz : c.frequency_hz.value;
+}
+
+RecordSolution Solve(const Config& config, const Options& options) {
+  const std::vector<NamedRecord> records = LoadRecords(config);
+  const AnalysisSet set = AnalyseRecords(records, MakeAnalysisOptions(config, options));
+  RecordSolution out;
+  out.points.resize(records.size());
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const NamedRecord& record = records[e];
+    if (record.record.heat_release.empty()) {
+      throw UserError(config.source.string(), config.experiments[e].line, "experiments",
+                      record.name +
+                          " has no heat release, expected p and q: the config's model "
+                          "states a loop that is fitted to both");
+    }
+    out.names.push_back(record.name);
+  }
+  RunUnits(records.size(), options.threads, [&](std::size_t e) {
+    out.points[e] = {records[e].phi, MakeRecordSpectra(records[e].record, CycleOf(set.analyses[e]),
+                                                       config.record_loop->flame_input)};
+  });
+  RecordsFitOptions fit_options;
+  fit_options.seed = options.seed;
+  fit_options.threads = options.threads;
+  ProgressLine progress("fitting modes", options.quiet);
+  out.loop = FitLoop(out.points, *config.record_loop, fit_options, [&](int modes) {
+    progress.Show(static_cast<std::size_t>(modes), static_cast<std::size_t>(kMostModes));
+  });
+  progress.Clear();
+  std::vector<LoopGainPoint> gains;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const RecordsFit& fit = out.loop.fit;
+    out.fitted.push_back(FittedLoopOf(out.points[e].record, fit.structure, fit.points[e]));
+    const SmallSignalLoop& small = out.fitted.back().small_signal;
+    if (small.found) gains.push_back({records[e].phi, small.loop_gain});
+  }
+  out.vanishing_phi = EstimateVanishingPhi(gains);
+  return out;
+}
+
+}  // namespace
+
+int RunRecordFit(const Config& config, const Options& options) {
+  RequireRecords(config);
+  const RecordSolution solution = Solve(config, options);
+  const std::filesystem::path path = options.out / "solution.json";
+  WriteWholeFile(path, RecordSolutionJson(solution).dump(2) + "\n");
+  if (!options.quiet) {
+    std::printf("%s", RecordFitText(solution, config.operating_parameter).c_str());
+    std::printf("written: %s\n", path.c_str());
+  }
+  return solution.Converged() ? kDone : kNegativeAnswer;
+}
+
+}  // namespace howl

@@ -1,0 +1,73 @@
+#include "app/text/record_fit_text.h"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "app/text/text_table.h"
+#include "app/text/vanishing_text.h"
+#include "estimation/analysis/spectra/half_width.h"
+
+namespace howl {
+namespace {
+
+std::string PlusMinus(const Estimate& estimate, int digits) {
+  return Significant(estimate.value, digits) + " ± " + Significant(HalfWidth95(estimate), 2);
+}
+
+Estimate Scaled(const Estimate& estimate, double factor) {
+  return {factor * estimate.value, factor * estimate.std};
+}
+
+std::string LoopsText(const RecordSolution& solution, const std::string& operating_parameter) {
+  TextTable table({"experiment", operating_parameter, "f Hz", "tau ms", "loop gain", "growth 1/s"});
+  for (std::size_t e = 0; e < solution.fitted.size(); ++e) {
+    const FittedLoop& loop = solution.fitted[e];
+    table.AddRow({solution.names[e] + (loop.converged ? "" : " *"),
+                  Significant(solution.points[e].operating_parameter), Fixed(loop.cycle_hz, 1),
+                  PlusMinus(Scaled(loop.tau_s, 1e3), 4), PlusMinus(loop.small_signal.loop_gain, 4),
+                  PlusMinus(loop.small_signal.growth_rate_1_s, 3)});
+  }
+  std::string out =
+      table.Text() + kPlusMinusLegend + "; gain and growth: of small signals about rest";
+  if (!solution.Converged()) out += "; * not converged";
+  return out + "\n";
+}
+
+std::string ModesText(const RecordSolution& solution) {
+  TextTable table({"experiment", "mode", "omega Hz", "xi", "N", "angle"});
+  for (std::size_t e = 0; e < solution.fitted.size(); ++e) {
+    int number = 0;
+    for (const FittedMode& mode : solution.fitted[e].modes) {
+      const double angle = std::atan2(mode.B.value, mode.N.value) * 180.0 / std::numbers::pi;
+      table.AddRow({solution.names[e], std::to_string(++number), PlusMinus(mode.omega_hz, 5),
+                    PlusMinus(mode.xi, 3), PlusMinus(mode.N, 4), Fixed(angle, 0)});
+    }
+  }
+  return table.Text() + "angle: of the residue N + j B, in degrees; 0: p measured at the flame\n";
+}
+
+std::string TriedText(const ChosenLoop& loop) {
+  const double best = loop.tried[loop.chosen].Sum();
+  if (loop.tried.size() == 1) {
+    return "density of each record by what the others show: " + Significant(best, 6) +
+           " nats in all\n";
+  }
+  TextTable table({"modes", "nats", "below the best"});
+  for (const ModesTried& one : loop.tried) {
+    table.AddRow({std::to_string(one.modes), Fixed(one.Sum(), 1), Fixed(best - one.Sum(), 1)});
+  }
+  return table.Text() +
+         "nats: of the density of each record by what the others show; a difference of 3 is odds "
+         "of 20\n";
+}
+
+}  // namespace
+
+std::string RecordFitText(const RecordSolution& solution, const std::string& operating_parameter) {
+  return LoopsText(solution, operating_parameter) + ModesText(solution) + TriedText(solution.loop) +
+         VanishingText(solution.vanishing_phi, operating_parameter);
+}
+
+}  // namespace howl

@@ -1,0 +1,93 @@
+#include "estimation/joint_records/fitted_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace howl {
+namespace {
+
+constexpr Eigen::Index kFrequencies = 11;  // of a spectrum
+
+// A parameter that is fitted as a logarithm.
+Estimate FromLogarithm(double log_value, double variance, double unit) {
+  const double value = unit * std::exp(log_value);
+  return {value, value * std::sqrt(variance)};
+}
+
+std::vector<FittedMode> ModesOf(const PointStructure& structure, const LoopPoint& point,
+                                const Eigen::MatrixXd& covariance, const RecordScale& scale) {
+  const double residue =
+      2.0 * std::numbers::pi * scale.cycle_hz * scale.pressure / scale.heat_release;
+  const Eigen::Index dampings = structure.Frequencies();
+  const Eigen::Index residues = dampings + structure.Dampings();
+  std::vector<FittedMode> out;
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    const LoopMode& mode = point.modes[static_cast<std::size_t>(k)];
+    const auto variance = [&](Eigen::Index i) { return covariance(i, i); };
+    FittedMode fitted;
+    fitted.omega_hz =
+        FromLogarithm(std::log(mode.omega), variance(structure.ratio ? 0 : k), scale.cycle_hz);
+    fitted.xi =
+        FromLogarithm(std::log(mode.xi), variance(dampings + (structure.own_damping ? k : 0)), 1.0);
+    fitted.N = {residue * mode.a, residue * std::sqrt(variance(residues + k))};
+    fitted.B = {0.0, 0.0};
+    if (structure.complex_residues) {
+      fitted.B = {residue * mode.b, residue * std::sqrt(variance(residues + structure.modes + k))};
+    }
+    out.push_back(fitted);
+  }
+  std::ranges::sort(out, {}, [](const FittedMode& mode) { return mode.omega_hz.value; });
+  return out;
+}
+
+std::vector<FittedNoise> NoiseOf(const RecordSpectra& record, const PointStructure& structure,
+                                 const LoopPoint& point, const Eigen::MatrixXd& covariance) {
+  std::vector<FittedNoise> out;
+  Eigen::Index first = structure.Delay() + 1 + record.flame.cols();
+  const double lowest = std::abs(record.s[0]);
+  const double highest = std::abs(record.s[record.bins() - 1]);
+  for (std::size_t j = 0; j < structure.noise.size(); ++j) {
+    const NoiseTerm& term = structure.noise[j];
+    const bool of_p = term.source == LoopNoise::kPressureSensor;
+    const double unit = of_p ? record.scale.pressure : record.scale.heat_release;
+    const Eigen::VectorXd position = Eigen::VectorXd::LinSpaced(kFrequencies, -1.0, 1.0);
+    const Eigen::MatrixXd shapes = ChebyshevColumns(position, term.coefficients);
+    const Eigen::MatrixXd block =
+        covariance.block(first, first, term.coefficients, term.coefficients);
+    FittedNoise noise;
+    noise.source = term.source;
+    for (Eigen::Index i = 0; i < kFrequencies; ++i) {
+      const Eigen::VectorXd shape = shapes.row(i);
+      noise.frequency_hz.push_back(record.scale.cycle_hz * lowest *
+                                   std::pow(highest / lowest, 0.5 * (position[i] + 1.0)));
+      // The taper's difference of two bins doubles the power, one side halves the band.
+      noise.psd.push_back(std::exp(shape.dot(point.noise[j])) * unit * unit / record.sampling_hz);
+      noise.log_std.push_back(std::sqrt(shape.dot(block * shape)));
+    }
+    first += term.coefficients;
+    out.push_back(std::move(noise));
+  }
+  return out;
+}
+
+}  // namespace
+
+FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& structure,
+                        const PointFit& fit) {
+  const LoopPoint point = ToPoint(structure, record.flame.cols(), fit.parameters);
+  const Eigen::MatrixXd covariance = fit.Covariance();
+  FittedLoop out;
+  out.cycle_hz = record.scale.cycle_hz;
+  out.transfer =
+      AcousticTransfer(point, {0.0, 1.0}) * record.scale.pressure / record.scale.heat_release;
+  out.modes = ModesOf(structure, point, covariance, record.scale);
+  out.tau_s = FromLogarithm(std::log(point.tau), covariance(structure.Delay(), structure.Delay()),
+                            1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz));
+  out.small_signal = SmallSignalLoopOf(record, structure, fit);
+  out.noise = NoiseOf(record, structure, point, covariance);
+  out.converged = fit.converged;
+  return out;
+}
+
+}  // namespace howl

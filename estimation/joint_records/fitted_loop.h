@@ -1,0 +1,46 @@
+// A point's loop as its record shows it, in units of the rig, each value with its error:
+//
+//   R(s) = sum_k (N_k s + B_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
+//
+// N as in the paper's (5a), B what a probe elsewhere or a mean flow adds to it.
+#ifndef HOWL_ESTIMATION_JOINT_RECORDS_FITTED_LOOP_H_
+#define HOWL_ESTIMATION_JOINT_RECORDS_FITTED_LOOP_H_
+
+#include <complex>
+#include <vector>
+
+#include "estimation/joint_records/small_signal_loop.h"
+
+namespace howl {
+
+struct FittedMode {
+  Estimate omega_hz;
+  Estimate xi;
+  Estimate N;  // units of p per unit of q, times rad/s
+  Estimate B;  // the same
+};
+
+// One-sided spectrum of a source of noise: of p squared or q squared a Hz, at the source.
+struct FittedNoise {
+  LoopNoise source = LoopNoise::kCombustion;
+  std::vector<double> frequency_hz;
+  std::vector<double> psd;
+  std::vector<double> log_std;  // of ln psd
+};
+
+struct FittedLoop {
+  double cycle_hz = 0.0;          // about which the band lies
+  std::complex<double> transfer;  // R at the cycle
+  std::vector<FittedMode> modes;  // by frequency
+  Estimate tau_s;
+  SmallSignalLoop small_signal;
+  std::vector<FittedNoise> noise;
+  bool converged = false;
+};
+
+FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& structure,
+                        const PointFit& fit);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_JOINT_RECORDS_FITTED_LOOP_H_

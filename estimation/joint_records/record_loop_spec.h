@@ -1,0 +1,29 @@
+// Which loop is fitted to records: the acoustics' modes, and what the flame answers to.
+#ifndef HOWL_ESTIMATION_JOINT_RECORDS_RECORD_LOOP_SPEC_H_
+#define HOWL_ESTIMATION_JOINT_RECORDS_RECORD_LOOP_SPEC_H_
+
+#include <optional>
+
+#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/record_spectra.h"
+
+namespace howl {
+
+inline constexpr int kMostModes = 8;
+
+struct RecordLoopSpec {
+  int modes = 2;
+  bool choose_modes = false;    // by what the data say of 1 .. kMostModes
+  std::optional<double> ratio;  // as in PointStructure
+  bool own_damping = true;
+  bool complex_residues = true;
+  FlameInput flame_input = FlameInput::kPressureRate;
+};
+
+// Noise is that of rigs: combustion's, the duct's and both sensors', with smooth spectra of their
+// own.
+PointStructure StructureOf(const RecordLoopSpec& spec, int modes);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_JOINT_RECORDS_RECORD_LOOP_SPEC_H_

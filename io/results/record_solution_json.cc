@@ -1,0 +1,104 @@
+#include "io/results/record_solution_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/results/solution_json.h"
+
+namespace howl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json EstimateJson(const Estimate& estimate) {
+  return {{"value", NumberOrNull(estimate.value)}, {"std", NumberOrNull(estimate.std)}};
+}
+
+Json ModesJson(const FittedLoop& loop) {
+  Json modes = Json::array();
+  for (const FittedMode& mode : loop.modes) {
+    modes.push_back({{"omega_hz", EstimateJson(mode.omega_hz)},
+                     {"xi", EstimateJson(mode.xi)},
+                     {"N", EstimateJson(mode.N)},
+                     {"B", EstimateJson(mode.B)}});
+  }
+  return modes;
+}
+
+Json NoiseJson(const FittedLoop& loop) {
+  Json noise = Json::array();
+  for (const FittedNoise& source : loop.noise) {
+    noise.push_back({{"source", LoopNoiseName(source.source)},
+                     {"frequency_hz", source.frequency_hz},
+                     {"psd", source.psd},
+                     {"log_std", source.log_std}});
+  }
+  return noise;
+}
+
+Json ExperimentJson(const std::string& name, const OperatingPoint& point, const FittedLoop& loop,
+                    double log_density) {
+  // The keys that every solution has are those of the mode next to the cycle.
+  const FittedMode& first = *std::ranges::min_element(loop.modes, {}, [&](const FittedMode& mode) {
+    return std::abs(std::log(mode.omega_hz.value / loop.cycle_hz));
+  });
+  const SmallSignalLoop& small = loop.small_signal;
+  return {{"name", name},
+          {"phi", point.operating_parameter},
+          {"omega_hz", first.omega_hz.value},
+          {"xi", first.xi.value},
+          {"N", first.N.value},
+          {"M", nullptr},
+          {"tau_s", loop.tau_s.value},
+          {"loop_gain", NumberOrNull(small.loop_gain.value)},
+          {"frequency_hz", loop.cycle_hz},
+          {"phase_deg", std::arg(loop.transfer) * 180.0 / std::numbers::pi},
+          {"gain", std::abs(loop.transfer)},
+          {"tau_std_s", NumberOrNull(loop.tau_s.std)},
+          {"modes", ModesJson(loop)},
+          {"small_signal",
+           {{"frequency_hz", EstimateJson(small.frequency_hz)},
+            {"growth_rate_1_s", EstimateJson(small.growth_rate_1_s)},
+            {"loop_gain", EstimateJson(small.loop_gain)}}},
+          {"noise", NoiseJson(loop)},
+          {"log_density_left_out", NumberOrNull(log_density)},
+          {"converged", loop.converged}};
+}
+
+Json TriedJson(const ChosenLoop& loop) {
+  Json tried = Json::array();
+  for (const ModesTried& one : loop.tried) {
+    tried.push_back({{"modes", one.modes}, {"log_density_left_out", one.Sum()}});
+  }
+  return tried;
+}
+
+}  // namespace
+
+bool RecordSolution::Converged() const {
+  return std::ranges::all_of(fitted, &FittedLoop::converged);
+}
+
+Json RecordSolutionJson(const RecordSolution& solution) {
+  const ModesTried& chosen = solution.loop.tried[solution.loop.chosen];
+  Json experiments = Json::array();
+  double cost = 0.0;
+  for (std::size_t e = 0; e < solution.points.size(); ++e) {
+    experiments.push_back(ExperimentJson(solution.names[e], solution.points[e], solution.fitted[e],
+                                         chosen.log_density[e]));
+    cost -= solution.loop.fit.points[e].log_posterior;
+  }
+  const bool converged = solution.Converged();
+  return {{"schema", "howl.solution/1"},
+          {"experiments", experiments},
+          {"shared", Json::object()},
+          {"vanishing_phi", VanishingJson(solution.vanishing_phi)},
+          {"cost", NumberOrNull(cost)},
+          {"termination", converged ? "converged" : "not converged"},
+          {"converged", converged},
+          {"modes", chosen.modes},
+          {"modes_tried", TriedJson(solution.loop)}};
+}
+
+}  // namespace howl

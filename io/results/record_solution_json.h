@@ -1,0 +1,30 @@
+// solution.json, schema howl.solution/1, of a loop that was fitted to records: the modes, delay,
+// small-signal loop and noise of each experiment, and the law by which they vary.
+#ifndef HOWL_IO_RESULTS_RECORD_SOLUTION_JSON_H_
+#define HOWL_IO_RESULTS_RECORD_SOLUTION_JSON_H_
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "estimation/analysis/loop/vanishing_phi.h"
+#include "estimation/joint_records/choose_modes.h"
+#include "estimation/joint_records/fitted_loop.h"
+
+namespace howl {
+
+struct RecordSolution {
+  std::vector<std::string> names;  // of the experiments
+  std::vector<OperatingPoint> points;
+  ChosenLoop loop;
+  std::vector<FittedLoop> fitted;
+  VanishingPhi vanishing_phi;
+
+  bool Converged() const;
+};
+
+nlohmann::ordered_json RecordSolutionJson(const RecordSolution& solution);
+
+}  // namespace howl
+
+#endif  // HOWL_IO_RESULTS_RECORD_SOLUTION_JSON_H_

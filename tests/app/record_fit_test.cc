@@ -1,0 +1,104 @@
+// howl fit of a loop that records alone can show.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/app/program.h"
+
+namespace howl {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+// A copy of first_rig.yaml beside its records, with this model.
+class RecordFitOfFirstRig : public testing::Test {
+ protected:
+  ProgramResult Run(const std::string& command, const std::string& model) {
+    std::filesystem::copy(std::string(HOWL_SOURCE_DIR) + "/configs/first_rig",
+                          folder_.path() / "first_rig",
+                          std::filesystem::copy_options::overwrite_existing);
+    config_ = folder_.Write("rig.yaml", ReadFile(Config("first_rig")) + model).string();
+    return RunHowl(command + " " + config_ + " --out " + (folder_.path() / "out").string());
+  }
+  Json Solution() const { return Json::parse(ReadFile(folder_.path() / "out/solution.json")); }
+
+  TemporaryFolder folder_;
+  std::string config_;
+};
+
+// The records were simulated from the fit of R228 (configs/first_rig.yaml).
+TEST_F(RecordFitOfFirstRig, FindsTheLoopThatMadeTheRecords) {
+  const ProgramResult fit = Run("fit", "model: {modes: 1, residue: complex}\n");
+  ASSERT_EQ(fit.status, 0) << fit.err << fit.out;
+  const TemporaryFolder r228;
+  ASSERT_EQ(RunHowl("fit " + Config("r228") + " --quiet --out " + r228.path().string()).status, 0);
+  const Json made_by = Json::parse(ReadFile(r228.path() / "solution.json"))["experiments"];
+  const std::map<std::string, std::size_t> experiment_of = {
+      {"rich", 0}, {"middle", 1}, {"lean", 2}};
+  const Json solution = Solution();
+  EXPECT_EQ(solution["schema"], "howl.solution/1");
+  ASSERT_EQ(solution["experiments"].size(), 3u);
+  for (const Json& found : solution["experiments"]) {
+    const Json& truth = made_by[experiment_of.at(found["name"])];
+    const auto near = [&](const Json& estimate, double value, const std::string& what) {
+      const double distance = estimate["value"].get<double>() - value;
+      EXPECT_LT(std::abs(distance), 4.0 * estimate["std"].get<double>())
+          << what << " of " << found["name"] << ": " << estimate << " for " << value;
+    };
+    ASSERT_EQ(found["modes"].size(), 1u);
+    const Json& mode = found["modes"][0];
+    near(mode["omega_hz"], truth["omega_hz"], "omega");
+    near(mode["xi"], truth["xi"], "xi");
+    near(mode["N"], truth["N"], "N");
+    near(mode["B"], 0.0, "B");
+    near({{"value", found["tau_s"]}, {"std", found["tau_std_s"]}}, truth["tau_s"], "tau");
+    near(found["small_signal"]["loop_gain"], truth["loop_gain"], "loop gain");
+    EXPECT_EQ(found["omega_hz"], mode["omega_hz"]["value"]);
+  }
+  EXPECT_THAT(fit.out, HasSubstr("growth 1/s"));
+}
+
+TEST_F(RecordFitOfFirstRig, SameAnswerWhateverTheThreads) {
+  const std::string model = "model: {modes: 1, residue: complex}\n";
+  ASSERT_EQ(Run("fit --threads 1", model).status, 0);
+  const Json one = Solution();
+  ASSERT_EQ(Run("fit --threads 3", model).status, 0);
+  EXPECT_EQ(Solution(), one);
+}
+
+TEST_F(RecordFitOfFirstRig, OtherCommandsRefuseTheLoop) {
+  for (const std::string command : {"family", "predict --at 0.52", "simulate", "diagnose"}) {
+    const ProgramResult result = Run(command, "model: {modes: 3}\n");
+    EXPECT_EQ(result.status, 2) << command;
+    EXPECT_THAT(result.err, HasSubstr("rig.yaml:8: model: states a loop that howl fit alone takes"))
+        << command;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "run.json")) << command;
+  }
+}
+
+TEST(RecordFit, NeedsRecordsOfBothSignals) {
+  const TemporaryFolder folder;
+  const std::string table =
+      folder.Write("table.yaml", ReadFile(Config("r228")) + "model: {residue: complex}\n").string();
+  const ProgramResult fit = RunHowl("fit " + table + " --out " + folder.path().string());
+  EXPECT_EQ(fit.status, 2);
+  EXPECT_THAT(fit.err, HasSubstr("exp1 has no record, expected one of p and q"));
+  const std::string pressure_only =
+      folder
+          .Write("pressure.yaml", "experiments:\n  - {name: a, phi: 1, record: {file: " +
+                                      std::string(HOWL_SOURCE_DIR) +
+                                      "/configs/first_rig/exp1.csv.gz, pressure: p_pa, "
+                                      "sampling_hz: 5000}}\nmodel: {damping: own}\n")
+          .string();
+  const ProgramResult other = RunHowl("fit " + pressure_only + " --out " + folder.path().string());
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("pressure.yaml:2: experiments: a has no heat release"));
+}
+
+}  // namespace
+}  // namespace howl

@@ -1,0 +1,73 @@
+// The config's `model` where it states more than the paper's loop.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/config/reading/config_reading.h"
+#include "tests/io/config_file.h"
+
+namespace howl {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kExperiments =
+    "experiments:\n  - {name: a, phi: 1, frequency_hz: 200, phase_deg: 1, gain: 1}\n";
+
+Config Read(const std::string& model, LoopsTaken loops = LoopsTaken::kAny) {
+  const ConfigFile file(kExperiments + ("model: {" + model + "}\n"));
+  return LoadConfig(file.Path(), loops);
+}
+
+std::string Mistake(const std::string& model, LoopsTaken loops = LoopsTaken::kAny) {
+  try {
+    Read(model, loops);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(ConfigRecordLoop, ThePapersLoopIsNoOther) {
+  for (const std::string model :
+       {"modes: 1", "modes: 2", "modes: 2, harmonic_ratio: 2.8", "modes: 2, ratio: 2.8",
+        "modes: 2, damping: shared, residue: real, flame_input: pressure_rate"}) {
+    EXPECT_FALSE(Read(model, LoopsTaken::kPapers).record_loop) << model;
+  }
+  EXPECT_EQ(Read("modes: 2, ratio: 2.8").model.harmonic_ratio, 2.8);
+  EXPECT_EQ(Read("modes: 2, ratio: 2.8").model.modes, 2);
+}
+
+TEST(ConfigRecordLoop, EachKeyStatesARicherLoop) {
+  const RecordLoopSpec three = *Read("modes: 3").record_loop;
+  EXPECT_EQ(three.modes, 3);
+  EXPECT_EQ(three.ratio, 3.0);
+  EXPECT_FALSE(three.own_damping);
+  EXPECT_FALSE(three.complex_residues);
+  EXPECT_EQ(three.flame_input, FlameInput::kPressureRate);
+  EXPECT_TRUE(Read("modes: auto").record_loop->choose_modes);
+  EXPECT_FALSE(Read("modes: 2, ratio: free").record_loop->ratio);
+  EXPECT_TRUE(Read("damping: own").record_loop->own_damping);
+  EXPECT_TRUE(Read("residue: complex").record_loop->complex_residues);
+  EXPECT_EQ(Read("flame_input: velocity").record_loop->flame_input, FlameInput::kVelocity);
+  EXPECT_EQ(Read("flame_input: pressure").record_loop->flame_input, FlameInput::kPressure);
+  // What else reads the config takes two modes at most.
+  EXPECT_EQ(Read("modes: 5").model.modes, 2);
+}
+
+TEST(ConfigRecordLoop, SaysWhatIsWrong) {
+  EXPECT_THAT(Mistake("modes: 9"), HasSubstr(":3: model.modes: 9 is out of range"));
+  EXPECT_THAT(Mistake("modes: many"),
+              HasSubstr(":3: model.modes: is \"many\", expected a number from 1 to 8, or auto"));
+  EXPECT_THAT(Mistake("ratio: fixed"), HasSubstr("expected a number above 1, or free"));
+  EXPECT_THAT(Mistake("ratio: 0.5"), HasSubstr(":3: model.ratio: 0.5 is out of range"));
+  EXPECT_THAT(Mistake("ratio: 3, harmonic_ratio: 3"), HasSubstr("only one of the two"));
+  EXPECT_THAT(Mistake("residue: imaginary"), HasSubstr("model.residue"));
+  EXPECT_THAT(Mistake("modes: 2.5"), HasSubstr("model.modes"));
+  EXPECT_THAT(Mistake("modes: 3", LoopsTaken::kPapers),
+              HasSubstr(":3: model: states a loop that howl fit alone takes"));
+}
+
+}  // namespace
+}  // namespace howl
