@@ -13,12 +13,13 @@ namespace {
 // that, as shares of the prior's deviation: of what the prior allows, a rig's points show a part.
 constexpr double kTrend = 0.3;
 constexpr double kTypicalSpread = 0.1;
+constexpr double kPriorDegrees = 1.0;  // of freedom, of s^2
 constexpr int kIterations = 300;
 constexpr double kConverged = 1e-4;  // of the largest change of ln s
 
 }  // namespace
 
-PointPrior ParameterLaw::PriorAt(double z) const { return {mean + z * trend, spread}; }
+PointPrior ParameterLaw::PriorAt(double z) const { return {mean + z * trend, spread, {}}; }
 
 PointPrior ParameterLaw::PredictionAt(double z) const {
   PointPrior out = PriorAt(z);
@@ -27,6 +28,7 @@ PointPrior ParameterLaw::PredictionAt(double z) const {
     out.deviation[i] =
         std::sqrt(spread[i] * spread[i] + x.dot(covariance[static_cast<std::size_t>(i)] * x));
   }
+  out.degrees = Eigen::VectorXd::Constant(mean.size(), kPriorDegrees + static_cast<double>(points));
   return out;
 }
 
@@ -40,7 +42,7 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
     moments += x * x.transpose();
   }
   ParameterLaw law{base.mean, Eigen::VectorXd::Zero(size), base.deviation,
-                   std::vector<Eigen::Matrix2d>(static_cast<std::size_t>(size))};
+                   std::vector<Eigen::Matrix2d>(static_cast<std::size_t>(size)), points.size()};
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     // What is expected of each point, given the law.
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
@@ -73,12 +75,13 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
       law.mean[i] = law_of_i[0];
       law.trend[i] = law_of_i[1];
       law.covariance[static_cast<std::size_t>(i)] = covariance;
-      double squares = std::pow(kTypicalSpread * deviation, 2);
+      double squares = kPriorDegrees * std::pow(kTypicalSpread * deviation, 2);
       for (std::size_t e = 0; e < points.size(); ++e) {
+        const Eigen::Vector2d x(1.0, points[e].z);
         squares +=
-            variance[e][i] + std::pow(value[e][i] - law.mean[i] - law.trend[i] * points[e].z, 2);
+            variance[e][i] + x.dot(covariance * x) + std::pow(value[e][i] - law_of_i.dot(x), 2);
       }
-      const double spread = std::sqrt(squares / (count + 3.0));  // its most likely value
+      const double spread = std::sqrt(squares / (count + kPriorDegrees));
       change = std::max(change, std::abs(std::log(spread / law.spread[i])));
       law.spread[i] = spread;
     }

@@ -6,9 +6,9 @@
 //
 // for each parameter by itself. m and b have normal priors; s^2 is scaled inverse chi-squared with
 // one degree of freedom, so that what the points have in common may come near to being the same.
-// What a record tells is normal about its most likely parameters (Laplace), and m, b and s maximise
-// the posterior density by expectation and maximisation (Dempster, Laird & Rubin 1977; the random
-// effects of Laird & Ware 1982).
+// What a record tells is normal about its most likely parameters (Laplace). The posteriors of the
+// u_e, of (m, b) and of s^2 are taken as independent (mean-field variational Bayes, Attias 2000;
+// the random effects of Laird & Ware 1982), each in turn given the others until they stand still.
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_
 
@@ -30,13 +30,14 @@ struct ParameterEvidence {
 struct ParameterLaw {
   Eigen::VectorXd mean;    // m
   Eigen::VectorXd trend;   // b
-  Eigen::VectorXd spread;  // s
+  Eigen::VectorXd spread;  // s, as the mean of 1 / s^2 has it
   // Of (m, b), for each parameter.
   std::vector<Eigen::Matrix2d> covariance;
+  std::size_t points = 0;  // from which it was estimated
 
   // Of a point that was among those from which the law was estimated.
   PointPrior PriorAt(double z) const;
-  // Of another point.
+  // Of another point: Student's density, with one degree of freedom more than there were points.
   PointPrior PredictionAt(double z) const;
 };
 

@@ -1,13 +1,18 @@
 #include "estimation/joint_records/shared_units.h"
 
 #include <cmath>
+#include <limits>
 
 namespace howl {
 
 SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& record,
-                         const ReferenceUnits& reference)
-    : flame_begin_(structure.Delay() + 1), flame_(record.flame.cols()) {
-  const Eigen::Index size = flame_begin_ + structure.NoiseCoefficients();
+                         const ReferenceUnits& reference) {
+  for (Eigen::Index i = 0; i < structure.Transfer(); ++i) index_.push_back(i);
+  const auto delay = static_cast<Eigen::Index>(index_.size());
+  index_.push_back(structure.Delay());
+  const Eigen::Index noise = structure.Delay() + 1 + record.flame.cols();
+  for (Eigen::Index i = 0; i < structure.NoiseCoefficients(); ++i) index_.push_back(noise + i);
+  const auto size = static_cast<Eigen::Index>(index_.size());
   scale_ = Eigen::VectorXd::Ones(size);
   shift_ = Eigen::VectorXd::Zero(size);
   const double cycle = record.scale.cycle_hz / reference.cycle_hz;
@@ -16,8 +21,8 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
   shift_.head(structure.Frequencies()).setConstant(std::log(cycle));
   scale_.segment(structure.Frequencies() + structure.Dampings(), structure.Residues())
       .setConstant(cycle * pressure / heat_release);
-  shift_[structure.Delay()] = -std::log(cycle);
-  Eigen::Index next = flame_begin_;
+  shift_[delay] = -std::log(cycle);
+  Eigen::Index next = delay + 1;
   for (const NoiseTerm& term : structure.noise) {
     const double unit = term.source == LoopNoise::kPressureSensor ? pressure : heat_release;
     shift_[next] = 2.0 * std::log(unit) - std::log(record.sampling_hz / reference.sampling_hz);
@@ -41,14 +46,19 @@ Eigen::VectorXd SharedUnits::FromCommon(const Eigen::VectorXd& common,
 }
 
 PointPrior SharedUnits::FromCommon(const PointPrior& common, const PointPrior& base) const {
-  PointPrior out{FromCommon(common.mean, base.mean), base.deviation};
+  PointPrior out{FromCommon(common.mean, base.mean), base.deviation, {}};
+  if (common.degrees.size() > 0) {
+    out.degrees =
+        Eigen::VectorXd::Constant(base.mean.size(), std::numeric_limits<double>::infinity());
+    for (Eigen::Index i = 0; i < size(); ++i) out.degrees[IndexOf(i)] = common.degrees[i];
+  }
   for (Eigen::Index i = 0; i < size(); ++i)
     out.deviation[IndexOf(i)] = common.deviation[i] / scale_[i];
   return out;
 }
 
 PointPrior SharedUnits::ToCommon(const PointPrior& prior) const {
-  PointPrior out{ToCommon(prior.mean), Eigen::VectorXd(size())};
+  PointPrior out{ToCommon(prior.mean), Eigen::VectorXd(size()), {}};
   for (Eigen::Index i = 0; i < size(); ++i)
     out.deviation[i] = prior.deviation[IndexOf(i)] * scale_[i];
   return out;

@@ -1,5 +1,6 @@
 // The parameters that the operating points of one rig have in common (all of loop_point.h but the
-// flame's), in units that are the same at every point: those of a reference point.
+// flame's and what the record's ends leave), in units that are the same at every point: those of a
+// reference point.
 //
 //   common = scale u + shift,   u without unit as in loop_point.h
 //
@@ -11,6 +12,7 @@
 #define HOWL_ESTIMATION_JOINT_RECORDS_SHARED_UNITS_H_
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "estimation/record_fit/loop_point.h"
 #include "estimation/record_fit/point_prior.h"
@@ -31,10 +33,10 @@ class SharedUnits {
 
   Eigen::Index size() const { return scale_.size(); }
   // Where shared parameter i stands in the point's vector.
-  Eigen::Index IndexOf(Eigen::Index i) const { return i < flame_begin_ ? i : i + flame_; }
+  Eigen::Index IndexOf(Eigen::Index i) const { return index_[static_cast<std::size_t>(i)]; }
 
   Eigen::VectorXd ToCommon(const Eigen::VectorXd& parameters) const;
-  // `base` gives the flame's.
+  // `base` gives the others.
   Eigen::VectorXd FromCommon(const Eigen::VectorXd& common, const Eigen::VectorXd& base) const;
   // The prior of a point whose shared parameters are normal with these common means and deviations.
   PointPrior FromCommon(const PointPrior& common, const PointPrior& base) const;
@@ -43,8 +45,7 @@ class SharedUnits {
   const Eigen::VectorXd& scale() const { return scale_; }
 
  private:
-  Eigen::Index flame_begin_;
-  Eigen::Index flame_;
+  std::vector<Eigen::Index> index_;
   Eigen::VectorXd scale_;
   Eigen::VectorXd shift_;
 };

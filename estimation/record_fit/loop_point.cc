@@ -24,31 +24,64 @@ Eigen::MatrixXcd TaperedColumns(const Eigen::MatrixXcd& x) {
   return x.topRows(x.rows() - 1) - x.bottomRows(x.rows() - 1);
 }
 
-// Calls `take` with the index of each parameter that moves mode k, and dR by it at s.
+// Calls `take` with the index of each parameter that moves mode k, dR and dT by it at s, T being
+// what the record's ends leave.
 template <typename Take>
 void ForEachSlope(const PointStructure& structure, const LoopPoint& point, Eigen::Index k, C s,
                   const Take& take) {
   const LoopMode& mode = point.modes[static_cast<std::size_t>(k)];
   const Eigen::Index dampings = structure.Frequencies();
   const Eigen::Index residues = dampings + structure.Dampings();
+  const Eigen::Index transients = structure.Transfer();
   const double omega = mode.omega;
   const C damped = 2.0 * mode.xi * omega * s;
   const C over = Reciprocal(Times(s, s) + damped + omega * omega);
   const C r_over = Times(Times(mode.a * s + mode.b * omega, over), over);
-  take(structure.ratio ? 0 : k,
-       mode.b * omega * over - Times(r_over, damped + 2.0 * omega * omega));
-  take(dampings + (structure.own_damping ? k : 0), -Times(r_over, damped));
-  take(residues + k, Times(s, over));
-  if (structure.complex_residues) take(residues + structure.modes + k, omega * over);
+  const C t_over = Times(Times(mode.g * s + mode.h * omega, over), over);
+  const C by_omega = damped + 2.0 * omega * omega;
+  take(structure.ratio ? 0 : k, mode.b * omega * over - Times(r_over, by_omega),
+       mode.h * omega * over - Times(t_over, by_omega));
+  take(dampings + (structure.own_damping ? k : 0), -Times(r_over, damped), -Times(t_over, damped));
+  const C by_rate = Times(s, over);
+  const C by_level = omega * over;
+  take(residues + k, by_rate, C(0.0));
+  if (structure.complex_residues) take(residues + structure.modes + k, by_level, C(0.0));
+  take(transients + k, C(0.0), by_rate);
+  take(transients + structure.modes + k, C(0.0), by_level);
 }
 
-Eigen::MatrixXcd AcousticColumns(const PointStructure& structure, const LoopPoint& point,
+Eigen::MatrixXcd TransferColumns(const PointStructure& structure, const LoopPoint& point,
                                  const Eigen::VectorXcd& s) {
   Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(s.size(), structure.Acoustics());
   for (Eigen::Index k = 0; k < structure.modes; ++k) {
     for (Eigen::Index i = 0; i < s.size(); ++i) {
-      ForEachSlope(structure, point, k, s[i], [&](Eigen::Index j, C slope) { out(i, j) += slope; });
+      ForEachSlope(structure, point, k, s[i],
+                   [&](Eigen::Index j, C of_r, C) { out(i, j) += of_r; });
     }
+  }
+  return out;
+}
+
+// Of R Q + T.
+Eigen::MatrixXcd PressureColumns(const PointStructure& structure, const LoopPoint& point,
+                                 const Eigen::VectorXcd& s, const Eigen::VectorXcd& heat_release) {
+  Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(s.size(), structure.Acoustics());
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      ForEachSlope(structure, point, k, s[i], [&](Eigen::Index j, C of_r, C of_t) {
+        out(i, j) += Times(of_r, heat_release[i]) + of_t;
+      });
+    }
+  }
+  return out;
+}
+
+C TransientAt(const LoopPoint& point, C s) {
+  C out = 0.0;
+  for (const LoopMode& mode : point.modes) {
+    out +=
+        Times(mode.g * s + mode.h * mode.omega,
+              Reciprocal(Times(s, s) + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega));
   }
   return out;
 }
@@ -73,6 +106,8 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
     mode.xi = std::exp(parameters[dampings + (structure.own_damping ? k : 0)]);
     mode.a = parameters[residues + k];
     if (structure.complex_residues) mode.b = parameters[residues + structure.modes + k];
+    mode.g = parameters[structure.Transfer() + k];
+    mode.h = parameters[structure.Transfer() + structure.modes + k];
     out.modes.push_back(mode);
   }
   Eigen::Index next = structure.Delay();
@@ -96,6 +131,8 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   if (structure.complex_residues) {
     for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).b;
   }
+  for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).g;
+  for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).h;
   out[next++] = std::log(point.tau);
   out.segment(next, point.flame.size()) = point.flame;
   next += point.flame.size();
@@ -113,7 +150,8 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   const double slope = record.slopes.dot(point.flame);
   out.f = slope * Delayed(record.s, point.tau).cwiseProduct(record.input);
   out.acoustic =
-      Tapered(record.pressure - Transfer(point, record.edge_s).cwiseProduct(record.heat_release));
+      Tapered(record.pressure - Transfer(point, record.edge_s).cwiseProduct(record.heat_release) -
+              record.edge_s.unaryExpr([&](C s) { return TransientAt(point, s); }));
   out.flame = Tapered(record.heat_release -
                       Delayed(record.edge_s, point.tau).cwiseProduct(record.flame * point.flame));
   out.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
@@ -138,16 +176,16 @@ void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point, 
                        Eigen::VectorXd* out) {
   for (Eigen::Index k = 0; k < structure.modes; ++k) {
     ForEachSlope(structure, point, k, s,
-                 [&](Eigen::Index i, C slope) { (*out)[i] += Times(by, slope).real(); });
+                 [&](Eigen::Index i, C of_r, C) { (*out)[i] += Times(by, of_r).real(); });
   }
 }
 
 LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
                               const LoopPoint& point) {
   LoopDerivatives out;
-  out.r = AcousticColumns(structure, point, record.s);
-  out.acoustic = TaperedColumns(
-      -(record.heat_release.asDiagonal() * AcousticColumns(structure, point, record.edge_s)));
+  out.r = TransferColumns(structure, point, record.s);
+  out.acoustic =
+      -TaperedColumns(PressureColumns(structure, point, record.edge_s, record.heat_release));
   const Eigen::Index flame = point.flame.size();
   const Eigen::VectorXcd path = Delayed(record.s, point.tau).cwiseProduct(record.input);
   out.f.resize(record.bins(), 1 + flame);

@@ -1,14 +1,17 @@
 // One operating point's loop, as the likelihood of its record has it (whittle.h):
 //
 //   R = sum_k (a_k s + b_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
-//   F = e^(-tau s) V(s) sum_k c_k slope_k,   E_B = Q - e^(-tau s) sum_k c_k b_k record_spectra.h ln
-//   S_j = sum_k n_jk T_k                                                          noise_sources.h
+//   F = e^(-tau s) V(s) sum_k c_k slope_k,   E_B = Q - e^(-tau s) sum_k c_k b_k record_spectra.h
+//   ln S_j = sum_k n_jk T_k                                                       noise_sources.h
+//   E_A = P - R Q - sum_k (g_k s + h_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
 //
 // with s over the cycle's angular frequency. The paper's acoustics (5a) have b = 0, one damping and
-// frequencies at 1, r, 2 r - 1, ...: those of a half-open duct for r = 3.
+// frequencies at 1, r, 2 r - 1, ...: those of a half-open duct for r = 3. g and h are what each
+// mode held at the record's ends (Pintelon & Schoukens 2012, section 6.3.2): near a sharp resonance
+// the taper does not hide it.
 //
-// All parameters are one vector: of the modes ln omega, ln xi, a and, where residues are complex, b
-// (omega_1 alone where the ratio is given, xi_1 alone where damping is shared); ln tau; c; n.
+// All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
+// and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared); ln tau; c; n.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_
 
@@ -32,7 +35,10 @@ struct PointStructure {
   Eigen::Index Frequencies() const { return ratio ? 1 : modes; }
   Eigen::Index Dampings() const { return own_damping ? modes : 1; }
   Eigen::Index Residues() const { return complex_residues ? 2 * modes : modes; }
-  Eigen::Index Acoustics() const { return Frequencies() + Dampings() + Residues(); }
+  // Of R alone; then those of what the record's ends leave follow.
+  Eigen::Index Transfer() const { return Frequencies() + Dampings() + Residues(); }
+  Eigen::Index Transients() const { return 2 * modes; }
+  Eigen::Index Acoustics() const { return Transfer() + Transients(); }
   Eigen::Index NoiseCoefficients() const;
   // The index of ln tau; the flame's coefficients follow.
   Eigen::Index Delay() const { return Acoustics(); }
@@ -44,6 +50,8 @@ struct LoopMode {
   double xi = 0.1;
   double a = 0.0;
   double b = 0.0;
+  double g = 0.0;
+  double h = 0.0;
 };
 
 struct LoopPoint {

@@ -45,8 +45,7 @@ Eigen::VectorXd Gradient(const RecordSpectra& record, const PointStructure& stru
       WhittleGradient(structure.noise, record.share, ResidualsOf(record, structure, point),
                       DerivativesOf(record, structure, point)) +
       LogDeterminantGradient(record, structure, point);
-  return prior.deviation.cwiseProduct(gradient) -
-         (parameters - prior.mean).cwiseQuotient(prior.deviation);
+  return prior.deviation.cwiseProduct(gradient) + prior.Slope(parameters);
 }
 
 Quadratic Expand(const RecordSpectra& record, const PointStructure& structure,
@@ -57,10 +56,10 @@ Quadratic Expand(const RecordSpectra& record, const PointStructure& structure,
                    DerivativesOf(record, structure, point));
   Quadratic out;
   const auto scale = prior.deviation.asDiagonal();
-  out.gradient = scale * (score.gradient + LogDeterminantGradient(record, structure, point)) -
-                 (parameters - prior.mean).cwiseQuotient(prior.deviation);
+  out.gradient = scale * (score.gradient + LogDeterminantGradient(record, structure, point)) +
+                 prior.Slope(parameters);
   out.information = scale * score.information * scale;
-  out.information.diagonal().array() += 1.0;
+  out.information.diagonal() += prior.Precision(parameters);
   return out;
 }
 

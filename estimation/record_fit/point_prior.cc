@@ -1,6 +1,7 @@
 #include "estimation/record_fit/point_prior.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace howl {
@@ -14,6 +15,8 @@ constexpr double kMeanLogXi = -3.0;
 constexpr double kLogXi = 1.5;
 // A mode of damping 0.05 and residue 1 makes a peak of ten times the ratio of p to q.
 constexpr double kResidue = 1.0;
+// At the record's ends a mode holds as much as p shows, and up to a few times as much.
+constexpr double kHeld = 3.0;
 // Half a period of the cycle, within a factor of three.
 constexpr double kMeanTau = std::numbers::pi;
 constexpr double kLogTau = 1.1;
@@ -29,14 +32,37 @@ double MeanLogPower(const Eigen::VectorXcd& x) {
 
 double PointPrior::LogDensity(const Eigen::VectorXd& parameters) const {
   const Eigen::VectorXd z = (parameters - mean).cwiseQuotient(deviation);
-  return -0.5 * z.squaredNorm() - deviation.array().log().sum() -
-         0.5 * static_cast<double>(z.size()) * std::log(2.0 * std::numbers::pi);
+  double sum = -deviation.array().log().sum();
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
+    const double n = degrees.size() > 0 ? degrees[i] : std::numeric_limits<double>::infinity();
+    if (std::isfinite(n)) {
+      sum += std::lgamma(0.5 * (n + 1.0)) - std::lgamma(0.5 * n) -
+             0.5 * std::log(n * std::numbers::pi) - 0.5 * (n + 1.0) * std::log1p(z[i] * z[i] / n);
+    } else {
+      sum -= 0.5 * (z[i] * z[i] + std::log(2.0 * std::numbers::pi));
+    }
+  }
+  return sum;
+}
+
+Eigen::VectorXd PointPrior::Precision(const Eigen::VectorXd& parameters) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Ones(mean.size());
+  if (degrees.size() == 0) return out;
+  const Eigen::VectorXd z = (parameters - mean).cwiseQuotient(deviation);
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
+    if (std::isfinite(degrees[i])) out[i] = (degrees[i] + 1.0) / (degrees[i] + z[i] * z[i]);
+  }
+  return out;
+}
+
+Eigen::VectorXd PointPrior::Slope(const Eigen::VectorXd& parameters) const {
+  return -Precision(parameters).cwiseProduct((parameters - mean).cwiseQuotient(deviation));
 }
 
 PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record) {
   const Eigen::Index flame = record.flame.cols();
   const Eigen::Index size = structure.Delay() + 1 + flame + structure.NoiseCoefficients();
-  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)};
+  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}};
   Eigen::Index next = 0;
   const auto add = [&](Eigen::Index count, double mean, double deviation) {
     out.mean.segment(next, count).setConstant(mean);
@@ -46,6 +72,7 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
   add(structure.Frequencies(), kMeanLogOmega, kLogOmega);
   add(structure.Dampings(), kMeanLogXi, kLogXi);
   add(structure.Residues(), 0.0, kResidue);
+  add(structure.Transients(), 0.0, kHeld * record.OneSample());
   add(1, std::log(kMeanTau), kLogTau);
   const double bins = static_cast<double>(record.bins());
   add(flame, 0.0, kFlame * std::sqrt(Tapered(record.heat_release).squaredNorm() / bins));

@@ -19,8 +19,10 @@
 #define HOWL_ESTIMATION_RECORD_FIT_RECORD_SPECTRA_H_
 
 #include <Eigen/Core>
+#include <cmath>
 #include <complex>
 #include <cstdint>
+#include <numbers>
 
 #include "estimation/analysis/spectra/record.h"
 
@@ -63,6 +65,11 @@ struct RecordSpectra {
   Eigen::VectorXd share;  // what each bin counts for
 
   Eigen::Index bins() const { return s.size(); }
+  // What a state of one unit, that begins with the record, has in its spectrum but for 1 / s.
+  double OneSample() const {
+    const double samples = sampling_hz / bin_hz;
+    return sampling_hz / (2.0 * std::numbers::pi * scale.cycle_hz) / std::sqrt(samples);
+  }
 };
 
 // The record has both signals.

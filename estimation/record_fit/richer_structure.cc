@@ -9,7 +9,7 @@
 namespace howl {
 namespace {
 
-constexpr double kHardlyShows = 4.0;  // nats below the prior's level
+constexpr double kHardlyShows = 4.0;  // nats below the least of the others
 
 const NoiseTerm* TermOf(const PointStructure& structure, LoopNoise source) {
   const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
@@ -50,18 +50,17 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
   CHECK_EQ(static_cast<int>(further.size()), rich.modes - poor.modes);
   LoopPoint point = ToPoint(poor, record.flame.cols(), parameters);
   point.modes.insert(point.modes.end(), further.begin(), further.end());
-  const PointPrior prior = PriorOf(rich, record);
+  double least = 0.0;
+  for (const Eigen::VectorXd& source : point.noise) least = std::min(least, source[0]);
   std::vector<Eigen::VectorXd> noise;
-  Eigen::Index level = rich.Delay() + 1 + record.flame.cols();
   for (const NoiseTerm& term : rich.noise) {
     Eigen::VectorXd c = Eigen::VectorXd::Zero(term.coefficients);
-    c[0] = prior.mean[level] - kHardlyShows;
+    c[0] = least - kHardlyShows;
     for (std::size_t j = 0; j < poor.noise.size(); ++j) {
       if (poor.noise[j].source != term.source) continue;
       c[0] = 0.0;
       c.head(point.noise[j].size()) = point.noise[j];
     }
-    level += term.coefficients;
     noise.push_back(c);
   }
   point.noise = std::move(noise);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "estimation/record_fit/loop_point.h"
-#include "estimation/record_fit/point_prior.h"
 
 namespace howl {
 

@@ -93,7 +93,7 @@ TEST_F(JointRecords, NoiseHasTheUnitsOfTheRig) {
 
 // The law shows the drift of the delay: 3 % over a change of the operating parameter by one.
 TEST_F(JointRecords, LawShowsTheDrift) {
-  const Eigen::Index delay = structure_->Delay();
+  const Eigen::Index delay = structure_->Transfer();  // in the order of shared_units.h
   double mean = 0.0;
   double square = 0.0;
   for (const double gain : kGains) mean += gain / kGains.size();

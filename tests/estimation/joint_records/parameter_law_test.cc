@@ -18,11 +18,11 @@ ParameterEvidence Measured(double z, double value, double std) {
 }
 
 PointPrior Wide(double deviation) {
-  return {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, deviation)};
+  return {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, deviation), {}};
 }
 
 // Where every point is known exactly, mean and trend are those of least squares with the priors as
-// further data, and s is their most likely deviation.
+// further data, and s^2 the mean square about them, their own errors in it.
 TEST(ParameterLaw, IsLeastSquaresOfWhatIsKnownExactly) {
   const std::vector<double> z = {-1.5, -0.5, 0.5, 1.5};
   const std::vector<double> u = {1.0, 1.3, 1.2, 1.6};
@@ -36,8 +36,11 @@ TEST(ParameterLaw, IsLeastSquaresOfWhatIsKnownExactly) {
   EXPECT_NEAR(law.mean[0], mean, 1e-4);
   EXPECT_NEAR(law.trend[0], trend, 1e-4);
   double squares = 1.0;  // of the prior: one degree of freedom of a tenth of its deviation
-  for (std::size_t e = 0; e < z.size(); ++e) squares += std::pow(u[e] - mean - trend * z[e], 2);
-  EXPECT_NEAR(square, squares / 7.0, 1e-4);
+  for (std::size_t e = 0; e < z.size(); ++e) {
+    const double error = 1.0 / (4.0 / square + 0.01) + z[e] * z[e] / (5.0 / square + 1.0 / 9.0);
+    squares += std::pow(u[e] - mean - trend * z[e], 2) + error;
+  }
+  EXPECT_NEAR(square, squares / 5.0, 1e-3);
 }
 
 // A point that says nothing has what the others expect of it.
@@ -69,13 +72,13 @@ TEST(ParameterLaw, PredictionsOfAnotherPointCover) {
     }
     const PointPrior there = FitParameterLaw(points, Wide(1.0)).PredictionAt(0.6);
     const double z = (truth(0.6) - there.mean[0]) / there.deviation[0];
-    if (std::abs(z) < 1.96) ++inside;
+    ASSERT_EQ(there.degrees[0], 7.0);
+    if (std::abs(z) < 2.365) ++inside;  // Student's 0.975 quantile
     bias += z / kRigs;
   }
-  // Three standard deviations of a share of 400. The most likely s is below its mean, as estimates
-  // of a deviation from six points are: the intervals hold a little less than they say.
-  EXPECT_GE(inside, 355);
-  EXPECT_LE(inside, 393);
+  // 93 to 97 %.
+  EXPECT_GE(inside, 372);
+  EXPECT_LE(inside, 388);
   EXPECT_LT(std::abs(bias), 0.2);
 }
 
