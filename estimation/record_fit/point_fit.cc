@@ -24,6 +24,8 @@ constexpr double kLeastCosine =
     1e-8;  // of a correction's denominator (Nocedal & Wright 2006, 6.26)
 constexpr std::size_t kMostToCompare = 4;
 constexpr int kIterationsToCompare = 30;
+constexpr double kSameDelay = 0.03;  // of ln tau
+constexpr std::size_t kMostDelays = 3;
 constexpr double kDifference = 1e-5;  // of the prior's deviation
 
 double Value(const RecordSpectra& record, const PointStructure& structure, const PointPrior& prior,
@@ -102,6 +104,28 @@ void CorrectAlong(const Eigen::VectorXd& step, const Eigen::VectorXd& fall_of_gr
   const double along = missed.dot(step);
   if (std::abs(along) < kLeastCosine * missed.norm() * step.norm()) return;
   *information += missed * missed.transpose() / along;
+}
+
+// The best acoustics with each other delay and flame that a fit has come to: the two cuts depend on
+// one another little, so that the best of each may have begun apart.
+std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
+                                         const Eigen::VectorXd& best,
+                                         const std::vector<PointFit>& fits) {
+  std::vector<double> known = {best[structure.Delay()]};
+  std::vector<Eigen::VectorXd> out;
+  for (const PointFit& fit : fits) {
+    const double log_tau = fit.parameters[structure.Delay()];
+    if (std::ranges::any_of(known, [&](double x) { return std::abs(x - log_tau) < kSameDelay; })) {
+      continue;
+    }
+    if (out.size() == kMostDelays) break;
+    known.push_back(log_tau);
+    Eigen::VectorXd crossed = best;
+    const Eigen::Index flame = best.size() - structure.Delay() - structure.NoiseCoefficients();
+    crossed.segment(structure.Delay(), flame) = fit.parameters.segment(structure.Delay(), flame);
+    out.push_back(std::move(crossed));
+  }
+  return out;
 }
 
 // What the quadratic about the present parameters consists of.
@@ -194,22 +218,29 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options) {
   CHECK(!starts.empty());
-  std::vector<Eigen::VectorXd> from = starts;
-  std::vector<PointFit> fits;
-  // Near a maximum, then past the valleys that lead there, and at last on it.
-  PointFitOptions stage = options;
-  stage.converged = kNear;
-  for (const std::size_t kept : {kMostToCompare, std::size_t{1}}) {
-    fits.clear();
+  const auto fit_all = [&](const std::vector<Eigen::VectorXd>& from, const PointFitOptions& stage) {
+    std::vector<PointFit> fits;
     for (const Eigen::VectorXd& start : from) {
       fits.push_back(FitPoint(record, structure, prior, start, stage));
     }
     std::ranges::stable_sort(fits, std::ranges::greater(), &PointFit::log_posterior);
-    fits.resize(std::min(fits.size(), kept));
-    from.clear();
-    for (const PointFit& fit : fits) from.push_back(fit.parameters);
-    stage.converged = options.converged;
-    stage.iterations = std::min(options.iterations, kIterationsToCompare);
+    return fits;
+  };
+  // Near a maximum, then past the valleys that lead there, and at last on it.
+  PointFitOptions near = options;
+  near.converged = kNear;
+  const std::vector<PointFit> all = fit_all(starts, near);
+  std::vector<Eigen::VectorXd> best;
+  for (std::size_t i = 0; i < std::min(all.size(), kMostToCompare); ++i) {
+    best.push_back(all[i].parameters);
+  }
+  PointFitOptions stage = options;
+  stage.iterations = std::min(options.iterations, kIterationsToCompare);
+  std::vector<PointFit> fits = fit_all(best, stage);
+  std::vector<Eigen::VectorXd> crossed = OtherDelays(structure, fits[0].parameters, all);
+  if (!crossed.empty()) {
+    crossed.push_back(fits[0].parameters);
+    fits = fit_all(crossed, stage);
   }
   if (fits[0].converged) return fits[0];
   return FitPoint(record, structure, prior, fits[0].parameters, options);

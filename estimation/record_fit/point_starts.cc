@@ -42,6 +42,7 @@ class Starts {
   StartSolution Flame(double tau) const;
 
  private:
+  double LogLeft(double tau) const;
   void RaiseNoise(LoopPoint* point) const;
   Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
 
@@ -58,12 +59,22 @@ StartSolution Starts::Flame(double tau) const {
   return SolveStart(weight.asDiagonal() * flame_, weight_.cwiseProduct(heat_release_));
 }
 
+// The mean logarithm of what the flame leaves of q, smoothed: but for a constant, how likely noise
+// of that spectrum is. Where there is little noise the right delay stands out by orders of
+// magnitude in bins which hold little of q's power.
+double Starts::LogLeft(double tau) const {
+  const Eigen::VectorXcd delay = (-tau * record_.s.array()).exp();
+  const Eigen::VectorXcd left =
+      heat_release_ - delay.cwiseProduct(flame_ * Flame(tau).coefficients);
+  return SmoothPower(left, kStartReach).array().log().mean();
+}
+
 std::vector<double> Starts::Delays() const {
   std::vector<double> tau(kDelays);
   std::vector<double> left(kDelays);
   for (std::size_t i = 0; i < kDelays; ++i) {
     tau[i] = 2.0 * std::numbers::pi * kMostCycles * (static_cast<double>(i) + 0.5) / kDelays;
-    left[i] = Flame(tau[i]).left;
+    left[i] = LogLeft(tau[i]);
   }
   std::vector<std::pair<double, double>> minima;
   // Without the ends: what q tells of p at once, through the acoustics, leaves least at no delay.

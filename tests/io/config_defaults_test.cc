@@ -44,6 +44,11 @@ Defaults StructDefaults() {
       {"experiments[].record.start_s", Dump(record.start_s)},
       {"experiments[].record.delay_s", Dump(record.delay_s)},
       {"model.modes", Dump(config.model.modes)},
+      {"model.ratio", Dump(config.model.harmonic_ratio)},
+      // Without them the loop is the paper's, which ConfigRecordLoop tests.
+      {"model.damping", Dump("shared")},
+      {"model.residue", Dump("real")},
+      {"model.flame_input", Dump("pressure_rate")},
       {"model.harmonic_ratio", Dump(config.model.harmonic_ratio)},
       {"residuals.unreliable_weight", Dump(config.residuals.unreliable_weight)},
       {"solver.starts", Dump(config.solver.starts)},
