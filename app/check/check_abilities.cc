@@ -75,12 +75,29 @@ class Finder {
   }
 
   void Fit(Ability& ability) const {
+    if (config_.record_loop) return FitRecords(ability);
     RequireExperiments();
     const JointProblem problem = MakeJointProblem(config_, input_.experiments);
     ability.text = Count(input_.experiments.size(), "experiment");
     DescribeResiduals(problem, ability);
     DescribeParameters(problem, ability);
     DescribeDelay(problem, ability);
+  }
+
+  void FitRecords(Ability& ability) const {
+    if (input_.records.size() < config_.experiments.size()) {
+      Fail(
+          "the config's model states a loop that is fitted to records, and not every experiment "
+          "has one");
+    }
+    const RecordLoopSpec& loop = *config_.record_loop;
+    const std::string modes = loop.choose_modes ? "auto" : std::to_string(loop.modes);
+    ability.text = Count(input_.records.size(), "record") + " of p and q; modes: " + modes;
+    ability.details = {{"records", input_.records.size()}, {"modes", modes}};
+  }
+
+  void RequirePapersLoop() const {
+    if (config_.record_loop) Fail("the config's model states a loop that howl fit alone takes");
   }
 
   void DescribeResiduals(const JointProblem& problem, Ability& ability) const {
@@ -158,6 +175,7 @@ class Finder {
   }
 
   void Family(Ability& ability) const {
+    RequirePapersLoop();
     RequireExperiments();
     const FamilyProblem problem = MakeFamilyProblem(config_, input_.experiments);
     CheckPredictions(config_, problem);
@@ -196,6 +214,7 @@ class Finder {
   }
 
   void Predict(Ability& ability) const {
+    RequirePapersLoop();
     RequireExperiments();
     if (!points_are_known_) Fail(config_.operating_parameter + " is still to be filled in");
     std::set<double> points;
@@ -211,6 +230,7 @@ class Finder {
   }
 
   void Diagnose(Ability& ability) const {
+    RequirePapersLoop();
     ability.text = WhatDiagnoseCanDo(config_, input_);
     ability.details = {{"records", input_.records.size()}};
   }

@@ -62,14 +62,10 @@ RecordSolution Solve(const Config& config, const Options& options) {
     progress.Show(static_cast<std::size_t>(modes), static_cast<std::size_t>(kMostModes));
   });
   progress.Clear();
-  std::vector<LoopGainPoint> gains;
   for (std::size_t e = 0; e < records.size(); ++e) {
     const RecordsFit& fit = out.loop.fit;
     out.fitted.push_back(FittedLoopOf(out.points[e].record, fit.structure, fit.points[e]));
-    const SmallSignalLoop& small = out.fitted.back().small_signal;
-    if (small.found) gains.push_back({records[e].phi, small.loop_gain});
   }
-  out.vanishing_phi = EstimateVanishingPhi(gains);
   return out;
 }
 

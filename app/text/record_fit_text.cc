@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "app/text/text_table.h"
-#include "app/text/vanishing_text.h"
 #include "estimation/analysis/spectra/half_width.h"
 
 namespace howl {
@@ -66,8 +65,7 @@ std::string TriedText(const ChosenLoop& loop) {
 }  // namespace
 
 std::string RecordFitText(const RecordSolution& solution, const std::string& operating_parameter) {
-  return LoopsText(solution, operating_parameter) + ModesText(solution) + TriedText(solution.loop) +
-         VanishingText(solution.vanishing_phi, operating_parameter);
+  return LoopsText(solution, operating_parameter) + ModesText(solution) + TriedText(solution.loop);
 }
 
 }  // namespace howl

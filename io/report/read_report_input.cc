@@ -149,6 +149,8 @@ void ReadRecords(ReportInput& input, const Config& config, std::vector<NamedReco
 
 void ReadFitted(ReportInput& input) {
   for (const Json& row : ListAt(input.solution, "experiments")) {
+    // The figures are of the paper's loop, which this one is not.
+    if (row.contains("modes")) continue;
     LoopModel model{.omega_hz = NumberAt(row, "omega_hz"),
                     .xi = NumberAt(row, "xi"),
                     .N = NumberAt(row, "N"),

@@ -93,7 +93,7 @@ Json RecordSolutionJson(const RecordSolution& solution) {
   return {{"schema", "howl.solution/1"},
           {"experiments", experiments},
           {"shared", Json::object()},
-          {"vanishing_phi", VanishingJson(solution.vanishing_phi)},
+          {"vanishing_phi", nullptr},
           {"cost", NumberOrNull(cost)},
           {"termination", converged ? "converged" : "not converged"},
           {"converged", converged},

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "estimation/analysis/loop/vanishing_phi.h"
 #include "estimation/joint_records/choose_modes.h"
 #include "estimation/joint_records/fitted_loop.h"
 
@@ -18,7 +17,6 @@ struct RecordSolution {
   std::vector<OperatingPoint> points;
   ChosenLoop loop;
   std::vector<FittedLoop> fitted;
-  VanishingPhi vanishing_phi;
 
   bool Converged() const;
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "io/json_fields.h"
 #include "io/report/figures/curves.h"
 #include "io/report/html_table.h"
 #include "io/report/html_text.h"
@@ -64,6 +65,26 @@ std::string TriedSize(const nlohmann::json& severity, const nlohmann::json& size
   return beyond.empty() ? Text(size.get<double>(), 3) : std::string(beyond);
 }
 
+// Of a loop that was fitted to records: a row for each mode of each experiment.
+std::string RecordLoopTable(const ReportInput& input) {
+  std::vector<TableRow> rows;
+  for (const auto& experiment : ListAt(input.solution, "experiments")) {
+    const Estimate tau_s = {NumberAt(experiment, "tau_s"), NumberAt(experiment, "tau_std_s")};
+    const auto small = experiment.value("small_signal", nlohmann::json::object());
+    for (const auto& mode : ListAt(experiment, "modes")) {
+      rows.push_back({experiment.value("name", ""), TableCell(EstimateAt(mode, "omega_hz")),
+                      TableCell(EstimateAt(mode, "xi")), TableCell(EstimateAt(mode, "N")),
+                      TableCell(EstimateAt(mode, "B")), TableCell(tau_s, 1e3),
+                      TableCell(EstimateAt(small, "growth_rate_1_s"))});
+    }
+  }
+  if (rows.empty()) return {};
+  return HtmlTable(
+      "Loop fitted to the records; ± is half of a 95 % interval. N and B in (units of "
+      "p per unit of q) rad/s; growth: of small signals about rest",
+      {"experiment", "ω (Hz)", "ξ", "N", "B", "τ (ms)", "growth (1/s)"}, rows);
+}
+
 }  // namespace
 
 std::string MeasuredTable(const ReportInput& input) {
@@ -84,7 +105,7 @@ std::string MeasuredTable(const ReportInput& input) {
 }
 
 std::string FitTable(const ReportInput& input) {
-  if (input.fitted.empty()) return {};
+  if (input.fitted.empty()) return RecordLoopTable(input);
   const bool two_modes =
       std::ranges::any_of(input.fitted, [](const auto& fit) { return fit.model.M > 0.0; });
   std::vector<std::string> head = {"experiment", input.OperatingLabel(), "ω (Hz)", "ξ", "N"};
