@@ -228,7 +228,8 @@ std::vector<Form> Forms() {
        {std::tuple("MATLAB 5", MAT_FT_MAT5, MAT_COMPRESSION_NONE),
         std::tuple("MATLAB 5, packed", MAT_FT_MAT5, MAT_COMPRESSION_ZLIB),
         std::tuple("MATLAB 7.3", MAT_FT_MAT73, MAT_COMPRESSION_NONE)}) {
-    forms.push_back({name, [=](const TemporaryFolder& folder, const Samples& s) {
+    forms.push_back({name, [version = version, packing = packing](const TemporaryFolder& folder,
+                                                                  const Samples& s) {
                        mat_t* const mat =
                            Mat_CreateVer((folder / "a.mat").c_str(), nullptr, version);
                        AddMatVariable(mat, "t", kRows, 1, s.t, packing);
@@ -238,7 +239,8 @@ std::vector<Form> Forms() {
                        return Columns(folder / "a.mat", "t", "p", "q");
                      }});
     forms.push_back(
-        {std::string(name) + ", a struct", [=](const TemporaryFolder& folder, const Samples& s) {
+        {std::string(name) + ", a struct",
+         [version = version, packing = packing](const TemporaryFolder& folder, const Samples& s) {
            return Columns(WriteStruct(folder / "a.mat", s, version, packing), "rec.t", "rec.run.p",
                           "rec.run.q");
          }});
