@@ -45,7 +45,7 @@ void Row(int modes, double noise, double sensor_noise, int records, double secon
   int missed = 0;
   const auto before = std::chrono::steady_clock::now();
   for (int i = 0; i < records; ++i) {
-    const Record record = SimulateModalLoop(loop, seconds, static_cast<std::uint64_t>(1000 + i));
+    const Record record = SimulateModalLoop(loop, seconds, 1000 + static_cast<std::uint64_t>(i));
     const IdentifiedLoop found = Identify(loop, record, 8);
     if (found.from_truth.log_posterior > found.fit.log_posterior + 1.0) ++missed;
     damping.push_back(100.0 * found.parameters[static_cast<std::size_t>(modes)].std);

@@ -97,7 +97,7 @@ std::optional<double> DelayTrajectory::Period(const Eigen::VectorXd& c, int peri
   double latest = 0.0;
   int passages = 0;
   Eigen::VectorXd x;
-  for (std::size_t i = states_.size() - 1; i-- > 0 && first_time_ + step_ * i >= 0.0;) {
+  for (std::size_t i = states_.size() - 1; i-- > 0 && TimeAt(i) >= 0.0;) {
     if (!(c.dot(states_[i]) < 0.0 && c.dot(states_[i + 1]) >= 0.0)) continue;
     double low = 0.0, high = 1.0;
     for (int halving = 0; halving < 50; ++halving) {

@@ -49,7 +49,6 @@ class Recorder {
   SimulatedRecord Finish();
 
  private:
-  const SimulationOptions& options_;
   SimulatedRecord record_;
   std::size_t wanted_;
   std::size_t wanted_true_;

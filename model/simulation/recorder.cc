@@ -19,8 +19,7 @@ void AddWhiteNoise(double std_dev, std::uint64_t seed, std::vector<double>* sign
 }  // namespace
 
 Recorder::Recorder(const SimulationCase& one, const SimulationOptions& options, int ratio)
-    : options_(options),
-      wanted_(static_cast<std::size_t>(std::llround(options.duration_s * options.sampling_hz))),
+    : wanted_(static_cast<std::size_t>(std::llround(options.duration_s * options.sampling_hz))),
       wanted_true_(options.keep_true_signals ? wanted_ * static_cast<std::size_t>(ratio) : 0),
       pressure_filter_(ratio),
       heat_release_filter_(ratio),

@@ -128,7 +128,7 @@ std::vector<SweepWindow> SweepInTime(const SimulationCase& start, SweptParameter
                                                 .settle_s = options.settle_s});
 
   std::vector<SweepWindow> windows;
-  const auto count = static_cast<std::size_t>(2 * options.steps);
+  const auto count = 2 * static_cast<std::size_t>(options.steps);
   const std::size_t length = record.pressure.size() / count;
   CHECK_GE(length, 16u) << "the sweep's windows are too short";
   for (std::size_t k = 0; k < count; ++k) {

@@ -53,6 +53,7 @@ std::vector<Malformed> AllMalformed() {
       {"bounds reversed", kGood + "parameters:\n  xi: {min: 0.3, max: 0.1}\n", 4, "xi"},
       {"empty file", "", 1, "experiments"},
       {"no experiments", "title: none\n", 1, "experiments"},
+      // NOLINTNEXTLINE(bugprone-string-constructor): a line as long as this is meant.
       {"10 MB line", kGood + "title: " + std::string(10'000'000, 'x') + "\n", 3, "title"},
       {"no YAML", kGood + "family: {members: 3\n", 3, ""},
       {"tab", kGood + "family:\n\tmembers: 3\n", 4, ""},

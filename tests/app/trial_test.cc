@@ -52,7 +52,7 @@ class Trial : public ::testing::Test {
 
   // A copy with its times, as somebody who tampers would have it.
   static fs::path Copy(const std::string& name) {
-    const fs::path copy = folder_->path() / name;
+    fs::path copy = folder_->path() / name;
     const std::string command = "cp -a " + Folder().string() + " " + copy.string();
     EXPECT_EQ(std::system(command.c_str()), 0);
     return copy;

@@ -5,7 +5,8 @@
 namespace howl {
 namespace {
 
-Diagnosis Sure(VerdictKind kind, double none, double unknown, std::vector<double> candidates) {
+Diagnosis Sure(VerdictKind kind, double none, double unknown,
+               const std::vector<double>& candidates) {
   Diagnosis out;
   out.kind = kind;
   out.probability_none = none;

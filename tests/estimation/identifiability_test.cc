@@ -47,7 +47,7 @@ Drawn Draw(int experiments, const std::vector<int>& free_own, bool free_shared) 
       block.values.col(kOwn + 1) = block.values.col(kOwn) + (1.0 + i) * block.values.col(0);
     }
     for (std::size_t k = 0; k < block.columns.size(); ++k) {
-      drawn.whole.col(block.columns[k]).segment(kRows * i, kRows) =
+      drawn.whole.col(block.columns[k]).segment(Eigen::Index{kRows} * i, kRows) =
           block.values.col(static_cast<Eigen::Index>(k));
     }
   }

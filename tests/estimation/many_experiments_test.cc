@@ -14,8 +14,8 @@
 namespace howl {
 namespace {
 
-JointFit Fit(const std::vector<Experiment>& experiments, ModelSpec model = DefaultModelSpec(),
-             int starts = 1) {
+JointFit Fit(const std::vector<Experiment>& experiments,
+             const ModelSpec& model = DefaultModelSpec(), int starts = 1) {
   return SolveJoint(JointProblem(experiments, model, DefaultResidualSet()), {.starts = starts}, 1,
                     1);
 }

@@ -64,6 +64,7 @@ TEST_F(Bomb, OfNesting) {
 }
 
 TEST_F(Bomb, OfLines) {
+  // NOLINTNEXTLINE(bugprone-string-constructor): a file as long as this is meant.
   folder_.Write("rig.yaml", std::string(30'000'000, '\n'));
   ExpectRefused("check", "larger than");
 }
@@ -105,7 +106,7 @@ class Hdf5File {
 TEST_F(Bomb, OfHdf5) {
   constexpr hsize_t kMillion = 1'000'000;
   RecordIs("r.h5");
-  const auto make = [&](std::vector<hsize_t> sizes, std::vector<hsize_t> chunk) {
+  const auto make = [&](const std::vector<hsize_t>& sizes, const std::vector<hsize_t>& chunk) {
     const Hdf5File file(Path("r.h5"));
     file.Add("p", sizes, chunk);
     file.Add("q", sizes, chunk);

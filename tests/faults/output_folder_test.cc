@@ -9,7 +9,6 @@ namespace howl {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 class OutputFolder : public Faults {
  protected:

@@ -4,8 +4,6 @@
 namespace howl {
 namespace {
 
-namespace fs = std::filesystem;
-
 class Streams : public Faults {
  protected:
   std::string Fit(const std::string& out) const {

@@ -47,7 +47,7 @@ void ReadRecord(std::string_view input) {
 }
 
 // The bytes by which a format is recognised are put in their place: what is fuzzed is its reader.
-std::function<void(std::string_view)> WithMagic(std::string magic, std::size_t at = 0) {
+std::function<void(std::string_view)> WithMagic(const std::string& magic, std::size_t at = 0) {
   return [magic, at](std::string_view input) {
     std::string bytes(input);
     if (bytes.size() < at + magic.size()) bytes.resize(at + magic.size());

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kFileMark = "#file ";
 
 fs::path Folder() {
-  const fs::path folder = ScratchFolder() / "results";
+  fs::path folder = ScratchFolder() / "results";
   fs::create_directories(folder);
   return folder;
 }

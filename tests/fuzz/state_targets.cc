@@ -27,7 +27,7 @@ constexpr const char* kTable =
 
 // A folder with one file, whose text is the input.
 fs::path FolderWith(const char* file, std::string_view input) {
-  const fs::path folder = ScratchFolder() / "jobs";
+  fs::path folder = ScratchFolder() / "jobs";
   fs::remove_all(folder / "shards");
   fs::create_directories(folder / "shards");
   std::ofstream(folder / "shards" / file, std::ios::binary) << input;

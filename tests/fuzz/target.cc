@@ -42,7 +42,7 @@ const std::filesystem::path& ScratchFolder() {
 
 // Not memfd_create(), whose files have no name that the HDF5 library takes.
 std::filesystem::path InputFile(std::string_view bytes) {
-  const fs::path path = ScratchFolder() / "input";
+  fs::path path = ScratchFolder() / "input";
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   CHECK(file.flush().good());

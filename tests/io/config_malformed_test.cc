@@ -82,6 +82,7 @@ std::vector<Malformed> Cases() {
                    "t\0i\0",
                    6),
        1, "", "0xff", "UTF-8"},
+      // NOLINTNEXTLINE(bugprone-string-constructor): a line as long as this is meant.
       {"LineOf10MB", "title: t\nexperiments: [" + std::string(10'000'000, 'x') + "]\n", 2,
        "experiments", "longer than 256 kB", "shorter lines"},
       {"FileOf5MB",

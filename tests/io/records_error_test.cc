@@ -27,7 +27,7 @@ std::string Csv(const std::function<std::string(int, std::string)>& change = nul
 }
 
 std::string CsvWithLine(int line, const std::string& text) {
-  return Csv([&](int at, std::string was) { return at == line ? text : was; });
+  return Csv([&](int at, const std::string& was) { return at == line ? text : was; });
 }
 
 class Errors : public testing::Test {
@@ -105,7 +105,7 @@ TEST_F(Errors, NotFinite) {
 }
 
 TEST_F(Errors, LinesAreCountedThroughCommentsAndBlankStarts) {
-  const std::string text = Csv([](int at, std::string was) {
+  const std::string text = Csv([](int at, const std::string& was) {
     if (at == 100) return "# stop\n# go\n" + was;
     return at == 5000 ? "4.998,nan,0" : was;
   });

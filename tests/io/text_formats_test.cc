@@ -4,6 +4,7 @@
 #include <cstring>
 #include <functional>
 #include <random>
+#include <utility>
 
 #include "io/records/columns/number_text.h"
 #include "tests/io/record_files.h"
@@ -165,7 +166,8 @@ RecordSpec WriteForeignMatlab73(const TemporaryFolder& folder, const Samples& sa
 std::vector<Form> Forms() {
   const auto text = [](std::string name, std::function<std::string(const Samples&)> content,
                        std::function<void(RecordSpec&)> state = {}) {
-    return Form{name, [=](const TemporaryFolder& folder, const Samples& samples) {
+    return Form{std::move(name), [content = std::move(content), state = std::move(state)](
+                                     const TemporaryFolder& folder, const Samples& samples) {
                   RecordSpec spec = Columns(folder.Write("data", content(samples)));
                   if (state) state(spec);
                   return spec;
@@ -228,7 +230,8 @@ std::vector<Form> Forms() {
        {std::tuple("MATLAB 5", MAT_FT_MAT5, MAT_COMPRESSION_NONE),
         std::tuple("MATLAB 5, packed", MAT_FT_MAT5, MAT_COMPRESSION_ZLIB),
         std::tuple("MATLAB 7.3", MAT_FT_MAT73, MAT_COMPRESSION_NONE)}) {
-    forms.push_back({name, [=](const TemporaryFolder& folder, const Samples& s) {
+    forms.push_back({name, [version = version, packing = packing](const TemporaryFolder& folder,
+                                                                  const Samples& s) {
                        mat_t* const mat =
                            Mat_CreateVer((folder / "a.mat").c_str(), nullptr, version);
                        AddMatVariable(mat, "t", kRows, 1, s.t, packing);
@@ -238,7 +241,8 @@ std::vector<Form> Forms() {
                        return Columns(folder / "a.mat", "t", "p", "q");
                      }});
     forms.push_back(
-        {std::string(name) + ", a struct", [=](const TemporaryFolder& folder, const Samples& s) {
+        {std::string(name) + ", a struct",
+         [version = version, packing = packing](const TemporaryFolder& folder, const Samples& s) {
            return Columns(WriteStruct(folder / "a.mat", s, version, packing), "rec.t", "rec.run.p",
                           "rec.run.q");
          }});
@@ -259,7 +263,7 @@ std::vector<Form> Forms() {
     for (const bool is_struct : {false, true}) {
       forms.push_back(
           {std::string("MATLAB 7.3, its class ") + name + (is_struct ? ", a struct" : ""),
-           [=](const TemporaryFolder& folder, const Samples& s) {
+           [kind = kind, is_struct](const TemporaryFolder& folder, const Samples& s) {
              return WriteForeignMatlab73(folder, s, kind, is_struct);
            }});
     }

@@ -21,8 +21,7 @@ class SpreadDelay final : public LoopEffect {
     double sum = 0.0;
     for (int k = -kHalf; k <= kHalf; ++k) sum += std::exp(-0.5 * std::pow(kSpacing * k, 2));
     for (int k = -kHalf; k <= kHalf; ++k) {
-      weights_[static_cast<std::size_t>(k + kHalf)] =
-          std::exp(-0.5 * std::pow(kSpacing * k, 2)) / sum;
+      weights_[k + kHalf] = std::exp(-0.5 * std::pow(kSpacing * k, 2)) / sum;
     }
   }
   std::unique_ptr<LoopEffect> Clone() const override {
@@ -49,7 +48,7 @@ class SpreadDelay final : public LoopEffect {
       if (k == 0) continue;
       for (std::size_t i = 0; i < n; ++i) delays[i] = at.tau_s[i] + kSpacing * k * sigma_s_;
       at.delay_line->Read({delays.data(), n}, {values.data(), n});
-      const double weight = weights_[static_cast<std::size_t>(k + kHalf)];
+      const double weight = weights_[k + kHalf];
       for (std::size_t i = 0; i < n; ++i) {
         signal[i] += weight * (before_ ? values[i] : FlameResponse(at.flame, values[i]));
       }

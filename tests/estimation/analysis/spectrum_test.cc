@@ -34,7 +34,7 @@ TEST(WelchSpectrum, StrongLineDoesNotLeak) {
     x[t] = std::cos(2 * M_PI * 100.3 * static_cast<double>(t) / kFs);
   }
   const CrossSpectrum s = WelchSpectrum(x, {}, kFs, 1024);
-  const double peak = s.pp[static_cast<std::size_t>(100.3 / s.bin_hz + 0.5)];
+  const double peak = s.pp[static_cast<std::size_t>(std::llround(100.3 / s.bin_hz))];
   for (std::size_t k = 0; k < s.pp.size(); ++k) {
     if (std::abs(static_cast<double>(k) - 100.3 / s.bin_hz) < 5.0) continue;
     EXPECT_LT(s.pp[k], 1e-9 * peak) << k;

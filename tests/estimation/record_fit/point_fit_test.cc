@@ -54,7 +54,7 @@ TEST(LongPointFit, IntervalsCoverAndAreNotBiased) {
   int all = 0;
   for (int i = 0; i < kRecords; ++i) {
     const IdentifiedLoop found =
-        Identify(loop, SimulateModalLoop(loop, 4.0, static_cast<std::uint64_t>(100 + i)), 8);
+        Identify(loop, SimulateModalLoop(loop, 4.0, 100 + static_cast<std::uint64_t>(i)), 8);
     for (const IdentifiedParameter& p : found.parameters) {
       bias[p.name] += p.Z() / kRecords;
       ++all;

@@ -20,7 +20,8 @@ double LimitPassedByOne(const Experiment& experiment, const LoopModel& model, Co
     case Condition::kLoopPhase:
       return std::abs(errors.loop_phase_error_deg);
     case Condition::kLoopGain:
-      return experiment.reliable && experiment.flame_slope ? errors.largest_loop_gain : kInfinity;
+      if (!(experiment.reliable && experiment.flame_slope)) return kInfinity;
+      return errors.largest_loop_gain;
     case Condition::kSecondCrossing:
       return std::abs(errors.second_crossing_error_deg);
     case Condition::kXiMax:
@@ -30,9 +31,8 @@ double LimitPassedByOne(const Experiment& experiment, const LoopModel& model, Co
     case Condition::kSecondModeShare:
       return errors.second_mode_share;
     case Condition::kSecondCrossingGain:
-      return experiment.reliable && std::isfinite(errors.second_crossing_gain)
-                 ? errors.second_crossing_gain
-                 : kInfinity;
+      if (!(experiment.reliable && std::isfinite(errors.second_crossing_gain))) return kInfinity;
+      return errors.second_crossing_gain;
     case Condition::kOmegaSpread:
     case Condition::kXiIncreasing:
       break;
