@@ -13,7 +13,10 @@ std::vector<FuzzTarget> ConfigTargets() {
   const auto reading = [](auto read) {
     return [read](std::string_view input) { Answered([&] { (void)read(InputFile(input)); }); };
   };
-  return {{"config", reading(LoadConfig)},
+  const auto any_config = [](const std::filesystem::path& path) {
+    return LoadConfig(path, LoopsTaken::kAny);
+  };
+  return {{"config", reading(any_config)},
           {"campaign", reading(LoadCampaign)},
           {"job", reading(LoadJob)}};
 }

@@ -17,8 +17,8 @@ LISTS = {
     "": ["model", "estimation", "diagnosis", "trial", "io", "app"],
     "model": ["model/numerics", "model/noise", "model/loop", "model/cycles", "model/delay_systems",
               "model/simulation", "model/effects", "model/effects/forms", "model"],
-    "estimation": ["estimation/analysis", "estimation/record_fit", "estimation/residuals",
-                   "estimation/fit",
+    "estimation": ["estimation/analysis", "estimation/record_fit", "estimation/joint_records",
+                   "estimation/residuals", "estimation/fit",
                    "estimation/family/problem", "estimation/family/local",
                    "estimation/family/members/drawer", "estimation/family/members",
                    "estimation/family/bounds/contract", "estimation/family/bounds",
@@ -39,8 +39,8 @@ LISTS = {
            "io/results", "io/results/family", "io/inspect", "io/report", "io/report/figures",
            "io/report/summary", "io/report/page"],
     "app": ["app/files", "app/process", "app/text", "app/command_line", "app/jobs", "app/input",
-            "app/simulate", "app/family", "app/diagnose", "app/check", "app/trial", "app/campaign",
-            "app/help", "app/commands", "app"],
+            "app/simulate", "app/fit", "app/family", "app/diagnose", "app/check", "app/trial",
+            "app/campaign", "app/help", "app/commands", "app"],
 }
 # howl_rig is a second simulator, so that a trial is no comparison of a program with itself.
 ALONE = ["rig"]

@@ -25,7 +25,7 @@ struct ExperimentMistakes {
 // experiments are collected, and `told` holds all that have one; else the first is thrown.
 void ReadExperiments(const ConfigCursor& root, Config& config,
                      ExperimentMistakes* mistakes = nullptr);
-void ReadModel(const ConfigCursor& root, Config& config);      // `model`, `parameters`
+void ReadModel(const ConfigCursor& root, Config& config);  // `model`, `parameters`
 // `model` where it states more than the paper's loop.
 void ReadRecordLoop(const ConfigCursor& model, Config& config);
 void ReadResiduals(const ConfigCursor& root, Config& config);  // after the experiments
