@@ -8,8 +8,8 @@
 
 #include "app/command_line/command.h"
 #include "app/input/record_input.h"
-#include "app/process/progress_line.h"
 #include "app/text/record_fit_text.h"
+#include "app/text/text_table.h"
 #include "estimation/analysis/analyse.h"
 #include "estimation/parallel.h"
 #include "io/results/record_solution_json.h"
@@ -35,6 +35,37 @@ double CycleOf(const Analysis& analysis) {
   return c.state == CycleState::kNoLimitCycle ? c.peak.frequency_hz : c.frequency_hz.value;
 }
 
+// Some 300 bins in the band, five for each parameter of a loop of eight modes, and a band that
+// reaches beyond the second harmonic.
+constexpr double kFewestCycles = 50.0;
+constexpr double kFewestSamplesPerCycle = 6.0;
+
+void RequireUsable(const Config& config, std::size_t index, const NamedRecord& record,
+                   double cycle_hz) {
+  const auto fail = [&](const std::string& what) {
+    throw UserError(config.source.string(), config.experiments[index].line, "experiments",
+                    record.name + what);
+  };
+  if (record.record.heat_release.empty()) {
+    fail(
+        " has no heat release, expected p and q: the config's model states a loop that is fitted "
+        "to both");
+  }
+  if (!(cycle_hz > 0.0)) fail(" shows no peak of p, expected one at which its loop resonates");
+  const Record& samples = record.record;
+  const double cycles =
+      cycle_hz * static_cast<double>(samples.pressure.size()) / samples.sampling_hz;
+  if (cycles < kFewestCycles) {
+    fail(" holds " + Significant(cycles, 3) + " periods at " + Significant(cycle_hz, 4) +
+         " Hz, expected at least " + Significant(kFewestCycles, 2) + " to fit a loop to");
+  }
+  if (samples.sampling_hz < kFewestSamplesPerCycle * cycle_hz) {
+    fail(" has " + Significant(samples.sampling_hz / cycle_hz, 3) + " samples a period at " +
+         Significant(cycle_hz, 4) + " Hz, expected at least " +
+         Significant(kFewestSamplesPerCycle, 2) + " to fit a loop to");
+  }
+}
+
 RecordSolution Solve(const Config& config, const Options& options) {
   const std::vector<NamedRecord> records = LoadRecords(config);
   const AnalysisSet set = AnalyseRecords(records, MakeAnalysisOptions(config, options));
@@ -42,12 +73,7 @@ RecordSolution Solve(const Config& config, const Options& options) {
   out.points.resize(records.size());
   for (std::size_t e = 0; e < records.size(); ++e) {
     const NamedRecord& record = records[e];
-    if (record.record.heat_release.empty()) {
-      throw UserError(config.source.string(), config.experiments[e].line, "experiments",
-                      record.name +
-                          " has no heat release, expected p and q: the config's model "
-                          "states a loop that is fitted to both");
-    }
+    RequireUsable(config, e, record, CycleOf(set.analyses[e]));
     out.names.push_back(record.name);
   }
   RunUnits(records.size(), options.threads, [&](std::size_t e) {
@@ -57,11 +83,7 @@ RecordSolution Solve(const Config& config, const Options& options) {
   RecordsFitOptions fit_options;
   fit_options.seed = options.seed;
   fit_options.threads = options.threads;
-  ProgressLine progress("fitting modes", options.quiet);
-  out.loop = FitLoop(out.points, *config.record_loop, fit_options, [&](int modes) {
-    progress.Show(static_cast<std::size_t>(modes), static_cast<std::size_t>(kMostModes));
-  });
-  progress.Clear();
+  out.loop = FitLoop(out.points, *config.record_loop, fit_options);
   for (std::size_t e = 0; e < records.size(); ++e) {
     const RecordsFit& fit = out.loop.fit;
     out.fitted.push_back(FittedLoopOf(out.points[e].record, fit.structure, fit.points[e]));

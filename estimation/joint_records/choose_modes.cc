@@ -16,14 +16,12 @@ double ModesTried::Sum() const {
 }
 
 ChosenLoop FitLoop(const std::vector<OperatingPoint>& points, const RecordLoopSpec& spec,
-                   const RecordsFitOptions& options,
-                   const std::function<void(int modes)>& progress) {
+                   const RecordsFitOptions& options) {
   ChosenLoop out;
   std::optional<RecordsFit> before;
   const int first = spec.choose_modes ? 1 : spec.modes;
   const int last = spec.choose_modes ? kMostModes : spec.modes;
   for (int modes = first; modes <= last; ++modes) {
-    progress(modes);
     // Tied modes of one number are no special case of those of another.
     const RecordsFit* const poorer = before && !spec.ratio ? &*before : nullptr;
     RecordsFit fit = FitRecords(points, StructureOf(spec, modes), options, poorer);

@@ -6,7 +6,6 @@
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_CHOOSE_MODES_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_CHOOSE_MODES_H_
 
-#include <functional>
 #include <vector>
 
 #include "estimation/joint_records/record_loop_spec.h"
@@ -26,10 +25,9 @@ struct ChosenLoop {
   std::size_t chosen = 0;         // in tried
 };
 
-// `spec.choose_modes` or not. `progress` is told the number of modes before they are fitted.
+// `spec.choose_modes` or not.
 ChosenLoop FitLoop(const std::vector<OperatingPoint>& points, const RecordLoopSpec& spec,
-                   const RecordsFitOptions& options,
-                   const std::function<void(int modes)>& progress);
+                   const RecordsFitOptions& options);
 
 }  // namespace howl
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
 #include "tests/app/program.h"
@@ -105,6 +106,28 @@ TEST(RecordFit, NeedsRecordsOfBothSignals) {
   const ProgramResult other = RunHowl("fit " + pressure_only + " --out " + folder.path().string());
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("pressure.yaml:2: experiments: a has no heat release"));
+}
+
+TEST(RecordFit, NeedsFiftyPeriods) {
+  const TemporaryFolder folder;
+  std::string samples = "p,q\n";
+  for (int i = 0; i < 400; ++i) {
+    const double phase = 2.0 * std::numbers::pi * 200.0 * i / 5000.0;
+    const double ripple = 0.01 * std::cos(3.7 * phase);
+    samples += std::to_string(std::sin(phase) + ripple) + "," +
+               std::to_string(std::sin(phase + 1.0) - ripple) + "\n";
+  }
+  folder.Write("short.csv", samples);
+  const std::string config =
+      folder
+          .Write("short.yaml",
+                 "experiments:\n  - {name: a, phi: 1, record: {file: short.csv, pressure: p, "
+                 "heat_release: q, sampling_hz: 5000}}\nmodel: {residue: complex}\n")
+          .string();
+  const ProgramResult fit = RunHowl("fit " + config + " --out " + folder.path().string());
+  EXPECT_EQ(fit.status, 2);
+  EXPECT_THAT(fit.err, HasSubstr("short.yaml:2: experiments: a holds 16.0 periods at 200.0 Hz, "
+                                 "expected at least 50 to fit a loop to"));
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ TEST(SharedUnits, AreTheSameInAllUnits) {
 TEST(LongChooseModes, TakesAsManyAsThereAre) {
   const std::vector<OperatingPoint> points = Points(3.0);
   RecordLoopSpec spec{.choose_modes = true, .ratio = std::nullopt};
-  const ChosenLoop loop = FitLoop(points, spec, {.starts = 6}, [](int) {});
+  const ChosenLoop loop = FitLoop(points, spec, {.starts = 6});
   EXPECT_EQ(loop.tried[loop.chosen].modes, 2);
   EXPECT_GT(loop.tried[1].Sum(), loop.tried[0].Sum() + 100.0);
 }
