@@ -132,7 +132,7 @@ Complex64 FitFundamental(const double* x, std::size_t n, double frequency_hz) {
     for (int k = 1; k <= kHarmonics; ++k) {
       const double angle = kTwoPi * k * frequency_hz * static_cast<double>(i) / kRateHz;
       a(i, 2 * k - 1) = std::cos(angle);
-      a(i, 2 * k) = -std::sin(angle);
+      a(i, Eigen::Index{2} * k) = -std::sin(angle);
     }
   }
   const Eigen::VectorXd c = (a.transpose() * a).ldlt().solve(a.transpose() * b);

@@ -129,7 +129,7 @@ DelaySystem RijkeTube(int modes) {
 
 // u at the heater.
 Eigen::VectorXd HeaterVelocity(int modes) {
-  Eigen::VectorXd c = Eigen::VectorXd::Zero(2 * modes);
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(Eigen::Index{2} * modes);
   for (int i = 1; i <= modes; ++i) c(i - 1) = std::cos(i * std::numbers::pi * 0.25);
   return c;
 }

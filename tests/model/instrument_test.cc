@@ -73,8 +73,7 @@ TEST(Decimator, PassAndStopBands) {
     const auto response = [&](double f) {  // f in units of the record's rate
       double sum = 0.0;
       for (int i = -filter.half_length(); i <= filter.half_length(); ++i) {
-        sum += filter.taps()[static_cast<std::size_t>(i + filter.half_length())] *
-               std::cos(kTwoPi * f * i / ratio);
+        sum += filter.taps()[i + filter.half_length()] * std::cos(kTwoPi * f * i / ratio);
       }
       return std::abs(sum);
     };

@@ -144,7 +144,7 @@ TEST(Effects, SkewMovesOneChannelInTime) {
     double p_error = 0.0;
     double q_error = 0.0;
     for (std::size_t n = 100; n < 1500; ++n) {
-      const auto m = static_cast<std::size_t>(static_cast<int>(n) + shift);
+      const std::ptrdiff_t m = static_cast<std::ptrdiff_t>(n) + shift;
       p_error += std::abs(a.p[m] - b.p[n]);
       q_error += std::abs(a.q[m - 2] - b.q[n]);
     }

@@ -44,6 +44,7 @@ TEST(NoiseProcess, SamplesHaveTheStatedDensityAndMeanSquare) {
   constexpr double kRate = 20000.0;
   constexpr std::size_t kSamples = 4000000;
   constexpr std::size_t kSegment = 4000;  // 5 Hz: narrower than the resonance's 24 Hz
+  constexpr std::size_t kSegments = kSamples / kSegment;
   for (const NoiseSpectrum& spectrum : {kWhite, kLow, kResonance}) {
     NoiseProcess process(spectrum, 0.3, kRate, 17);
     std::vector<double> x(kSamples);
@@ -55,7 +56,7 @@ TEST(NoiseProcess, SamplesHaveTheStatedDensityAndMeanSquare) {
       // Aliases add (pi f_c / f_s)^2 / 3 of S_0, 1.9e-4: 0.7 % of the low-pass at 900 Hz.
       const double expected = 0.09 * spectrum.DensityPerSquare(f, kRate);
       EXPECT_NEAR(Density(x, kRate, f, kSegment) / expected, 1.0,
-                  Tolerance(kSamples / kSegment) + 0.01)
+                  Tolerance(static_cast<double>(kSegments)) + 0.01)
           << f;
     }
   }
