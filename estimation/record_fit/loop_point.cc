@@ -16,6 +16,16 @@ double FrequencyRatio(const PointStructure& structure, Eigen::Index mode) {
 
 Eigen::VectorXcd Delayed(const Eigen::VectorXcd& s, double tau) { return (-tau * s.array()).exp(); }
 
+C SumOverModes(const LoopPoint& point, C s, double LoopMode::*rate, double LoopMode::*level) {
+  C out = 0.0;
+  for (const LoopMode& mode : point.modes) {
+    out +=
+        Times(mode.*rate * s + mode.*level * mode.omega,
+              Reciprocal(Times(s, s) + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega));
+  }
+  return out;
+}
+
 Eigen::VectorXcd Transfer(const LoopPoint& point, const Eigen::VectorXcd& s) {
   return s.unaryExpr([&](C each) { return AcousticTransfer(point, each); });
 }
@@ -72,16 +82,6 @@ Eigen::MatrixXcd PressureColumns(const PointStructure& structure, const LoopPoin
         out(i, j) += Times(of_r, heat_release[i]) + of_t;
       });
     }
-  }
-  return out;
-}
-
-C TransientAt(const LoopPoint& point, C s) {
-  C out = 0.0;
-  for (const LoopMode& mode : point.modes) {
-    out +=
-        Times(mode.g * s + mode.h * mode.omega,
-              Reciprocal(Times(s, s) + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega));
   }
   return out;
 }
@@ -151,7 +151,8 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   out.f = slope * Delayed(record.s, point.tau).cwiseProduct(record.input);
   out.acoustic =
       Tapered(record.pressure - Transfer(point, record.edge_s).cwiseProduct(record.heat_release) -
-              record.edge_s.unaryExpr([&](C s) { return TransientAt(point, s); }));
+              record.edge_s.unaryExpr(
+                  [&](C s) { return SumOverModes(point, s, &LoopMode::g, &LoopMode::h); }));
   out.flame = Tapered(record.heat_release -
                       Delayed(record.edge_s, point.tau).cwiseProduct(record.flame * point.flame));
   out.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
@@ -163,13 +164,7 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
 }
 
 C AcousticTransfer(const LoopPoint& point, C s) {
-  C out = 0.0;
-  for (const LoopMode& mode : point.modes) {
-    out +=
-        Times(mode.a * s + mode.b * mode.omega,
-              Reciprocal(Times(s, s) + 2.0 * mode.xi * mode.omega * s + mode.omega * mode.omega));
-  }
-  return out;
+  return SumOverModes(point, s, &LoopMode::a, &LoopMode::b);
 }
 
 void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point, C s, C by,
