@@ -34,10 +34,10 @@ struct PointStructure {
 
   Eigen::Index Frequencies() const { return ratio ? 1 : modes; }
   Eigen::Index Dampings() const { return own_damping ? modes : 1; }
-  Eigen::Index Residues() const { return complex_residues ? 2 * modes : modes; }
+  Eigen::Index Residues() const { return complex_residues ? Eigen::Index{2} * modes : modes; }
   // Of R alone; then those of what the record's ends leave follow.
   Eigen::Index Transfer() const { return Frequencies() + Dampings() + Residues(); }
-  Eigen::Index Transients() const { return 2 * modes; }
+  Eigen::Index Transients() const { return Eigen::Index{2} * modes; }
   Eigen::Index Acoustics() const { return Transfer() + Transients(); }
   Eigen::Index NoiseCoefficients() const;
   // The index of ln tau; the flame's coefficients follow.
