@@ -53,7 +53,7 @@ howl_build() {
   local tests=ON
   [ "$target" = all ] || tests=OFF
   [ -f "$root/build/build.ninja" ] ||
-    echo "compiling to build/: on two cores some 5 minutes the first time, 10 with the tests" >&2
+    echo "compiling to build/: on two cores some 20 minutes the first time, 25 with the tests" >&2
   if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
        -DHOWL_BUILD_TESTS=$tests -DHOWL_BUILD_BENCH=$tests >"$log" 2>&1; then
     cat "$log" >&2
