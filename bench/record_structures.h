@@ -16,11 +16,12 @@ struct NamedStructure {
 };
 
 inline std::vector<NoiseTerm> RecordNoise(Eigen::Index combustion, Eigen::Index sensors,
-                                          Eigen::Index duct) {
+                                          Eigen::Index duct, Eigen::Index background = 0) {
   std::vector<NoiseTerm> out = {{LoopNoise::kCombustion, combustion},
                                 {LoopNoise::kPressureSensor, sensors},
                                 {LoopNoise::kHeatReleaseSensor, sensors}};
   if (duct > 0) out.push_back({LoopNoise::kDuct, duct});
+  if (background > 0) out.push_back({LoopNoise::kBackground, background});
   return out;
 }
 
@@ -34,18 +35,20 @@ inline std::vector<NamedStructure> RecordStructures() {
   std::vector<NamedStructure> out = {{"the paper's loop", loop}};
   loop.noise = RecordNoise(6, 4, 0);
   out.push_back({"coloured sensors", loop});
+  loop.noise = RecordNoise(6, 4, 0, 4);
+  out.push_back({"background", loop});
+  loop.noise = RecordNoise(6, 4, 6, 4);
+  out.push_back({"duct's noise", loop});
   loop.ratio.reset();
   loop.own_damping = true;
   out.push_back({"free modes", loop});
   loop.complex_residues = true;
   out.push_back({"complex residues", loop});
-  loop.noise = RecordNoise(6, 4, 6);
-  out.push_back({"duct's noise", loop});
   loop.modes = 3;
   out.push_back({"three modes", loop});
   loop.modes = 4;
   out.push_back({"four modes", loop});
-  loop.noise = RecordNoise(12, 8, 12);
+  loop.noise = RecordNoise(12, 8, 12, 8);
   out.push_back({"finer noise", loop});
   return out;
 }

@@ -84,10 +84,11 @@ RecordSolution Solve(const Config& config, const Options& options) {
   fit_options.seed = options.seed;
   fit_options.threads = options.threads;
   out.loop = FitLoop(out.points, *config.record_loop, fit_options);
-  for (std::size_t e = 0; e < records.size(); ++e) {
+  out.fitted.resize(records.size());
+  RunUnits(records.size(), options.threads, [&](std::size_t e) {
     const RecordsFit& fit = out.loop.fit;
-    out.fitted.push_back(FittedLoopOf(out.points[e].record, fit.structure, fit.points[e]));
-  }
+    out.fitted[e] = FittedLoopOf(out.points[e].record, fit.structure, fit.points[e]);
+  });
   return out;
 }
 

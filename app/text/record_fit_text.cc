@@ -1,5 +1,6 @@
 #include "app/text/record_fit_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -34,6 +35,26 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
   return out + "\n";
 }
 
+constexpr std::size_t kMostOthers = 3;
+
+std::string DelaysText(const RecordSolution& solution) {
+  TextTable table({"experiment", "tau ms", "other delays ms (nats less likely)"});
+  for (std::size_t e = 0; e < solution.fitted.size(); ++e) {
+    const FittedLoop& loop = solution.fitted[e];
+    std::string others;
+    for (std::size_t i = 0; i < std::min(loop.other_delays.size(), kMostOthers); ++i) {
+      const OtherDelay& other = loop.other_delays[i];
+      if (i > 0) others += ", ";
+      others += Significant(1e3 * other.tau_s, 3) + " (" + Fixed(other.nats_below, 0) + ")";
+    }
+    table.AddRow({solution.names[e], Significant(1e3 * loop.tau_s.value, 4), others});
+  }
+  return table.Text() +
+         "other delays: where this record by itself has a maximum too; the interval of tau knows "
+         "of "
+         "none\nof them, and nats hold as far as the model does\n";
+}
+
 std::string ModesText(const RecordSolution& solution) {
   TextTable table({"experiment", "mode", "omega Hz", "xi", "N", "angle"});
   for (std::size_t e = 0; e < solution.fitted.size(); ++e) {
@@ -65,7 +86,8 @@ std::string TriedText(const ChosenLoop& loop) {
 }  // namespace
 
 std::string RecordFitText(const RecordSolution& solution, const std::string& operating_parameter) {
-  return LoopsText(solution, operating_parameter) + ModesText(solution) + TriedText(solution.loop);
+  return LoopsText(solution, operating_parameter) + DelaysText(solution) + ModesText(solution) +
+         TriedText(solution.loop);
 }
 
 }  // namespace howl

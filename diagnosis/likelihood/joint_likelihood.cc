@@ -84,7 +84,7 @@ JointEvaluation Evaluate(const JointBand& band, const std::vector<NoiseTerm>& no
     double bb = shared.eps_b * shared.eps_b * band.flame_power[i];
     Complex2 ab = 0.0;
     for (std::size_t j = 0; j < noise.size(); ++j) {
-      const NoiseDirection u = DirectionOf(noise[j].source, r, f);
+      const NoiseDirection u = DirectionOf(noise[j].source, r, f, 0.0);
       const double s = spectra(i, static_cast<Eigen::Index>(j));
       aa += s * std::norm(u.acoustic);
       bb += s * std::norm(u.flame);
@@ -151,8 +151,8 @@ JointAdjoint AdjointOf(const JointBand& band, const std::vector<NoiseTerm>& nois
     Complex2 by_r = -now / closed;
     Complex2 by_f = -r / closed;
     for (std::size_t j = 0; j < noise.size(); ++j) {
-      const NoiseDirection u = DirectionOf(noise[j].source, r, f);
-      const NoiseTurn turn = TurnOf(noise[j].source);
+      const NoiseDirection u = DirectionOf(noise[j].source, r, f, 0.0);
+      const NoiseTurn turn = TurnOf(noise[j].source, 0.0);
       const Eigen::Vector2cd direction(u.acoustic, u.flame);
       const Eigen::Vector2cd wu = w * direction;
       const Complex2 along = direction.dot(we);
@@ -199,7 +199,7 @@ NoiseScore ScoreNoise(const JointBand& band, const std::vector<NoiseTerm>& noise
     const Eigen::Matrix2cd& w = at.inverse[static_cast<std::size_t>(i)];
     const Eigen::Vector2cd we = w * Eigen::Vector2cd(residuals.acoustic->residual[i], left[i]);
     for (std::size_t j = 0; j < noise.size(); ++j) {
-      const NoiseDirection u = DirectionOf(noise[j].source, residuals.acoustic->r[i], at.f[i]);
+      const NoiseDirection u = DirectionOf(noise[j].source, residuals.acoustic->r[i], at.f[i], 0.0);
       direction[j] = {u.acoustic, u.flame};
       power[static_cast<Eigen::Index>(j)] = spectra(i, static_cast<Eigen::Index>(j));
     }

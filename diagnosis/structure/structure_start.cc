@@ -96,6 +96,7 @@ StructureFit StartOf(std::vector<JointBand>* bands, const EffectFit& base,
           coefficients[0] = std::log(SampleQuantile(acoustic_power, kQuiet) / kQuiet);
           break;
         case LoopNoise::kHeatReleaseSensor:
+        case LoopNoise::kBackground:
           coefficients[0] = std::log(SampleQuantile(flame_power, kQuiet) / kQuiet);
           break;
       }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "estimation/record_fit/delay_maxima.h"
+
 namespace howl {
 namespace {
 
@@ -65,6 +67,12 @@ std::vector<FittedNoise> NoiseOf(const RecordSpectra& record, const PointStructu
       noise.psd.push_back(std::exp(shape.dot(point.noise[j])) * unit * unit / record.sampling_hz);
       noise.log_std.push_back(std::sqrt(shape.dot(block * shape)));
     }
+    if (term.source == LoopNoise::kBackground) {
+      const Eigen::Index last = covariance.rows() - 1;
+      const double ratio_unit = record.scale.pressure / record.scale.heat_release;
+      noise.ratio = {point.background_ratio * ratio_unit,
+                     std::sqrt(covariance(last, last)) * ratio_unit};
+    }
     first += term.coefficients;
     out.push_back(std::move(noise));
   }
@@ -86,6 +94,11 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
                             1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz));
   out.small_signal = SmallSignalLoopOf(record, structure, fit);
   out.noise = NoiseOf(record, structure, point, covariance);
+  for (const DelayMaximum& each :
+       OtherDelayMaxima(record, structure, PriorOf(structure, record), fit.parameters)) {
+    out.other_delays.push_back(
+        {each.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz), each.nats_below});
+  }
   out.converged = fit.converged;
   return out;
 }

@@ -7,6 +7,7 @@
 #define HOWL_ESTIMATION_JOINT_RECORDS_FITTED_LOOP_H_
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "estimation/joint_records/small_signal_loop.h"
@@ -26,6 +27,14 @@ struct FittedNoise {
   std::vector<double> frequency_hz;
   std::vector<double> psd;
   std::vector<double> log_std;  // of ln psd
+  // Of a background: p over q at which both show it.
+  std::optional<Estimate> ratio;
+};
+
+// Another delay at which this record by itself has a maximum (delay_maxima.h).
+struct OtherDelay {
+  double tau_s = 0.0;
+  double nats_below = 0.0;
 };
 
 struct FittedLoop {
@@ -33,6 +42,7 @@ struct FittedLoop {
   std::complex<double> transfer;  // R at the cycle
   std::vector<FittedMode> modes;  // by frequency
   Estimate tau_s;
+  std::vector<OtherDelay> other_delays;  // the most likely first
   SmallSignalLoop small_signal;
   std::vector<FittedNoise> noise;
   bool converged = false;

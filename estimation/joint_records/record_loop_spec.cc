@@ -19,7 +19,8 @@ PointStructure StructureOf(const RecordLoopSpec& spec, int modes) {
   out.noise = {{LoopNoise::kCombustion, kOfTurbulence},
                {LoopNoise::kPressureSensor, kOfSensors},
                {LoopNoise::kHeatReleaseSensor, kOfSensors},
-               {LoopNoise::kDuct, kOfTurbulence}};
+               {LoopNoise::kDuct, kOfTurbulence},
+               {LoopNoise::kBackground, kOfSensors}};
   return out;
 }
 

@@ -20,8 +20,8 @@ struct RecordLoopSpec {
   FlameInput flame_input = FlameInput::kPressureRate;
 };
 
-// Noise is that of rigs: combustion's, the duct's and both sensors', with smooth spectra of their
-// own.
+// Noise is that of rigs: combustion's, the duct's, both sensors' and a background that both
+// channels show, with smooth spectra of their own.
 PointStructure StructureOf(const RecordLoopSpec& spec, int modes);
 
 }  // namespace howl

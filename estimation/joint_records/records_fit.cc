@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "estimation/parallel.h"
+#include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/point_starts.h"
 #include "estimation/record_fit/richer_structure.h"
 #include "estimation/unit_seed.h"
@@ -86,6 +87,14 @@ ParameterEvidence EvidenceOf(const PointFit& fit, const PointPrior& prior, const
   return out;
 }
 
+// With these parameters, but for the flame's, which are those that leave least of q.
+Eigen::VectorXd WithFlame(const RecordSpectra& record, const PointStructure& structure,
+                          const Eigen::VectorXd& parameters) {
+  LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  point.flame = FlameStart(record, point.tau);
+  return ToParameters(structure, point);
+}
+
 // Where all points begin, one row a candidate.
 using Candidates = std::vector<std::vector<Eigen::VectorXd>>;
 
@@ -116,9 +125,6 @@ class RecordsFitter {
   }
   std::vector<ParameterEvidence> Evidence(const std::vector<PointFit>& fits,
                                           const std::vector<PointPrior>& priors) const;
-  // Begun where the point stands and at what the others expect.
-  PointFit Under(std::size_t e, const PointPrior& common, const Eigen::VectorXd& at,
-                 bool from_law) const;
 
  private:
   // The base prior of each point, in common units, at its mean over the points.
@@ -161,11 +167,7 @@ std::vector<PointFit> RecordsFitter::Alone(const RecordsFitOptions& options) con
 }
 
 Eigen::VectorXd RecordsFitter::StartFrom(std::size_t e, const Eigen::VectorXd& common) const {
-  const RecordSpectra& record = points_[e].record;
-  const Eigen::VectorXd shared = units_[e].FromCommon(common, base_[e].mean);
-  LoopPoint point = ToPoint(structure_, record.flame.cols(), shared);
-  point.flame = FlameStart(record, point.tau);
-  return ToParameters(structure_, point);
+  return WithFlame(points_[e].record, structure_, units_[e].FromCommon(common, base_[e].mean));
 }
 
 std::vector<std::size_t> RecordsFitter::Drawn() const {
@@ -239,13 +241,12 @@ std::vector<ParameterEvidence> RecordsFitter::Evidence(
   return out;
 }
 
-PointFit RecordsFitter::Under(std::size_t e, const PointPrior& common, const Eigen::VectorXd& at,
-                              bool from_law) const {
-  const RecordSpectra& record = points_[e].record;
-  const PointPrior prior = Prior(e, common);
-  PointFit best = FitPoint(record, structure_, prior, at);
-  if (from_law) {
-    PointFit other = FitPoint(record, structure_, prior, StartFrom(e, common.mean));
+// Begun where the point stands and, if asked, at what the prior expects.
+PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
+                  const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior) {
+  PointFit best = FitPoint(record, structure, prior, at);
+  if (from_prior) {
+    PointFit other = FitPoint(record, structure, prior, WithFlame(record, structure, prior.mean));
     if (other.log_posterior > best.log_posterior) best = std::move(other);
   }
   return best;
@@ -267,6 +268,10 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
   }
   out.points = fitter.Best(candidates);
   for (std::size_t e = 0; e < points.size(); ++e) out.prior.push_back(fitter.base(e));
+  RunUnits(points.size(), options.threads, [&](std::size_t e) {
+    out.points[e] =
+        BestByDelay(points[e].record, structure, out.prior[e], std::move(out.points[e]));
+  });
   if (points.size() == 1) {
     out.points[0] = FitPoint(points[0].record, structure, out.prior[0], out.points[0].parameters);
     return out;
@@ -279,9 +284,9 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
         ((law.mean - out.law.mean).cwiseAbs().array() < kConverged * law.spread.array()).all();
     out.law = law;
     RunUnits(points.size(), options.threads, [&](std::size_t e) {
-      const PointPrior common = law.PriorAt(out.z[e]);
-      out.points[e] = fitter.Under(e, common, out.points[e].parameters, round < 2);
-      out.prior[e] = fitter.Prior(e, common);
+      out.prior[e] = fitter.Prior(e, law.PriorAt(out.z[e]));
+      out.points[e] =
+          FitUnder(points[e].record, structure, out.prior[e], out.points[e].parameters, round < 2);
     });
     VLOG(1) << "round " << round << " of the law of the parameters";
     if (converged) break;
@@ -289,17 +294,28 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
   return out;
 }
 
-std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,
-                                     const RecordsFit& fit, int threads) {
-  if (points.size() == 1) return {fit.points[0].log_evidence};
+std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,
+                                       const RecordsFit& fit, int threads) {
+  if (points.size() == 1) return fit.prior;
   const RecordsFitter fitter(points, fit.structure, fit.reference, fit.z, threads);
   const std::vector<ParameterEvidence> evidence = fitter.Evidence(fit.points, fit.prior);
-  std::vector<double> out(points.size());
+  std::vector<PointPrior> out(points.size());
   RunUnits(points.size(), threads, [&](std::size_t e) {
     std::vector<ParameterEvidence> others = evidence;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
-    const PointPrior common = fitter.Law(others).PredictionAt(fit.z[e]);
-    out[e] = fitter.Under(e, common, fit.points[e].parameters, true).log_evidence;
+    out[e] = fitter.Prior(e, fitter.Law(others).PredictionAt(fit.z[e]));
+  });
+  return out;
+}
+
+std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,
+                                     const RecordsFit& fit, int threads) {
+  if (points.size() == 1) return {fit.points[0].log_evidence};
+  const std::vector<PointPrior> prior = PriorsOfOthers(points, fit, threads);
+  std::vector<double> out(points.size());
+  RunUnits(points.size(), threads, [&](std::size_t e) {
+    out[e] = FitUnder(points[e].record, fit.structure, prior[e], fit.points[e].parameters, true)
+                 .log_evidence;
   });
   return out;
 }

@@ -7,7 +7,8 @@
 //
 // A mode of one point must be the same mode at the others. The loop found at each point (at up to
 // four) in turn is where all points begin, and the one from which all together become most likely
-// gives the modes their order. Where a poorer structure was fitted before, all points begin as well
+// gives the modes their order; each point then takes the delay of its most likely maximum
+// (delay_maxima.h). Where a poorer structure was fitted before, all points begin as well
 // with what it found there.
 //
 // The work grows as the number of points does, and points run in parallel. One point by itself is
@@ -48,6 +49,10 @@ struct RecordsFit {
 // `poorer`: a fit of these points by a structure that this one contains (richer_structure.h).
 RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStructure& structure,
                       const RecordsFitOptions& options = {}, const RecordsFit* poorer = nullptr);
+
+// The prior of each point by the law that all other points give. Of one point alone: its own.
+std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,
+                                       const RecordsFit& fit, int threads = 0);
 
 // ln of the predictive density of each point's record, by the law that all other points give. Of
 // one point alone: the evidence of its record.

@@ -11,7 +11,7 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
   const auto delay = static_cast<Eigen::Index>(index_.size());
   index_.push_back(structure.Delay());
   const Eigen::Index noise = structure.Delay() + 1 + record.flame.cols();
-  for (Eigen::Index i = 0; i < structure.NoiseCoefficients(); ++i) index_.push_back(noise + i);
+  for (Eigen::Index i = 0; i < structure.NoiseParameters(); ++i) index_.push_back(noise + i);
   const auto size = static_cast<Eigen::Index>(index_.size());
   scale_ = Eigen::VectorXd::Ones(size);
   shift_ = Eigen::VectorXd::Zero(size);
@@ -28,6 +28,7 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
     shift_[next] = 2.0 * std::log(unit) - std::log(record.sampling_hz / reference.sampling_hz);
     next += term.coefficients;
   }
+  if (HasBackground(structure.noise)) scale_[next] = pressure / heat_release;
 }
 
 Eigen::VectorXd SharedUnits::ToCommon(const Eigen::VectorXd& parameters) const {

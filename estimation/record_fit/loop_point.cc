@@ -88,8 +88,8 @@ Eigen::MatrixXcd PressureColumns(const PointStructure& structure, const LoopPoin
 
 }  // namespace
 
-Eigen::Index PointStructure::NoiseCoefficients() const {
-  Eigen::Index sum = 0;
+Eigen::Index PointStructure::NoiseParameters() const {
+  Eigen::Index sum = HasBackground(noise) ? 1 : 0;
   for (const NoiseTerm& term : noise) sum += term.coefficients;
   return sum;
 }
@@ -118,11 +118,12 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
     out.noise.emplace_back(parameters.segment(next, term.coefficients));
     next += term.coefficients;
   }
+  if (HasBackground(structure.noise)) out.background_ratio = parameters[next];
   return out;
 }
 
 Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& point) {
-  Eigen::VectorXd out(structure.Delay() + 1 + point.flame.size() + structure.NoiseCoefficients());
+  Eigen::VectorXd out(structure.Delay() + 1 + point.flame.size() + structure.NoiseParameters());
   Eigen::Index next = 0;
   const auto mode = [&](Eigen::Index k) { return point.modes[static_cast<std::size_t>(k)]; };
   for (Eigen::Index k = 0; k < structure.Frequencies(); ++k) out[next++] = std::log(mode(k).omega);
@@ -140,6 +141,7 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
     out.segment(next, source.size()) = source;
     next += source.size();
   }
+  if (HasBackground(structure.noise)) out[next] = point.background_ratio;
   return out;
 }
 
@@ -160,6 +162,7 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
     out.spectra.col(static_cast<Eigen::Index>(j)) =
         LoopNoiseSpectrum(record.position, point.noise[j]);
   }
+  out.background_ratio = point.background_ratio;
   return out;
 }
 
@@ -193,6 +196,7 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   for (const NoiseTerm& term : structure.noise) {
     out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));
   }
+  out.background = HasBackground(structure.noise);
   return out;
 }
 

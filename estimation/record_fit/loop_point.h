@@ -11,7 +11,8 @@
 // the taper does not hide it.
 //
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
-// and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared); ln tau; c; n.
+// and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared); ln tau; c; n;
+// where there is a background its ratio.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_
 
@@ -39,7 +40,8 @@ struct PointStructure {
   Eigen::Index Transfer() const { return Frequencies() + Dampings() + Residues(); }
   Eigen::Index Transients() const { return Eigen::Index{2} * modes; }
   Eigen::Index Acoustics() const { return Transfer() + Transients(); }
-  Eigen::Index NoiseCoefficients() const;
+  // With the background's ratio.
+  Eigen::Index NoiseParameters() const;
   // The index of ln tau; the flame's coefficients follow.
   Eigen::Index Delay() const { return Acoustics(); }
 };
@@ -59,6 +61,7 @@ struct LoopPoint {
   double tau = 0.0;
   Eigen::VectorXd flame;               // c
   std::vector<Eigen::VectorXd> noise;  // one a source
+  double background_ratio = 0.0;       // noise_sources.h
 };
 
 LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,

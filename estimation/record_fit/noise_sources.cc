@@ -1,5 +1,7 @@
 #include "estimation/record_fit/noise_sources.h"
 
+#include <algorithm>
+
 namespace howl {
 
 std::string_view LoopNoiseName(LoopNoise source) {
@@ -12,11 +14,19 @@ std::string_view LoopNoiseName(LoopNoise source) {
       return "q_sensor_noise";
     case LoopNoise::kDuct:
       return "duct_noise";
+    case LoopNoise::kBackground:
+      return "background";
   }
   return "";
 }
 
-NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f) {
+bool HasBackground(const std::vector<NoiseTerm>& noise) {
+  return std::ranges::any_of(
+      noise, [](const NoiseTerm& term) { return term.source == LoopNoise::kBackground; });
+}
+
+NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f,
+                           double background_ratio) {
   switch (source) {
     case LoopNoise::kCombustion:
       return {0.0, 1.0};
@@ -26,11 +36,13 @@ NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::comple
       return {-r, 1.0};
     case LoopNoise::kDuct:
       return {r, 0.0};
+    case LoopNoise::kBackground:
+      return {background_ratio - r, 1.0 - background_ratio * f};
   }
   return {};
 }
 
-NoiseTurn TurnOf(LoopNoise source) {
+NoiseTurn TurnOf(LoopNoise source, double background_ratio) {
   switch (source) {
     case LoopNoise::kCombustion:
       return {};
@@ -40,6 +52,8 @@ NoiseTurn TurnOf(LoopNoise source) {
       return {-1.0, 0.0};
     case LoopNoise::kDuct:
       return {1.0, 0.0};
+    case LoopNoise::kBackground:
+      return {-1.0, -background_ratio};
   }
   return {};
 }

@@ -3,6 +3,8 @@
 //
 //   combustion  (0, 1)      sensor of p  (1, -F)      sensor of q  (-R, 1)
 //   duct        (R, 0): a source other than the flame, which q does not show
+//   background  (beta - R, 1 - beta F): both channels show it, p beta times as much as q, as they
+//               do what the electronics or the building's mains add
 //
 //   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
 //
@@ -19,9 +21,15 @@
 
 namespace howl {
 
-enum class LoopNoise : std::uint8_t { kCombustion, kPressureSensor, kHeatReleaseSensor, kDuct };
+enum class LoopNoise : std::uint8_t {
+  kCombustion,
+  kPressureSensor,
+  kHeatReleaseSensor,
+  kDuct,
+  kBackground
+};
 
-inline constexpr std::size_t kMostNoiseTerms = 4;  // one of each
+inline constexpr std::size_t kMostNoiseTerms = 5;  // one of each
 
 std::string_view LoopNoiseName(LoopNoise source);
 
@@ -30,19 +38,22 @@ struct NoiseTerm {
   Eigen::Index coefficients = 1;
 };
 
-// u_j at one bin.
+bool HasBackground(const std::vector<NoiseTerm>& noise);
+
+// u_j at one bin. background_ratio: beta.
 struct NoiseDirection {
   std::complex<double> acoustic;
   std::complex<double> flame;
 };
-NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f);
+NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f,
+                           double background_ratio);
 
 // How u_j moves: d u_j = (by_r dR, by_f dF).
 struct NoiseTurn {
   double by_r = 0.0;
   double by_f = 0.0;
 };
-NoiseTurn TurnOf(LoopNoise source);
+NoiseTurn TurnOf(LoopNoise source, double background_ratio);
 
 // T_0 .. T_(terms - 1) at each x: rows are bins.
 Eigen::MatrixXd ChebyshevColumns(const Eigen::VectorXd& x, Eigen::Index terms);

@@ -121,7 +121,7 @@ std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
     if (out.size() == kMostDelays) break;
     known.push_back(log_tau);
     Eigen::VectorXd crossed = best;
-    const Eigen::Index flame = best.size() - structure.Delay() - structure.NoiseCoefficients();
+    const Eigen::Index flame = best.size() - structure.Delay() - structure.NoiseParameters();
     crossed.segment(structure.Delay(), flame) = fit.parameters.segment(structure.Delay(), flame);
     out.push_back(std::move(crossed));
   }

@@ -23,6 +23,8 @@ constexpr double kLogTau = 1.1;
 constexpr double kFlame = 3.0;  // of recorded q's mean square
 constexpr double kLevel = 3.0;  // of ln S_j, about the signal's mean
 constexpr double kShape = 1.5;  // of its higher coefficients
+// Amplifiers are set so that p and q fill their ranges alike.
+constexpr double kBackgroundRatio = 1.0;
 
 double MeanLogPower(const Eigen::VectorXcd& x) {
   return Tapered(x).cwiseAbs2().array().log().mean();
@@ -61,7 +63,7 @@ Eigen::VectorXd PointPrior::Slope(const Eigen::VectorXd& parameters) const {
 
 PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record) {
   const Eigen::Index flame = record.flame.cols();
-  const Eigen::Index size = structure.Delay() + 1 + flame + structure.NoiseCoefficients();
+  const Eigen::Index size = structure.Delay() + 1 + flame + structure.NoiseParameters();
   PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}};
   Eigen::Index next = 0;
   const auto add = [&](Eigen::Index count, double mean, double deviation) {
@@ -81,6 +83,7 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
     add(1, MeanLogPower(of_p ? record.pressure : record.heat_release), kLevel);
     add(term.coefficients - 1, 0.0, kShape);
   }
+  if (HasBackground(structure.noise)) add(1, 0.0, kBackgroundRatio);
   return out;
 }
 

@@ -18,6 +18,8 @@ constexpr std::size_t kBestDelays = 3;
 constexpr double kEulersGamma = 0.5772156649015329;
 constexpr double kQuiet = 0.1;  // share of bins
 constexpr double kWellDamped = 0.1;
+// Nats, so that a start's other sources explain the record where they can.
+constexpr double kBelowSensors = 4.0;
 
 // The level of white noise of which a record's quietest bins consist.
 double QuietLevel(Eigen::VectorXd power) {
@@ -37,7 +39,7 @@ class Starts {
     for (Eigen::Index k = 0; k < flame_.cols(); ++k) flame_.col(k) = Tapered(record.flame.col(k));
   }
 
-  std::vector<double> Delays() const;
+  std::vector<double> Delays(std::size_t count) const;
   Eigen::VectorXd At(std::vector<LoopMode> modes, double tau) const;
   StartSolution Flame(double tau) const;
 
@@ -69,7 +71,7 @@ double Starts::LogLeft(double tau) const {
   return SmoothPower(left, kStartReach).array().log().mean();
 }
 
-std::vector<double> Starts::Delays() const {
+std::vector<double> Starts::Delays(std::size_t count) const {
   std::vector<double> tau(kDelays);
   std::vector<double> left(kDelays);
   for (std::size_t i = 0; i < kDelays; ++i) {
@@ -83,7 +85,7 @@ std::vector<double> Starts::Delays() const {
     minima.emplace_back(left[i], tau[i]);
   }
   std::ranges::sort(minima);
-  minima.resize(std::min(minima.size(), kBestDelays));
+  minima.resize(std::min(minima.size(), count));
   std::vector<double> out;
   for (const auto& minimum : minima) out.push_back(minimum.second);
   return out;
@@ -120,9 +122,13 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
       case LoopNoise::kHeatReleaseSensor:
         c[0] = QuietLevel(left.flame.cwiseAbs2());
         break;
+      case LoopNoise::kBackground:
+        c[0] = QuietLevel(left.flame.cwiseAbs2()) - kBelowSensors;
+        break;
     }
     point.noise.push_back(c);
   }
+  if (HasBackground(structure_.noise)) point.background_ratio = BackgroundOf(record_).ratio;
   RaiseNoise(&point);
   return ToParameters(structure_, point);
 }
@@ -149,12 +155,28 @@ Eigen::VectorXd FlameStart(const RecordSpectra& record, double tau) {
   return Starts(record, PointStructure{}).Flame(tau).coefficients;
 }
 
+std::vector<double> DelayStarts(const RecordSpectra& record, std::size_t count) {
+  return Starts(record, PointStructure{}).Delays(count);
+}
+
+BackgroundStart BackgroundOf(const RecordSpectra& record) {
+  const Eigen::VectorXcd p = Tapered(record.pressure);
+  const Eigen::VectorXcd q = Tapered(record.heat_release);
+  const Eigen::VectorXd smooth_p = SmoothPower(p, kStartReach).cwiseSqrt();
+  const Eigen::VectorXd smooth_q = SmoothPower(q, kStartReach).cwiseSqrt();
+  const Eigen::ArrayXd coherent = (p.array() * q.conjugate().array()).real();
+  const double sign = (coherent / (smooth_p.array() * smooth_q.array())).sum() < 0.0 ? -1.0 : 1.0;
+  const double of_p = QuietLevel(p.cwiseAbs2());
+  const double of_q = QuietLevel(q.cwiseAbs2());
+  return {sign * std::exp(0.5 * (of_p - of_q)), of_q};
+}
+
 std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointStructure& structure,
                                       const PointPrior& prior, std::size_t count,
                                       std::uint64_t seed) {
   const Starts starts(record, structure);
   const PoleStarts poles(record, structure);
-  const std::vector<double> delays = starts.Delays();
+  const std::vector<double> delays = starts.Delays(kBestDelays);
   std::vector<std::vector<StartPole>> from = {poles.Greedy()};
   if (!structure.ratio) {
     from.push_back(poles.Relocated(poles.Spread()));

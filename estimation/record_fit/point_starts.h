@@ -21,6 +21,18 @@ std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointSt
 // The flame's coefficients that leave least of q, given its delay.
 Eigen::VectorXd FlameStart(const RecordSpectra& record, double tau);
 
+// Delays, up to 1.25 periods of the cycle, with which the flame leaves less of q than with those
+// beside them: those that leave least, at most `count`.
+std::vector<double> DelayStarts(const RecordSpectra& record, std::size_t count);
+
+// The ratio at which p and q show alike what is coherent between them without a delay, over the
+// band's quiet bins, and the logarithm of q's level in those.
+struct BackgroundStart {
+  double ratio = 0.0;
+  double log_level = 0.0;
+};
+BackgroundStart BackgroundOf(const RecordSpectra& record);
+
 }  // namespace howl
 
 #endif  // HOWL_ESTIMATION_RECORD_FIT_POINT_STARTS_H_

@@ -83,7 +83,7 @@ Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointS
     by_phi_0 -= (over * (u * (1.0 - phi_0 * w) + w * (1.0 - phi_0 * u))).real();
     by_square -= (over * u * w).real();
   }
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(parameters + flame + structure.NoiseCoefficients());
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(parameters + flame + structure.NoiseParameters());
   out.head(parameters) = of_loop;
   out.segment(parameters, flame) =
       by_phi_0 * record.slopes + 2.0 * by_square * (std::conj(phi_2) * record.coupling).real();

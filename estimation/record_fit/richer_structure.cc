@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "estimation/record_fit/point_starts.h"
 #include "estimation/record_fit/pole_starts.h"
 
 namespace howl {
@@ -56,6 +57,12 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
   for (const NoiseTerm& term : rich.noise) {
     Eigen::VectorXd c = Eigen::VectorXd::Zero(term.coefficients);
     c[0] = least - kHardlyShows;
+    if (term.source == LoopNoise::kBackground && !HasBackground(poor.noise)) {
+      // At a level that hardly shows nothing would tell the ratio.
+      const BackgroundStart start = BackgroundOf(record);
+      point.background_ratio = start.ratio;
+      c[0] = start.log_level;
+    }
     for (std::size_t j = 0; j < poor.noise.size(); ++j) {
       if (poor.noise[j].source != term.source) continue;
       c[0] = 0.0;

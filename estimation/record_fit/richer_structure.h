@@ -1,6 +1,6 @@
 // A loop of one structure as the start of a richer one, which contains it: the same modes, and such
 // noise as there was. Further modes begin as those of `further`, a source that the poorer structure
-// had not at a level that hardly shows.
+// had not at a level that hardly shows, but for a background, which begins as the record shows it.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_RICHER_STRUCTURE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_RICHER_STRUCTURE_H_
 

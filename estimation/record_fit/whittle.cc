@@ -17,6 +17,10 @@ struct Pair {
 };
 // x^T y, without a conjugate.
 inline C Dot(const Pair& x, const Pair& y) { return Times(x.a, y.a) + Times(x.b, y.b); }
+// x^H y.
+inline C Inner(const Pair& x, const Pair& y) {
+  return ConjugateTimes(x.a, y.a) + ConjugateTimes(x.b, y.b);
+}
 inline Pair Conjugate(const Pair& x) { return {std::conj(x.a), std::conj(x.b)}; }
 
 // [aa, ab; conj(ab), bb]
@@ -39,15 +43,15 @@ struct Hermitian {
   }
 };
 
-Pair Direction(LoopNoise source, C r, C f) {
-  const NoiseDirection u = DirectionOf(source, r, f);
+Pair Direction(LoopNoise source, const LoopResiduals& at, Eigen::Index i) {
+  const NoiseDirection u = DirectionOf(source, at.r[i], at.f[i], at.background_ratio);
   return {u.acoustic, u.flame};
 }
 
 Hermitian Sigma(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, Eigen::Index i) {
   Hermitian out;
   for (std::size_t j = 0; j < noise.size(); ++j) {
-    const Pair u = Direction(noise[j].source, at.r[i], at.f[i]);
+    const Pair u = Direction(noise[j].source, at, i);
     const double s = at.spectra(i, static_cast<Eigen::Index>(j));
     out.aa += s * std::norm(u.a);
     out.bb += s * std::norm(u.b);
@@ -87,7 +91,10 @@ struct Bins {
         by_spectra(bins, sources),
         r_spectra(bins, sources),
         f_spectra(bins, sources),
-        spectra_spectra(bins, sources * sources) {}
+        spectra_spectra(bins, sources * sources),
+        r_ratio(bins),
+        f_ratio(bins),
+        spectra_ratio(bins, sources) {}
 
   // d ln L = Re(by_r dR + by_f dF + by_acoustic dE_A + by_flame dE_B)
   Eigen::VectorXcd by_r, by_f, by_acoustic, by_flame;
@@ -96,6 +103,12 @@ struct Bins {
   Eigen::MatrixXd by_spectra;             // of d ln S_j
   Eigen::MatrixXcd r_spectra, f_spectra;  // of dR d ln S_j
   Eigen::MatrixXd spectra_spectra;
+  // Of the background's ratio, which is the same at all bins: sums where no other parameter's
+  // slope depends on the bin.
+  double by_ratio = 0.0;
+  double ratio_ratio = 0.0;
+  Eigen::VectorXcd r_ratio, f_ratio;
+  Eigen::MatrixXd spectra_ratio;
 };
 
 // M of a parameter that moves R is dR e_A x^T and its conjugate transpose, that of one that moves F
@@ -126,23 +139,28 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
   std::array<Pair, kMostNoiseTerms> wu;
   std::array<Pair, kMostNoiseTerms> direction;
   const auto sources = static_cast<Eigen::Index>(noise.size());
+  const Pair ratio_turn{1.0, -f};  // du of the background, by its ratio
   for (Eigen::Index j = 0; j < sources; ++j) {
     const auto at_j = static_cast<std::size_t>(j);
     const LoopNoise source = noise[at_j].source;
     const double s = at.spectra(i, j);
-    const Pair u = Direction(source, r, f);
+    const Pair u = Direction(source, at, i);
     direction[at_j] = u;
     wu[at_j] = w.Apply(u);
-    const NoiseTurn turn = TurnOf(source);
-    const C along = ConjugateTimes(u.a, we.a) + ConjugateTimes(u.b, we.b);
+    const NoiseTurn turn = TurnOf(source, at.background_ratio);
+    const C along = Inner(u, we);
     gradient_r += 2.0 * s * turn.by_r * (ConjugateTimes(we.a, along) - std::conj(wu[at_j].a));
     gradient_f += 2.0 * s * turn.by_f * (ConjugateTimes(we.b, along) - std::conj(wu[at_j].b));
     by_r.row.a += s * turn.by_r * std::conj(u.a);
     by_r.row.b += s * turn.by_r * std::conj(u.b);
     by_f.row.a += s * turn.by_f * std::conj(u.a);
     by_f.row.b += s * turn.by_f * std::conj(u.b);
-    const double trace = (ConjugateTimes(u.a, wu[at_j].a) + ConjugateTimes(u.b, wu[at_j].b)).real();
+    const double trace = Inner(u, wu[at_j]).real();
     out->by_spectra(i, j) = share * s * (std::norm(along) - trace);
+    if (source == LoopNoise::kBackground) {
+      out->by_ratio += 2.0 * share * s *
+                       (Times(Inner(we, ratio_turn), along) - Inner(wu[at_j], ratio_turn)).real();
+    }
   }
   out->by_r[i] = share * gradient_r;
   out->by_f[i] = share * gradient_f;
@@ -173,8 +191,32 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
     for (Eigen::Index k = 0; k < sources; ++k) {
       const Pair& u = direction[static_cast<std::size_t>(k)];
       out->spectra_spectra(i, j * sources + k) =
-          share * at.spectra(i, j) * at.spectra(i, k) *
-          std::norm(ConjugateTimes(u.a, wu[at_j].a) + ConjugateTimes(u.b, wu[at_j].b));
+          share * at.spectra(i, j) * at.spectra(i, k) * std::norm(Inner(u, wu[at_j]));
+    }
+  }
+  for (Eigen::Index j = 0; j < sources; ++j) {
+    const auto at_j = static_cast<std::size_t>(j);
+    if (noise[at_j].source != LoopNoise::kBackground) continue;
+    // M of the ratio is d (S u)^H and its conjugate transpose, d the background's turn.
+    const double s = at.spectra(i, j);
+    const Pair& u = direction[at_j];
+    const Pair wd = w.Apply(ratio_turn);
+    const auto with = [&](const Pair& turned, C wd_left, C wu_left) {
+      return two * s *
+             (ConjugateTimes(wu_left, Dot(turned, ratio_turn)) +
+              ConjugateTimes(wd_left, Dot(turned, u)));
+    };
+    out->r_ratio[i] = with(by_r.turned, wd.a, wu[at_j].a);
+    out->f_ratio[i] = with(by_f.turned, wd.b, wu[at_j].b);
+    const C mixed = Inner(u, wd);
+    out->ratio_ratio +=
+        two * s * s *
+        (Times(mixed, mixed).real() + Inner(u, wu[at_j]).real() * Inner(ratio_turn, wd).real());
+    for (Eigen::Index k = 0; k < sources; ++k) {
+      const auto at_k = static_cast<std::size_t>(k);
+      const Pair& of_k = direction[at_k];
+      out->spectra_ratio(i, k) =
+          two * at.spectra(i, k) * s * Times(Inner(of_k, wd), Inner(u, wu[at_k])).real();
     }
   }
 }
@@ -184,6 +226,7 @@ Eigen::VectorXd GatherGradient(const Bins& bins, const LoopDerivatives& d) {
   const Eigen::Index flame = d.f.cols();
   Eigen::Index size = acoustic + flame;
   for (const Eigen::MatrixXd& basis : d.log_spectra) size += basis.cols();
+  if (d.background) ++size;
   Eigen::VectorXd out(size);
   out.head(acoustic) =
       (d.r.transpose() * bins.by_r + d.acoustic.transpose() * bins.by_acoustic).real();
@@ -196,6 +239,7 @@ Eigen::VectorXd GatherGradient(const Bins& bins, const LoopDerivatives& d) {
         basis.transpose() * bins.by_spectra.col(static_cast<Eigen::Index>(j));
     row += basis.cols();
   }
+  if (d.background) out[row] = bins.by_ratio;
   return out;
 }
 
@@ -230,7 +274,13 @@ LoopScore Gather(const Bins& bins, const LoopDerivatives& d) {
           basis.transpose() * bins.spectra_spectra.col(j * sources + k).asDiagonal() * other);
       column += other.cols();
     }
+    if (d.background) put(row, column, basis.transpose() * bins.spectra_ratio.col(j));
     row += basis.cols();
+  }
+  if (d.background) {
+    put(0, row, (d.r.transpose() * bins.r_ratio).real());
+    put(acoustic, row, (d.f.transpose() * bins.f_ratio).real());
+    out.information(row, row) = bins.ratio_ratio;
   }
   return out;
 }

@@ -37,6 +37,7 @@ struct LoopResiduals {
   Eigen::VectorXcd acoustic;  // E_A
   Eigen::VectorXcd flame;     // E_B
   Eigen::MatrixXd spectra;    // S_j, one column a source
+  double background_ratio = 0.0;
 };
 
 // Derivatives by the parameters, one column each. The acoustics' parameters move R and E_A; those
@@ -47,9 +48,11 @@ struct LoopDerivatives {
   Eigen::MatrixXcd f;
   Eigen::MatrixXcd flame;  // of E_B, as many columns as f
   std::vector<Eigen::MatrixXd> log_spectra;
+  bool background = false;  // that there is one, and its ratio among the parameters
 };
 
-// Parameters in the order acoustics, delay and flame, source after source.
+// Parameters in the order acoustics, delay and flame, source after source, and where there is a
+// background the ratio at which p and q show it.
 struct LoopScore {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;

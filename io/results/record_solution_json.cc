@@ -26,6 +26,14 @@ Json ModesJson(const FittedLoop& loop) {
   return modes;
 }
 
+Json OtherDelaysJson(const FittedLoop& loop) {
+  Json out = Json::array();
+  for (const OtherDelay& each : loop.other_delays) {
+    out.push_back({{"tau_s", each.tau_s}, {"nats_below", each.nats_below}});
+  }
+  return out;
+}
+
 Json NoiseJson(const FittedLoop& loop) {
   Json noise = Json::array();
   for (const FittedNoise& source : loop.noise) {
@@ -33,6 +41,7 @@ Json NoiseJson(const FittedLoop& loop) {
                      {"frequency_hz", source.frequency_hz},
                      {"psd", source.psd},
                      {"log_std", source.log_std}});
+    if (source.ratio) noise.back()["p_over_q"] = EstimateJson(*source.ratio);
   }
   return noise;
 }
@@ -61,6 +70,7 @@ Json ExperimentJson(const std::string& name, const OperatingPoint& point, const 
            {{"frequency_hz", EstimateJson(small.frequency_hz)},
             {"growth_rate_1_s", EstimateJson(small.growth_rate_1_s)},
             {"loop_gain", EstimateJson(small.loop_gain)}}},
+          {"other_delays", OtherDelaysJson(loop)},
           {"noise", NoiseJson(loop)},
           {"log_density_left_out", NumberOrNull(log_density)},
           {"converged", loop.converged}};

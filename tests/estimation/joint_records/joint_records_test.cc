@@ -7,6 +7,7 @@
 
 #include "estimation/joint_records/choose_modes.h"
 #include "estimation/joint_records/fitted_loop.h"
+#include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/point_starts.h"
 #include "estimation/record_fit/richer_structure.h"
 #include "tests/estimation/record_fit/identified.h"
@@ -76,7 +77,29 @@ TEST_F(JointRecords, FindsEachPointsLoop) {
     ASSERT_TRUE(loop.small_signal.found);
     near(loop.small_signal.loop_gain, kGains[e], "loop gain");
     EXPECT_EQ(loop.small_signal.growth_rate_1_s.value > 0.0, kGains[e] > 1.0);
+    EXPECT_FALSE(loop.other_delays.empty());
+    for (const OtherDelay& other : loop.other_delays) EXPECT_GT(other.nats_below, 10.0);
   }
+}
+
+// From a maximum with a wrong delay, the right one is seen and is more likely.
+TEST_F(JointRecords, AWrongDelayShowsTheRightOne) {
+  const RecordSpectra& record = (*points_)[2].record;
+  const PointPrior prior = PriorOf(*structure_, record);
+  const Eigen::VectorXd& right = fit_->points[2].parameters;
+  const Eigen::Index delay = structure_->Delay();
+  const double tau = std::exp(right[delay]);
+  const std::vector<DelayMaximum> others = OtherDelayMaxima(record, *structure_, prior, right);
+  ASSERT_FALSE(others.empty());
+  Eigen::VectorXd wrong = right;
+  wrong[delay] = std::log(others[0].tau);
+  wrong.segment(delay + 1, record.flame.cols()) = FlameStart(record, others[0].tau);
+  wrong = FitPoint(record, *structure_, prior, wrong).parameters;
+  ASSERT_GT(std::abs(std::exp(wrong[delay]) - tau), 0.1 * tau);
+  const std::vector<DelayMaximum> seen = OtherDelayMaxima(record, *structure_, prior, wrong);
+  ASSERT_FALSE(seen.empty());
+  EXPECT_NEAR(seen[0].tau, tau, 0.02 * tau);
+  EXPECT_LT(seen[0].nats_below, 0.0);
 }
 
 // White noise of q's sensor has the spectrum 2 sigma^2 / f_s.

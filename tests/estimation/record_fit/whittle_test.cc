@@ -24,6 +24,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
   for (const bool tied : {false, true}) {
     PointStructure structure = FreeStructure(2);
     structure.noise.push_back({LoopNoise::kDuct, 2});
+    structure.noise.push_back({LoopNoise::kBackground, 2});
     if (tied) {
       structure.ratio = 2.2;
       structure.own_damping = false;
@@ -52,7 +53,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
   }
 }
 
-// A linear loop with R = x0 g + x1 h and F = x2 k + x3 l, whose residuals are drawn from all four
+// A linear loop with R = x0 g + x1 h and F = x2 k + x3 l, whose residuals are drawn from all five
 // sources: bins are independent, and the information is exact.
 class LinearLoop {
  public:
@@ -64,7 +65,8 @@ class LinearLoop {
     out.f = x_[2] * Slope(2) + x_[3] * Slope(3);
     out.acoustic = p - out.r.cwiseProduct(q);
     out.flame = q - out.f.cwiseProduct(p);
-    out.spectra = Eigen::Vector4d(0.3, 0.05, 0.02, 0.2).transpose().replicate(kBins, 1);
+    out.spectra = Eigen::RowVectorXd{{0.3, 0.05, 0.02, 0.2, 0.1}}.replicate(kBins, 1);
+    out.background_ratio = 0.7;
     return out;
   }
 
@@ -76,7 +78,10 @@ class LinearLoop {
     out.f << Slope(2), Slope(3);
     out.acoustic = -(q.asDiagonal() * out.r);
     out.flame = -(p.asDiagonal() * out.f);
-    for (int j = 0; j < 4; ++j) out.log_spectra.emplace_back(Eigen::MatrixXd::Ones(kBins, 1));
+    for (std::size_t j = 0; j < Noise().size(); ++j) {
+      out.log_spectra.emplace_back(Eigen::MatrixXd::Ones(kBins, 1));
+    }
+    out.background = true;
     return out;
   }
 
@@ -87,7 +92,8 @@ class LinearLoop {
     for (Eigen::Index i = 0; i < kBins; ++i) {
       Eigen::Vector2cd e(0.0, 0.0);
       for (std::size_t j = 0; j < Noise().size(); ++j) {
-        const NoiseDirection u = DirectionOf(Noise()[j].source, loop.r[i], loop.f[i]);
+        const NoiseDirection u =
+            DirectionOf(Noise()[j].source, loop.r[i], loop.f[i], loop.background_ratio);
         const double deviation = std::sqrt(0.5 * loop.spectra(i, static_cast<Eigen::Index>(j)));
         const C z(deviation * random->Normal(), deviation * random->Normal());
         e += z * Eigen::Vector2cd(u.acoustic, u.flame);
@@ -103,7 +109,7 @@ class LinearLoop {
   // Of 2 ln |1 - R F|.
   Eigen::VectorXd DeterminantGradient() const {
     const LoopResiduals loop = At(Eigen::VectorXcd::Zero(kBins), Eigen::VectorXcd::Zero(kBins));
-    Eigen::VectorXd out = Eigen::VectorXd::Zero(8);
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(kParameters);
     for (Eigen::Index i = 0; i < kBins; ++i) {
       const C over = -2.0 / (1.0 - loop.r[i] * loop.f[i]);
       for (int k = 0; k < 4; ++k) {
@@ -117,8 +123,11 @@ class LinearLoop {
     return {{LoopNoise::kCombustion, 1},
             {LoopNoise::kPressureSensor, 1},
             {LoopNoise::kHeatReleaseSensor, 1},
-            {LoopNoise::kDuct, 1}};
+            {LoopNoise::kDuct, 1},
+            {LoopNoise::kBackground, 1}};
   }
+  // Two of R, two of F, one a source, and the background's ratio.
+  static constexpr Eigen::Index kParameters = 10;
   static constexpr Eigen::Index kBins = 40;
 
  private:
@@ -136,13 +145,14 @@ class LinearLoop {
 
 TEST(Whittle, InformationIsTheCovarianceOfTheScore) {
   constexpr int kDraws = 6000;
+  constexpr Eigen::Index kSize = LinearLoop::kParameters;
   const LinearLoop loop;
   const Eigen::VectorXd share = Eigen::VectorXd::Ones(LinearLoop::kBins);
   const Eigen::VectorXd determinant = loop.DeterminantGradient();
   RandomStream random(11);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(8, 8);
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(8, 8);
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(8);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kSize, kSize);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kSize, kSize);
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(kSize);
   for (int i = 0; i < kDraws; ++i) {
     Eigen::VectorXcd p;
     Eigen::VectorXcd q;
@@ -153,7 +163,7 @@ TEST(Whittle, InformationIsTheCovarianceOfTheScore) {
     covariance += score.gradient * score.gradient.transpose() / kDraws;
     information += score.information / kDraws;
   }
-  for (Eigen::Index a = 0; a < 8; ++a) {
+  for (Eigen::Index a = 0; a < kSize; ++a) {
     const double deviation = std::sqrt(information(a, a) / kDraws);
     EXPECT_LT(std::abs(mean[a]), 4.5 * deviation) << a;
     for (Eigen::Index b = 0; b <= a; ++b) {

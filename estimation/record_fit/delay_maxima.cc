@@ -1,0 +1,69 @@
+#include "estimation/record_fit/delay_maxima.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "estimation/record_fit/point_starts.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kDelays = 8;
+constexpr double kSame = 0.25;  // radians of the cycle: a quarter of a period at the band's end
+// To within a nat or so of the maximum, which tells maxima apart.
+constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
+constexpr double kBetter = 1.0;
+constexpr int kMostScans = 3;
+
+}  // namespace
+
+std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStructure& structure,
+                                  const PointPrior& prior, const Eigen::VectorXd& parameters) {
+  const auto tau_of = [&](const PointFit& fit) {
+    return std::exp(fit.parameters[structure.Delay()]);
+  };
+  std::vector<PointFit> all = {FitPoint(record, structure, prior, parameters, kToTheMaximum)};
+  for (const double tau : DelayStarts(record, kDelays)) {
+    Eigen::VectorXd start = parameters;
+    start[structure.Delay()] = std::log(tau);
+    start.segment(structure.Delay() + 1, record.flame.cols()) = FlameStart(record, tau);
+    all.push_back(FitPoint(record, structure, prior, start, kToTheMaximum));
+  }
+  std::ranges::stable_sort(all, std::ranges::greater(), &PointFit::log_posterior);
+  std::vector<PointFit> out;
+  for (const PointFit& fit : all) {
+    const auto same = [&](const PointFit& other) {
+      return std::abs(tau_of(other) - tau_of(fit)) < kSame;
+    };
+    if (std::ranges::none_of(out, same)) out.push_back(fit);
+  }
+  return out;
+}
+
+PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structure,
+                     const PointPrior& prior, PointFit fit) {
+  for (int scan = 0; scan < kMostScans; ++scan) {
+    PointFit next = FitsByDelay(record, structure, prior, fit.parameters)[0];
+    const double gain = next.log_posterior - fit.log_posterior;
+    fit = std::move(next);
+    if (gain < kBetter) break;
+  }
+  return fit;
+}
+
+std::vector<DelayMaximum> OtherDelayMaxima(const RecordSpectra& record,
+                                           const PointStructure& structure, const PointPrior& prior,
+                                           const Eigen::VectorXd& parameters) {
+  const double here = LogLikelihood(record, structure, parameters) + prior.LogDensity(parameters);
+  const double known = std::exp(parameters[structure.Delay()]);
+  std::vector<DelayMaximum> out;
+  for (const PointFit& fit : FitsByDelay(record, structure, prior, parameters)) {
+    const double tau = std::exp(fit.parameters[structure.Delay()]);
+    if (std::abs(tau - known) >= kSame) out.push_back({tau, here - fit.log_posterior});
+  }
+  return out;
+}
+
+}  // namespace howl
