@@ -85,9 +85,11 @@ RecordSolution Solve(const Config& config, const Options& options) {
   fit_options.threads = options.threads;
   out.loop = FitLoop(out.points, *config.record_loop, fit_options);
   out.fitted.resize(records.size());
+  out.other_delays.resize(records.size());
   RunUnits(records.size(), options.threads, [&](std::size_t e) {
     const RecordsFit& fit = out.loop.fit;
     out.fitted[e] = FittedLoopOf(out.points[e].record, fit.structure, fit.points[e]);
+    out.other_delays[e] = OtherDelaysOf(out.points[e].record, fit.structure, fit.points[e]);
   });
   return out;
 }

@@ -40,19 +40,17 @@ constexpr std::size_t kMostOthers = 3;
 std::string DelaysText(const RecordSolution& solution) {
   TextTable table({"experiment", "tau ms", "other delays ms (nats less likely)"});
   for (std::size_t e = 0; e < solution.fitted.size(); ++e) {
-    const FittedLoop& loop = solution.fitted[e];
     std::string others;
-    for (std::size_t i = 0; i < std::min(loop.other_delays.size(), kMostOthers); ++i) {
-      const OtherDelay& other = loop.other_delays[i];
+    for (std::size_t i = 0; i < std::min(solution.other_delays[e].size(), kMostOthers); ++i) {
+      const OtherDelay& other = solution.other_delays[e][i];
       if (i > 0) others += ", ";
       others += Significant(1e3 * other.tau_s, 3) + " (" + Fixed(other.nats_below, 0) + ")";
     }
-    table.AddRow({solution.names[e], Significant(1e3 * loop.tau_s.value, 4), others});
+    table.AddRow({solution.names[e], Significant(1e3 * solution.fitted[e].tau_s.value, 4), others});
   }
   return table.Text() +
          "other delays: where this record by itself has a maximum too; the interval of tau knows "
-         "of "
-         "none\nof them, and nats hold as far as the model does\n";
+         "of none\nof them, and nats hold as far as the model does\n";
 }
 
 std::string ModesText(const RecordSolution& solution) {

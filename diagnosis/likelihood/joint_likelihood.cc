@@ -13,6 +13,7 @@ namespace {
 
 using Complex2 = std::complex<double>;
 
+constexpr double kNoBackground = 0.0;  // this likelihood has no such source
 constexpr int kSlopeSteps = 12;
 constexpr double kRidge = 1e-10;  // of the largest curvature, where v never comes to a spline
 
@@ -84,7 +85,7 @@ JointEvaluation Evaluate(const JointBand& band, const std::vector<NoiseTerm>& no
     double bb = shared.eps_b * shared.eps_b * band.flame_power[i];
     Complex2 ab = 0.0;
     for (std::size_t j = 0; j < noise.size(); ++j) {
-      const NoiseDirection u = DirectionOf(noise[j].source, r, f, 0.0);
+      const NoiseDirection u = DirectionOf(noise[j].source, r, f, kNoBackground);
       const double s = spectra(i, static_cast<Eigen::Index>(j));
       aa += s * std::norm(u.acoustic);
       bb += s * std::norm(u.flame);
@@ -151,8 +152,8 @@ JointAdjoint AdjointOf(const JointBand& band, const std::vector<NoiseTerm>& nois
     Complex2 by_r = -now / closed;
     Complex2 by_f = -r / closed;
     for (std::size_t j = 0; j < noise.size(); ++j) {
-      const NoiseDirection u = DirectionOf(noise[j].source, r, f, 0.0);
-      const NoiseTurn turn = TurnOf(noise[j].source, 0.0);
+      const NoiseDirection u = DirectionOf(noise[j].source, r, f, kNoBackground);
+      const NoiseTurn turn = TurnOf(noise[j].source, kNoBackground);
       const Eigen::Vector2cd direction(u.acoustic, u.flame);
       const Eigen::Vector2cd wu = w * direction;
       const Complex2 along = direction.dot(we);
@@ -199,7 +200,8 @@ NoiseScore ScoreNoise(const JointBand& band, const std::vector<NoiseTerm>& noise
     const Eigen::Matrix2cd& w = at.inverse[static_cast<std::size_t>(i)];
     const Eigen::Vector2cd we = w * Eigen::Vector2cd(residuals.acoustic->residual[i], left[i]);
     for (std::size_t j = 0; j < noise.size(); ++j) {
-      const NoiseDirection u = DirectionOf(noise[j].source, residuals.acoustic->r[i], at.f[i], 0.0);
+      const NoiseDirection u =
+          DirectionOf(noise[j].source, residuals.acoustic->r[i], at.f[i], kNoBackground);
       direction[j] = {u.acoustic, u.flame};
       power[static_cast<Eigen::Index>(j)] = spectra(i, static_cast<Eigen::Index>(j));
     }

@@ -94,12 +94,17 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
                             1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz));
   out.small_signal = SmallSignalLoopOf(record, structure, fit);
   out.noise = NoiseOf(record, structure, point, covariance);
+  out.converged = fit.converged;
+  return out;
+}
+
+std::vector<OtherDelay> OtherDelaysOf(const RecordSpectra& record, const PointStructure& structure,
+                                      const PointFit& fit) {
+  std::vector<OtherDelay> out;
   for (const DelayMaximum& each :
        OtherDelayMaxima(record, structure, PriorOf(structure, record), fit.parameters)) {
-    out.other_delays.push_back(
-        {each.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz), each.nats_below});
+    out.push_back({each.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz), each.nats_below});
   }
-  out.converged = fit.converged;
   return out;
 }
 

@@ -42,7 +42,6 @@ struct FittedLoop {
   std::complex<double> transfer;  // R at the cycle
   std::vector<FittedMode> modes;  // by frequency
   Estimate tau_s;
-  std::vector<OtherDelay> other_delays;  // the most likely first
   SmallSignalLoop small_signal;
   std::vector<FittedNoise> noise;
   bool converged = false;
@@ -50,6 +49,10 @@ struct FittedLoop {
 
 FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& structure,
                         const PointFit& fit);
+
+// The most likely first. Each takes a fit: seconds of work, where the loop above takes none.
+std::vector<OtherDelay> OtherDelaysOf(const RecordSpectra& record, const PointStructure& structure,
+                                      const PointFit& fit);
 
 }  // namespace howl
 

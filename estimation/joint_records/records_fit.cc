@@ -252,6 +252,20 @@ PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
   return best;
 }
 
+// Of each point by the law that all other points give.
+std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,
+                                       const RecordsFit& fit, int threads) {
+  const RecordsFitter fitter(points, fit.structure, fit.reference, fit.z, threads);
+  const std::vector<ParameterEvidence> evidence = fitter.Evidence(fit.points, fit.prior);
+  std::vector<PointPrior> out(points.size());
+  RunUnits(points.size(), threads, [&](std::size_t e) {
+    std::vector<ParameterEvidence> others = evidence;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
+    out[e] = fitter.Prior(e, fitter.Law(others).PredictionAt(fit.z[e]));
+  });
+  return out;
+}
+
 }  // namespace
 
 RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStructure& structure,
@@ -291,20 +305,6 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
     VLOG(1) << "round " << round << " of the law of the parameters";
     if (converged) break;
   }
-  return out;
-}
-
-std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,
-                                       const RecordsFit& fit, int threads) {
-  if (points.size() == 1) return fit.prior;
-  const RecordsFitter fitter(points, fit.structure, fit.reference, fit.z, threads);
-  const std::vector<ParameterEvidence> evidence = fitter.Evidence(fit.points, fit.prior);
-  std::vector<PointPrior> out(points.size());
-  RunUnits(points.size(), threads, [&](std::size_t e) {
-    std::vector<ParameterEvidence> others = evidence;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
-    out[e] = fitter.Prior(e, fitter.Law(others).PredictionAt(fit.z[e]));
-  });
   return out;
 }
 

@@ -50,10 +50,6 @@ struct RecordsFit {
 RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStructure& structure,
                       const RecordsFitOptions& options = {}, const RecordsFit* poorer = nullptr);
 
-// The prior of each point by the law that all other points give. Of one point alone: its own.
-std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,
-                                       const RecordsFit& fit, int threads = 0);
-
 // ln of the predictive density of each point's record, by the law that all other points give. Of
 // one point alone: the evidence of its record.
 std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,

@@ -14,11 +14,9 @@ constexpr std::size_t kDelays = 8;
 constexpr double kSame = 0.25;  // radians of the cycle: a quarter of a period at the band's end
 // To within a nat or so of the maximum, which tells maxima apart.
 constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
-constexpr double kBetter = 1.0;
 constexpr int kMostScans = 3;
 
-}  // namespace
-
+// The maxima of different delays, that of `parameters` with them, the most likely first.
 std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStructure& structure,
                                   const PointPrior& prior, const Eigen::VectorXd& parameters) {
   const auto tau_of = [&](const PointFit& fit) {
@@ -42,13 +40,15 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
   return out;
 }
 
+}  // namespace
+
 PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structure,
                      const PointPrior& prior, PointFit fit) {
   for (int scan = 0; scan < kMostScans; ++scan) {
     PointFit next = FitsByDelay(record, structure, prior, fit.parameters)[0];
     const double gain = next.log_posterior - fit.log_posterior;
     fit = std::move(next);
-    if (gain < kBetter) break;
+    if (gain < kToTheMaximum.converged) break;
   }
   return fit;
 }

@@ -17,13 +17,8 @@
 
 namespace howl {
 
-// The maxima of different delays, to within a nat, that of `parameters` with them, the most likely
-// first.
-std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStructure& structure,
-                                  const PointPrior& prior, const Eigen::VectorXd& parameters);
-
-// The best of them, scanned again from there as long as that leads to a better one: acoustics that
-// belong to a wrong delay hide the right one.
+// The most likely of the maxima, that of `fit` with them, scanned again from there as long as that
+// leads to a better one: acoustics that belong to a wrong delay hide the right one.
 PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structure,
                      const PointPrior& prior, PointFit fit);
 

@@ -196,7 +196,6 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   for (const NoiseTerm& term : structure.noise) {
     out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));
   }
-  out.background = HasBackground(structure.noise);
   return out;
 }
 

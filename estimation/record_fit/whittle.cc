@@ -221,12 +221,14 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
   }
 }
 
-Eigen::VectorXd GatherGradient(const Bins& bins, const LoopDerivatives& d) {
+Eigen::VectorXd GatherGradient(const std::vector<NoiseTerm>& noise, const Bins& bins,
+                               const LoopDerivatives& d) {
   const Eigen::Index acoustic = d.r.cols();
   const Eigen::Index flame = d.f.cols();
   Eigen::Index size = acoustic + flame;
   for (const Eigen::MatrixXd& basis : d.log_spectra) size += basis.cols();
-  if (d.background) ++size;
+  const bool background = HasBackground(noise);
+  if (background) ++size;
   Eigen::VectorXd out(size);
   out.head(acoustic) =
       (d.r.transpose() * bins.by_r + d.acoustic.transpose() * bins.by_acoustic).real();
@@ -239,15 +241,16 @@ Eigen::VectorXd GatherGradient(const Bins& bins, const LoopDerivatives& d) {
         basis.transpose() * bins.by_spectra.col(static_cast<Eigen::Index>(j));
     row += basis.cols();
   }
-  if (d.background) out[row] = bins.by_ratio;
+  if (background) out[row] = bins.by_ratio;
   return out;
 }
 
-LoopScore Gather(const Bins& bins, const LoopDerivatives& d) {
+LoopScore Gather(const std::vector<NoiseTerm>& noise, const Bins& bins, const LoopDerivatives& d) {
+  const bool background = HasBackground(noise);
   const Eigen::Index acoustic = d.r.cols();
   const Eigen::Index flame = d.f.cols();
   LoopScore out;
-  out.gradient = GatherGradient(bins, d);
+  out.gradient = GatherGradient(noise, bins, d);
   out.information.resize(out.gradient.size(), out.gradient.size());
   const auto put = [&](Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block) {
     out.information.block(row, column, block.rows(), block.cols()) = block;
@@ -274,10 +277,10 @@ LoopScore Gather(const Bins& bins, const LoopDerivatives& d) {
           basis.transpose() * bins.spectra_spectra.col(j * sources + k).asDiagonal() * other);
       column += other.cols();
     }
-    if (d.background) put(row, column, basis.transpose() * bins.spectra_ratio.col(j));
+    if (background) put(row, column, basis.transpose() * bins.spectra_ratio.col(j));
     row += basis.cols();
   }
-  if (d.background) {
+  if (background) {
     put(0, row, (d.r.transpose() * bins.r_ratio).real());
     put(acoustic, row, (d.f.transpose() * bins.f_ratio).real());
     out.information(row, row) = bins.ratio_ratio;
@@ -307,7 +310,7 @@ LoopScore WhittleScore(const std::vector<NoiseTerm>& noise, const Eigen::VectorX
   const Eigen::Index bins = share.size();
   Bins all(bins, static_cast<Eigen::Index>(noise.size()));
   for (Eigen::Index i = 0; i < bins; ++i) Fill(noise, at, share[i], true, i, &all);
-  return Gather(all, derivatives);
+  return Gather(noise, all, derivatives);
 }
 
 Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
@@ -317,7 +320,7 @@ Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen
   for (Eigen::Index i = 0; i < bins; ++i) {
     Fill(noise, at, share[i], false, i, &all);
   }
-  return GatherGradient(all, derivatives);
+  return GatherGradient(noise, all, derivatives);
 }
 
 }  // namespace howl

@@ -48,7 +48,6 @@ struct LoopDerivatives {
   Eigen::MatrixXcd f;
   Eigen::MatrixXcd flame;  // of E_B, as many columns as f
   std::vector<Eigen::MatrixXd> log_spectra;
-  bool background = false;  // that there is one, and its ratio among the parameters
 };
 
 // Parameters in the order acoustics, delay and flame, source after source, and where there is a

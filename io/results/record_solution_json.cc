@@ -26,9 +26,9 @@ Json ModesJson(const FittedLoop& loop) {
   return modes;
 }
 
-Json OtherDelaysJson(const FittedLoop& loop) {
+Json OtherDelaysJson(const std::vector<OtherDelay>& delays) {
   Json out = Json::array();
-  for (const OtherDelay& each : loop.other_delays) {
+  for (const OtherDelay& each : delays) {
     out.push_back({{"tau_s", each.tau_s}, {"nats_below", each.nats_below}});
   }
   return out;
@@ -46,15 +46,15 @@ Json NoiseJson(const FittedLoop& loop) {
   return noise;
 }
 
-Json ExperimentJson(const std::string& name, const OperatingPoint& point, const FittedLoop& loop,
-                    double log_density) {
+Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
+  const FittedLoop& loop = solution.fitted[e];
   // The keys that every solution has are those of the mode next to the cycle.
   const FittedMode& first = *std::ranges::min_element(loop.modes, {}, [&](const FittedMode& mode) {
     return std::abs(std::log(mode.omega_hz.value / loop.cycle_hz));
   });
   const SmallSignalLoop& small = loop.small_signal;
-  return {{"name", name},
-          {"phi", point.operating_parameter},
+  return {{"name", solution.names[e]},
+          {"phi", solution.points[e].operating_parameter},
           {"omega_hz", first.omega_hz.value},
           {"xi", first.xi.value},
           {"N", first.N.value},
@@ -70,9 +70,10 @@ Json ExperimentJson(const std::string& name, const OperatingPoint& point, const 
            {{"frequency_hz", EstimateJson(small.frequency_hz)},
             {"growth_rate_1_s", EstimateJson(small.growth_rate_1_s)},
             {"loop_gain", EstimateJson(small.loop_gain)}}},
-          {"other_delays", OtherDelaysJson(loop)},
+          {"other_delays", OtherDelaysJson(solution.other_delays[e])},
           {"noise", NoiseJson(loop)},
-          {"log_density_left_out", NumberOrNull(log_density)},
+          {"log_density_left_out",
+           NumberOrNull(solution.loop.tried[solution.loop.chosen].log_density[e])},
           {"converged", loop.converged}};
 }
 
@@ -95,8 +96,7 @@ Json RecordSolutionJson(const RecordSolution& solution) {
   Json experiments = Json::array();
   double cost = 0.0;
   for (std::size_t e = 0; e < solution.points.size(); ++e) {
-    experiments.push_back(ExperimentJson(solution.names[e], solution.points[e], solution.fitted[e],
-                                         chosen.log_density[e]));
+    experiments.push_back(ExperimentJson(solution, e));
     cost -= solution.loop.fit.points[e].log_posterior;
   }
   const bool converged = solution.Converged();

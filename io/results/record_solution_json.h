@@ -17,6 +17,7 @@ struct RecordSolution {
   std::vector<OperatingPoint> points;
   ChosenLoop loop;
   std::vector<FittedLoop> fitted;
+  std::vector<std::vector<OtherDelay>> other_delays;  // of each experiment
 
   bool Converged() const;
 };

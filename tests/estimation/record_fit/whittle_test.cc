@@ -81,7 +81,6 @@ class LinearLoop {
     for (std::size_t j = 0; j < Noise().size(); ++j) {
       out.log_spectra.emplace_back(Eigen::MatrixXd::Ones(kBins, 1));
     }
-    out.background = true;
     return out;
   }
 
