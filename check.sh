@@ -17,7 +17,7 @@ case $also in
 esac
 source "$root/cmake/build.sh"
 source "$root/cmake/tidy.sh"
-howl_install_packages
+howl_install_packages "${howl_check_packages[@]}"
 # A browser tests the report's page; without one that test skips, saying so.
 howl_install_packages "${howl_browser_packages[@]}" ||
   echo "no browser could be installed: the report's page is not tested" >&2

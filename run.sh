@@ -6,10 +6,16 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$root/cmake/build.sh"
 howl_install_packages
-howl_build "$root" howl
-if [ $# -gt 0 ]; then
-  exec "$root/build/howl" "$@"
+# On a new machine the first fit does not wait until all is compiled.
+if [ "${1:-fit}" = fit ] && [ ! -x "$root/build/howl" ]; then
+  howl_build "$root" howl_fit
+  [ $# -eq 0 ] || exec "$root/build/howl_fit" "$@"
+  "$root/build/howl_fit" fit "$root/configs/r228.yaml"
+  howl_build "$root" howl
+else
+  howl_build "$root" howl
+  [ $# -eq 0 ] || exec "$root/build/howl" "$@"
+  "$root/build/howl" fit "$root/configs/r228.yaml"
 fi
-"$root/build/howl" fit "$root/configs/r228.yaml"
 "$root/build/howl" family "$root/configs/r228.yaml"
 exec "$root/build/howl" list "$root/configs/r228.yaml"

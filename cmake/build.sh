@@ -6,6 +6,13 @@ howl_build_packages=(g++ cmake ninja-build pkg-config dpkg-dev file
   libtbb-dev libboost-dev nlohmann-json3-dev libvalijson-dev
   libmatio-dev libhdf5-dev zlib1g-dev libssl-dev)
 
+# What a report draws its figures with.
+howl_run_packages=(gnuplot-nox)
+
+# What check.sh needs besides.
+howl_check_packages=(clang-format clang-tidy python3 libmpfi-dev libgtest-dev libgmock-dev
+  libbenchmark-dev)
+
 # For the test that drives a report's page in a real browser, which is skipped without them.
 howl_browser_packages=(chromium chromium-driver python3-selenium)
 # For the test that builds the site from docs/, which is skipped without them (12 MB to fetch).
@@ -18,11 +25,10 @@ howl_install_test_packages=(mandoc zsh fish lintian)
 howl_python_packages=(python3-pytest python3-numpy python3-pandas python3-yaml
   python3-matplotlib python3-scipy)
 
-# Installs the packages that are missing, those named as arguments too, quietly and without asking;
-# asks no server when none is.
+# Installs the packages that are missing of those that run the program and of those named as arguments,
+# quietly and without asking; asks no server when none is.
 howl_install_packages() {
-  local wanted=("${howl_build_packages[@]}" clang-format clang-tidy python3 libmpfi-dev
-    libgtest-dev libgmock-dev libbenchmark-dev gnuplot-nox "$@")
+  local wanted=("${howl_build_packages[@]}" "${howl_run_packages[@]}" "$@")
   local missing=() package
   for package in "${wanted[@]}"; do
     if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then
@@ -50,10 +56,13 @@ howl_install_packages() {
 howl_build() {
   local root=$1 target=$2 log
   log=$(mktemp)
-  local tests=ON
-  [ "$target" = all ] || tests=OFF
-  [ -f "$root/build/build.ninja" ] ||
-    echo "compiling to build/: on two cores some 20 minutes the first time, 25 with the tests" >&2
+  local tests=OFF minutes=20
+  case $target in
+    all) tests=ON minutes=25 ;;
+    howl_fit) minutes=5 ;;
+  esac
+  [ -e "$root/build/$target" ] || [ -e "$root/build/howl" ] ||
+    echo "compiling $target to build/: on two cores some $minutes minutes the first time" >&2
   if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
        -DHOWL_BUILD_TESTS=$tests -DHOWL_BUILD_BENCH=$tests >"$log" 2>&1; then
     cat "$log" >&2

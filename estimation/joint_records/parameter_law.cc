@@ -2,9 +2,10 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -55,7 +56,7 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
       Eigen::MatrixXd posterior = point.precision;
       posterior.diagonal() += precision;
       const Eigen::MatrixXd covariance =
-          posterior.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+          SolveSymmetric(posterior, Eigen::MatrixXd::Identity(size, size));
       value.push_back(covariance * (point.information + precision.cwiseProduct(prior.mean)));
       variance.push_back(covariance.diagonal());
       sum += value.back();

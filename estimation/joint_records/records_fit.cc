@@ -2,8 +2,6 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +12,7 @@
 #include "estimation/record_fit/point_starts.h"
 #include "estimation/record_fit/richer_structure.h"
 #include "estimation/unit_seed.h"
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -69,14 +68,13 @@ ParameterEvidence EvidenceOf(const PointFit& fit, const PointPrior& prior, const
   // Without the prior, in its units. A direction of which the record tells next to nothing, or in
   // which its density has a minimum, tells nothing: a force without a curvature has no limit.
   Eigen::MatrixXd told = deviation.asDiagonal() *
-                         covariance.ldlt().solve(Eigen::MatrixXd::Identity(size, size)) *
+                         SolveSymmetric(covariance, Eigen::MatrixXd::Identity(size, size)) *
                          deviation.asDiagonal();
   told.diagonal().array() -= 1.0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (told + told.transpose()));
-  const Eigen::VectorXd kept =
-      (solver.eigenvalues().array() > kLeastTold).select(solver.eigenvalues(), 0.0);
+  const SymmetricEigen eigen = EigenOfSymmetric(0.5 * (told + told.transpose()));
+  const Eigen::VectorXd kept = (eigen.values.array() > kLeastTold).select(eigen.values, 0.0);
   const Eigen::MatrixXd turn =
-      solver.eigenvectors().transpose() * Eigen::MatrixXd(deviation.cwiseInverse().asDiagonal());
+      eigen.vectors.transpose() * Eigen::MatrixXd(deviation.cwiseInverse().asDiagonal());
   ParameterEvidence out;
   out.z = z;
   out.precision = turn.transpose() * kept.asDiagonal() * turn;

@@ -3,7 +3,6 @@
 #include <glog/logging.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "estimation/record_fit/return_difference.h"
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -88,12 +88,11 @@ Eigen::MatrixXd Curvature(const RecordSpectra& record, const PointStructure& str
 Eigen::MatrixXd Positive(const Eigen::MatrixXd& information) {
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1.0).cwiseSqrt();
   const Eigen::VectorXd inverse = scale.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inverse.asDiagonal() * information *
-                                                              inverse.asDiagonal());
-  if (solver.eigenvalues()[0] > 1e-9) return information;
-  return scale.asDiagonal() * solver.eigenvectors() *
-         solver.eigenvalues().cwiseAbs().cwiseMax(1e-6).asDiagonal() *
-         solver.eigenvectors().transpose() * scale.asDiagonal();
+  const SymmetricEigen eigen =
+      EigenOfSymmetric(inverse.asDiagonal() * information * inverse.asDiagonal());
+  if (eigen.values[0] > 1e-9) return information;
+  return scale.asDiagonal() * eigen.vectors * eigen.values.cwiseAbs().cwiseMax(1e-6).asDiagonal() *
+         eigen.vectors.transpose() * scale.asDiagonal();
 }
 
 // The symmetric update of rank one (SR1): what a step has shown of the curvature along it, at the
@@ -134,8 +133,8 @@ enum class Source : std::uint8_t { kInformation, kCorrected, kCurvature };
 }  // namespace
 
 Eigen::MatrixXd PointFit::Covariance() const {
-  return information.ldlt().solve(
-      Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  return SolveSymmetric(information,
+                        Eigen::MatrixXd::Identity(information.rows(), information.cols()));
 }
 
 double LogLikelihood(const RecordSpectra& record, const PointStructure& structure,
@@ -161,7 +160,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     const Eigen::MatrixXd information = Positive(here.information);
     Eigen::MatrixXd damped = information;
     damped.diagonal().array() *= 1.0 + damping;
-    const Eigen::VectorXd step = damped.ldlt().solve(here.gradient);
+    const Eigen::VectorXd step = SolveSymmetric(damped, here.gradient);
     const double foretold = here.gradient.dot(step) - 0.5 * step.dot(information * step);
     if (damping < 1.0 && foretold < options.converged) {
       if (source == Source::kCurvature || options.converged >= kNear) {

@@ -1,6 +1,5 @@
 #include "estimation/record_fit/point_starts.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 
 #include "estimation/record_fit/pole_starts.h"
 #include "estimation/record_fit/start_least_squares.h"
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -95,7 +95,7 @@ std::vector<double> Starts::Delays(std::size_t count) const {
 Eigen::VectorXd Starts::LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const {
   const Eigen::MatrixXd basis = ChebyshevColumns(record_.position, terms);
   const Eigen::VectorXd values = power.array().max(1e-300).log() + kEulersGamma;
-  return (basis.transpose() * basis).ldlt().solve(basis.transpose() * values);
+  return SolveSymmetric(basis.transpose() * basis, basis.transpose() * values);
 }
 
 Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {

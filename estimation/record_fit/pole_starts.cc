@@ -1,6 +1,5 @@
 #include "estimation/record_fit/pole_starts.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "estimation/record_fit/start_least_squares.h"
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
@@ -157,7 +157,7 @@ std::vector<StartPole> PoleStarts::Relocated(std::vector<StartPole> poles) const
     }
     const Eigen::VectorXd sigma = SolveStart(columns, target_).coefficients.tail(2 * modes);
     for (Eigen::Index k = 0; k < modes; ++k) system.row(2 * k) -= sigma.transpose();
-    poles = PolesOf(system.eigenvalues());
+    poles = PolesOf(Eigenvalues(system));
     for (StartPole& pole : poles) {
       pole.omega = std::clamp(pole.omega, 0.5 * low_, 2.0 * high_);
       pole.xi = std::clamp(pole.xi, kLeastXi, kMostXi);

@@ -2,7 +2,6 @@
 
 #include <glog/logging.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "estimation/record_fit/flame_basis.h"
+#include "model/numerics/dense_algebra.h"
 #include "model/numerics/fft.h"
 
 namespace howl {
@@ -104,10 +104,9 @@ Eigen::MatrixXd OrthogonalFunctions(const Eigen::MatrixXcd& spectra) {
   Eigen::MatrixXd stacked(2 * spectra.rows(), spectra.cols());
   stacked << spectra.real(), spectra.imag();
   stacked /= std::sqrt(static_cast<double>(spectra.rows()));
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(stacked, Eigen::ComputeThinV);
-  const Eigen::VectorXd& sizes = svd.singularValues();
-  const Eigen::Index kept = (sizes.array() > kLeastOfLargest * sizes[0]).count();
-  return svd.matrixV().leftCols(kept) * sizes.head(kept).cwiseInverse().asDiagonal();
+  const SingularValues svd = DecomposeSingular(stacked);
+  const Eigen::Index kept = (svd.values.array() > kLeastOfLargest * svd.values[0]).count();
+  return svd.v.leftCols(kept) * svd.values.head(kept).cwiseInverse().asDiagonal();
 }
 
 RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {

@@ -2,8 +2,9 @@
 #ifndef HOWL_ESTIMATION_RECORD_FIT_START_LEAST_SQUARES_H_
 #define HOWL_ESTIMATION_RECORD_FIT_START_LEAST_SQUARES_H_
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 
@@ -21,7 +22,7 @@ inline StartSolution SolveStart(const Eigen::MatrixXcd& x, const Eigen::VectorXc
   const Eigen::VectorXd cross = (x.adjoint() * y).real();
   gram.diagonal().array() += kRidge * gram.diagonal().mean() + 1e-300;
   StartSolution out;
-  out.coefficients = gram.ldlt().solve(cross);
+  out.coefficients = SolveSymmetric(gram, cross);
   out.left = y.squaredNorm() - cross.dot(out.coefficients);
   return out;
 }

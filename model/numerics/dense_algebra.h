@@ -14,6 +14,9 @@ Eigen::VectorXcd Eigenvalues(const Eigen::MatrixXd& a);
 // x with a x = b, by LU with partial pivoting. Not finite where a is singular.
 Eigen::VectorXd SolveByLu(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
+// x with a x = b for a symmetric a, of which the lower half is read, by L D L^T with pivoting.
+Eigen::MatrixXd SolveSymmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 struct SymmetricEigen {
   Eigen::VectorXd values;   // ascending
   Eigen::MatrixXd vectors;  // one a column

@@ -1,8 +1,13 @@
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
+
+Eigen::MatrixXd SolveSymmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.ldlt().solve(b);
+}
 
 SymmetricEigen EigenOfSymmetric(const Eigen::MatrixXd& a) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
