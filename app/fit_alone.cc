@@ -1,4 +1,5 @@
-// The table of commands of howl_fit (cmake/first_answer.cmake), in the place of that of the program.
+// The table of commands of howl_fit (cmake/first_answer.cmake), in the place of that of the
+// program.
 #include "app/command_line/command.h"
 
 namespace howl {

@@ -60,7 +60,8 @@ std::string ModesText(const RecordSolution& solution) {
     for (const FittedMode& mode : solution.fitted[e].modes) {
       const double angle = std::atan2(mode.B.value, mode.N.value) * 180.0 / std::numbers::pi;
       table.AddRow({solution.names[e], std::to_string(++number), PlusMinus(mode.omega_hz, 5),
-                    PlusMinus(mode.xi, 3), PlusMinus(mode.N, 4), Fixed(angle, 0)});
+                    PlusMinus(mode.xi, 3), PlusMinus(mode.N, 4),
+                    Fixed(std::round(angle) + 0.0, 0)});  // no -0
     }
   }
   return table.Text() + "angle: of the residue N + j B, in degrees; 0: p measured at the flame\n";

@@ -14,7 +14,10 @@ double FrequencyRatio(const PointStructure& structure, Eigen::Index mode) {
   return 1.0 + (*structure.ratio - 1.0) * static_cast<double>(mode);
 }
 
-Eigen::VectorXcd Delayed(const Eigen::VectorXcd& s, double tau) { return (-tau * s.array()).exp(); }
+// e^(-tau s) for s = j f, without the exponential of its real part.
+Eigen::VectorXcd Delayed(const Eigen::VectorXcd& s, double tau) {
+  return s.unaryExpr([tau](C each) { return std::polar(1.0, -tau * each.imag()); });
+}
 
 C SumOverModes(const LoopPoint& point, C s, double LoopMode::*rate, double LoopMode::*level) {
   C out = 0.0;
@@ -157,13 +160,18 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
                   [&](C s) { return SumOverModes(point, s, &LoopMode::g, &LoopMode::h); }));
   out.flame = Tapered(record.heat_release -
                       Delayed(record.edge_s, point.tau).cwiseProduct(record.flame * point.flame));
-  out.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
+  SetNoise(record, structure, point, &out);
+  return out;
+}
+
+void SetNoise(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
+              LoopResiduals* residuals) {
+  residuals->spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
   for (std::size_t j = 0; j < structure.noise.size(); ++j) {
-    out.spectra.col(static_cast<Eigen::Index>(j)) =
+    residuals->spectra.col(static_cast<Eigen::Index>(j)) =
         LoopNoiseSpectrum(record.position, point.noise[j]);
   }
-  out.background_ratio = point.background_ratio;
-  return out;
+  residuals->background_ratio = point.background_ratio;
 }
 
 C AcousticTransfer(const LoopPoint& point, C s) {

@@ -25,39 +25,6 @@ bool HasBackground(const std::vector<NoiseTerm>& noise) {
       noise, [](const NoiseTerm& term) { return term.source == LoopNoise::kBackground; });
 }
 
-NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f,
-                           double background_ratio) {
-  switch (source) {
-    case LoopNoise::kCombustion:
-      return {0.0, 1.0};
-    case LoopNoise::kPressureSensor:
-      return {1.0, -f};
-    case LoopNoise::kHeatReleaseSensor:
-      return {-r, 1.0};
-    case LoopNoise::kDuct:
-      return {r, 0.0};
-    case LoopNoise::kBackground:
-      return {background_ratio - r, 1.0 - background_ratio * f};
-  }
-  return {};
-}
-
-NoiseTurn TurnOf(LoopNoise source, double background_ratio) {
-  switch (source) {
-    case LoopNoise::kCombustion:
-      return {};
-    case LoopNoise::kPressureSensor:
-      return {0.0, -1.0};
-    case LoopNoise::kHeatReleaseSensor:
-      return {-1.0, 0.0};
-    case LoopNoise::kDuct:
-      return {1.0, 0.0};
-    case LoopNoise::kBackground:
-      return {-1.0, -background_ratio};
-  }
-  return {};
-}
-
 Eigen::MatrixXd ChebyshevColumns(const Eigen::VectorXd& x, Eigen::Index terms) {
   Eigen::MatrixXd out(x.size(), terms);
   out.col(0).setOnes();

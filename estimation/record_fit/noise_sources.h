@@ -45,15 +45,43 @@ struct NoiseDirection {
   std::complex<double> acoustic;
   std::complex<double> flame;
 };
-NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f,
-                           double background_ratio);
+inline NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std::complex<double> f,
+                                  double background_ratio) {
+  switch (source) {
+    case LoopNoise::kCombustion:
+      return {0.0, 1.0};
+    case LoopNoise::kPressureSensor:
+      return {1.0, -f};
+    case LoopNoise::kHeatReleaseSensor:
+      return {-r, 1.0};
+    case LoopNoise::kDuct:
+      return {r, 0.0};
+    case LoopNoise::kBackground:
+      return {background_ratio - r, 1.0 - background_ratio * f};
+  }
+  return {};
+}
 
 // How u_j moves: d u_j = (by_r dR, by_f dF).
 struct NoiseTurn {
   double by_r = 0.0;
   double by_f = 0.0;
 };
-NoiseTurn TurnOf(LoopNoise source, double background_ratio);
+inline NoiseTurn TurnOf(LoopNoise source, double background_ratio) {
+  switch (source) {
+    case LoopNoise::kCombustion:
+      return {};
+    case LoopNoise::kPressureSensor:
+      return {0.0, -1.0};
+    case LoopNoise::kHeatReleaseSensor:
+      return {-1.0, 0.0};
+    case LoopNoise::kDuct:
+      return {1.0, 0.0};
+    case LoopNoise::kBackground:
+      return {-1.0, -background_ratio};
+  }
+  return {};
+}
 
 // T_0 .. T_(terms - 1) at each x: rows are bins.
 Eigen::MatrixXd ChebyshevColumns(const Eigen::VectorXd& x, Eigen::Index terms);

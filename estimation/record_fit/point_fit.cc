@@ -75,9 +75,24 @@ Eigen::MatrixXd Curvature(const RecordSpectra& record, const PointStructure& str
     moved[i] += step * prior.deviation[i];
     return Gradient(record, structure, prior, moved);
   };
+  // What moves the noise alone leaves the loop and what the record leaves of it where they are.
+  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  LoopResiduals residuals = ResidualsOf(record, structure, point);
+  const LoopDerivatives derivatives = DerivativesOf(record, structure, point);
+  const auto by_noise = [&](Eigen::Index i, double step) -> Eigen::VectorXd {
+    Eigen::VectorXd moved = parameters;
+    moved[i] += step * prior.deviation[i];
+    SetNoise(record, structure, ToPoint(structure, record.flame.cols(), moved), &residuals);
+    return prior.deviation.cwiseProduct(
+               WhittleGradient(structure.noise, record.share, residuals, derivatives)) +
+           prior.Slope(moved);
+  };
+  const Eigen::Index loop = size - structure.NoiseParameters();
   Eigen::MatrixXd out(size, size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    out.col(i) = (gradient(i, -kDifference) - gradient(i, kDifference)) / (2.0 * kDifference);
+    const Eigen::VectorXd fall = i < loop ? gradient(i, -kDifference) - gradient(i, kDifference)
+                                          : by_noise(i, -kDifference) - by_noise(i, kDifference);
+    out.col(i) = fall / (2.0 * kDifference);
   }
   return 0.5 * (out + out.transpose());
 }

@@ -10,11 +10,11 @@ namespace {
 
 using C = std::complex<double>;
 
-// At one frequency, e^(-tau s) V(s) and U: that times R.
+// At one frequency, s = j f, e^(-tau s) V(s) and U: that times R.
 struct OpenLoop {
   OpenLoop(const RecordSpectra& record, const LoopPoint& point, C at)
       : s(at),
-        path(std::exp(-point.tau * s) * FlameInputResponse(record.flame_input, s)),
+        path(std::polar(1.0, -point.tau * s.imag()) * FlameInputResponse(record.flame_input, s)),
         u(AcousticTransfer(point, s) * path) {}
 
   // Adds the real part of `by` times dU, by the acoustics' parameters and ln tau.

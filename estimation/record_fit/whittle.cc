@@ -43,15 +43,24 @@ struct Hermitian {
   }
 };
 
-Pair Direction(LoopNoise source, const LoopResiduals& at, Eigen::Index i) {
-  const NoiseDirection u = DirectionOf(source, at.r[i], at.f[i], at.background_ratio);
-  return {u.acoustic, u.flame};
+// Of one bin, source after source.
+using Directions = std::array<Pair, kMostNoiseTerms>;
+
+Directions DirectionsOf(const std::vector<NoiseTerm>& noise, const LoopResiduals& at,
+                        Eigen::Index i) {
+  Directions out;
+  for (std::size_t j = 0; j < noise.size(); ++j) {
+    const NoiseDirection u = DirectionOf(noise[j].source, at.r[i], at.f[i], at.background_ratio);
+    out[j] = {u.acoustic, u.flame};
+  }
+  return out;
 }
 
-Hermitian Sigma(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, Eigen::Index i) {
+Hermitian Sigma(const Directions& direction, const LoopResiduals& at, Eigen::Index i) {
   Hermitian out;
-  for (std::size_t j = 0; j < noise.size(); ++j) {
-    const Pair u = Direction(noise[j].source, at, i);
+  const auto sources = static_cast<std::size_t>(at.spectra.cols());
+  for (std::size_t j = 0; j < sources; ++j) {
+    const Pair& u = direction[j];
     const double s = at.spectra(i, static_cast<Eigen::Index>(j));
     out.aa += s * std::norm(u.a);
     out.bb += s * std::norm(u.b);
@@ -124,7 +133,8 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
           bool information, Eigen::Index i, Bins* out) {
   const C r = at.r[i];
   const C f = at.f[i];
-  const Hermitian sigma = Sigma(noise, at, i);
+  const Directions direction = DirectionsOf(noise, at, i);
+  const Hermitian sigma = Sigma(direction, at, i);
   const Hermitian w = sigma.Inverse();
   const Pair we = w.Apply({at.acoustic[i], at.flame[i]});
   const C closed = Reciprocal(1.0 - Times(r, f));
@@ -137,15 +147,13 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
   C gradient_r = 0.0;
   C gradient_f = 0.0;
   std::array<Pair, kMostNoiseTerms> wu;
-  std::array<Pair, kMostNoiseTerms> direction;
   const auto sources = static_cast<Eigen::Index>(noise.size());
   const Pair ratio_turn{1.0, -f};  // du of the background, by its ratio
   for (Eigen::Index j = 0; j < sources; ++j) {
     const auto at_j = static_cast<std::size_t>(j);
     const LoopNoise source = noise[at_j].source;
     const double s = at.spectra(i, j);
-    const Pair u = Direction(source, at, i);
-    direction[at_j] = u;
+    const Pair& u = direction[at_j];
     wu[at_j] = w.Apply(u);
     const NoiseTurn turn = TurnOf(source, at.background_ratio);
     const C along = Inner(u, we);
@@ -294,7 +302,7 @@ double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::Ve
                             const LoopResiduals& at) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < share.size(); ++i) {
-    const Hermitian sigma = Sigma(noise, at, i);
+    const Hermitian sigma = Sigma(DirectionsOf(noise, at, i), at, i);
     const double determinant = sigma.Determinant();
     if (!(determinant > 0.0)) return -std::numeric_limits<double>::infinity();
     const Pair we = sigma.Inverse().Apply({at.acoustic[i], at.flame[i]});

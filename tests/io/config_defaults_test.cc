@@ -213,5 +213,12 @@ TEST(NearestKey, FindsSlipsUnitsAndShortForms) {
   EXPECT_EQ(NearestKey(std::string(100000, 'x'), keys), std::nullopt);
 }
 
+TEST(NearestKey, OfCandidatesThatShareAStemTheFewestEditsWin) {
+  EXPECT_EQ(NearestKey("limit_cycle_phas", {"limit_cycle_gain", "limit_cycle_phase"}),
+            "limit_cycle_phase");
+  EXPECT_EQ(NearestKey("rel_spam", {"rel", "rel_span"}), "rel_span");
+  EXPECT_EQ(NearestKey("gain_prio", {"gain_equality", "gain_prior"}), "gain_prior");
+}
+
 }  // namespace
 }  // namespace howl

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
+#include <utility>
 
 namespace howl {
 namespace {
@@ -36,12 +36,14 @@ std::string Stem(const std::string& key) {
   return suffix == std::string::npos ? key : key.substr(0, suffix);
 }
 
-std::size_t Distance(const std::string& word, const std::string& candidate) {
-  std::size_t distance = EditDistance(word, candidate);
-  if (word.size() >= 3 && (Stem(word) == Stem(candidate) || candidate.starts_with(word))) {
-    distance = std::min<std::size_t>(distance, 1);
-  }
-  return distance;
+// A shared stem is one slip, however long the suffix is. Of candidates with equally many slips, the
+// one with the fewest edited letters is nearest.
+std::pair<std::size_t, std::size_t> Distance(const std::string& word,
+                                             const std::string& candidate) {
+  const std::size_t edits = EditDistance(word, candidate);
+  const bool same_stem =
+      word.size() >= 3 && (Stem(word) == Stem(candidate) || candidate.starts_with(word));
+  return {same_stem ? std::min<std::size_t>(edits, 1) : edits, edits};
 }
 
 }  // namespace
@@ -55,10 +57,10 @@ std::optional<std::string> NearestKey(const std::string& word,
   const std::size_t limit = lower.size() < 2    ? 0
                             : lower.size() == 2 ? slips_of_two
                                                 : std::max<std::size_t>(1, lower.size() / 3);
-  std::size_t smallest = limit + 1;
+  std::pair<std::size_t, std::size_t> smallest{limit + 1, 0};
   std::optional<std::string> nearest;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = Distance(lower, LowerCase(candidate));
+    const auto distance = Distance(lower, LowerCase(candidate));
     if (distance < smallest) {
       smallest = distance;
       nearest = candidate;
