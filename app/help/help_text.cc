@@ -42,9 +42,9 @@ std::string ProgramHelp() {
   text += "\nOptions of every command:\n" + OptionsText(CommonOptions());
   return text +
          "\nhowl help COMMAND (or howl COMMAND --help) explains one command, howl help residuals "
-         "what a\nfit can ask for; howl help schema prints the config's JSON schema, howl help man "
-         "[COMMAND]\na manual page, howl help completion bash (zsh, fish) what lets that shell "
-         "complete words.\n" +
+         "what a\nfit can ask for, howl help effects what a diagnosis can name; howl help schema "
+         "prints the\nconfig's JSON schema, howl help man [COMMAND] a manual page, howl help "
+         "completion bash\n(zsh, fish) what lets that shell complete words.\n" +
          ExitStatusText();
 }
 

@@ -12,6 +12,7 @@
 #include "app/help/man_page.h"
 #include "estimation/residuals/registry.h"
 #include "io/config/schema/config_schema.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {
@@ -34,6 +35,34 @@ std::string Residuals() {
   return text;
 }
 
+std::string Parameter(const EffectParameter& parameter) {
+  std::ostringstream text;
+  text << parameter.name << " (null " << parameter.null_value << "; " << parameter.low << " .. "
+       << parameter.high << ")";
+  return text.str();
+}
+
+// The forms of one effect stand together: they differ in their key, or in their parameters.
+std::string Effects() {
+  std::string text;
+  std::string_view last;
+  for (const EffectPointer& effect : Catalogue()) {
+    if (effect->id() != last) {
+      last = effect->id();
+      text += std::string(last) + ": " + std::string(LoopBlockName(effect->block())) + "\n";
+    }
+    const EffectForm form = effect->form();
+    text += "    " + (form.key.empty() ? "" : form.key + " " + form.value + ": ");
+    bool first = true;
+    for (const EffectParameter& parameter : effect->parameters()) {
+      text += (first ? "" : ", ") + Parameter(parameter);
+      first = false;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 std::string CommandNames() {
   std::string text;
   for (const Command& command : Commands()) text += command.name + "\n";
@@ -50,13 +79,14 @@ std::optional<std::string> OnlyWord(const std::string& topic,
 }  // namespace
 
 const std::vector<std::string>& HelpTopics() {
-  static const std::vector<std::string> topics = {"residuals", "schema", "commands", "man",
-                                                  "completion"};
+  static const std::vector<std::string> topics = {"residuals", "effects", "schema",
+                                                  "commands",  "man",     "completion"};
   return topics;
 }
 
 std::string HelpTopic(const std::string& name, const std::vector<std::string>& words) {
   if (name == "residuals") return Residuals();
+  if (name == "effects") return Effects();
   if (name == "schema") return ConfigSchema().dump(2) + "\n";
   if (name == "commands") return CommandNames();
   if (name == "man") {

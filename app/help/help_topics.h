@@ -1,6 +1,7 @@
-// What `howl help` explains besides commands: "residuals", what a joint fit can ask for; "schema",
-// the config's JSON schema, for editors that check and complete a config with it; "commands", their
-// names; "man [COMMAND]", a manual page; "completion SHELL", what lets a shell complete words.
+// What `howl help` explains besides commands: "residuals", what a joint fit can ask for; "effects",
+// what a diagnosis can name, with block, form, null and bounds; "schema", the config's JSON schema,
+// for editors that check and complete a config with it; "commands", their names; "man [COMMAND]", a
+// manual page; "completion SHELL", what lets a shell complete words.
 #ifndef HOWL_APP_HELP_HELP_TOPICS_H_
 #define HOWL_APP_HELP_HELP_TOPICS_H_
 

@@ -73,19 +73,17 @@ PlannedTrial Planner::Tried(const TrialMeasurement& trial, std::size_t line,
           NatsToTellApart(gains.Gain(entry, effect.parameters().size()), effect)};
 }
 
-// The pairs of one class that come nearest to being told apart are those for which a measurement is
-// worth most.
+// The pairs that are not told apart, also where that holds for one of the two alone: those that are
+// least told apart are those for which a measurement is worth most.
 void Planner::FindPairs(Plan* plan) const {
-  for (const std::vector<std::string>& members : plan->classes) {
-    for (const std::string& own : members) {
-      const auto effect = std::ranges::find(plan->effects, own, &PlannedEffect::effect);
-      for (const PlannedRival& rival : effect->rivals) {
-        const bool later =
-            std::ranges::find(members, own) < std::ranges::find(members, rival.effect);
-        if (!later || std::ranges::find(members, rival.effect) == members.end()) continue;
-        if (!median_.contains(own) || rival.nats > rival.nats_needed) continue;
-        plan->pairs.push_back({own, rival.effect, rival.nats, rival.nats_needed, {}});
-      }
+  for (const PlannedEffect& effect : plan->effects) {
+    for (const PlannedRival& rival : effect.rivals) {
+      if (!median_.contains(effect.effect) || rival.nats > rival.nats_needed) continue;
+      const bool known = std::ranges::any_of(plan->pairs, [&](const PlannedPair& pair) {
+        return pair.effect == rival.effect && pair.other == effect.effect;
+      });
+      if (!known)
+        plan->pairs.push_back({effect.effect, rival.effect, rival.nats, rival.nats_needed, {}});
     }
   }
   std::stable_sort(plan->pairs.begin(), plan->pairs.end(),

@@ -29,8 +29,8 @@ Health CheckState(const Analysis& analysis, const CharacteristicsOptions& option
 Health CheckSampling(const NamedRecord& record, const Analysis& analysis,
                      const AnalysisOptions& options, RateSource source);
 
-// Finds transfers with the wrong sign or order, and damping at the end of the transfer fit's
-// search.
+// Finds transfers with the wrong sign or order, those that are no such model's (a chi-square of
+// more than two a degree of freedom), and damping at the end of the transfer fit's search.
 Health CheckTransfers(const AnalysisSet& set, const AnalysisOptions& options);
 
 // All checks of an analysis; `set` is that of `records`. Empty `sources`: all rates are numbers of

@@ -19,7 +19,7 @@ enum class FindingKind : std::uint8_t {
   kNotConverged,  // of the solver
   kGuardRail,     // a parameter at a bound that no one set
   kBound,         // a parameter at a bound that the config set, or at its physical end
-  kResidual,      // beyond three standard deviations
+  kResidual,      // data that the fit misses: beyond three standard deviations, or a whole transfer
   kMistake,       // what the data look like, and would not without it
   kSampling,      // a sampling rate that leaves no room for a cycle
   kState,         // no limit cycle, intermittent, not stationary: by which criterion

@@ -115,6 +115,43 @@ void AddMistakes(const AnalysisSet& set, std::span<const Costs> costs, Health& h
   }
 }
 
+// One finding for all records whose transfer the model misses.
+void AddMisses(const AnalysisSet& set, const ModelSpec& model, Health& health) {
+  double chi_least = std::numeric_limits<double>::infinity();
+  double explained_least = chi_least;
+  double chi_most = 0.0;
+  double explained_most = 0.0;
+  std::string only;
+  int missed = 0;
+  int fits = 0;
+  for (const Analysis& analysis : set.analyses) {
+    if (!analysis.transfer_fit) continue;
+    ++fits;
+    const TransferFit& fit = *analysis.transfer_fit;
+    if (!(fit.chi_square_per_dof > kGoodFit)) continue;
+    ++missed;
+    only = analysis.name;
+    chi_least = std::min(chi_least, fit.chi_square_per_dof);
+    chi_most = std::max(chi_most, fit.chi_square_per_dof);
+    explained_least = std::min(explained_least, fit.explained_power);
+    explained_most = std::max(explained_most, fit.explained_power);
+  }
+  if (missed == 0) return;
+  if (missed > 1) only.clear();
+  const auto range = [&](double low, double high) {
+    return NumberWord(low) + (missed > 1 ? " .. " + NumberWord(high) : "");
+  };
+  constexpr double kPerCent = 100.0;
+  health.push_back({FindingKind::kResidual, only, "transfer", chi_most, kGoodFit,
+                    (missed > 1 ? "the q-to-p transfers of " + std::to_string(missed) + " of " +
+                                      std::to_string(fits) + " records are not those of "
+                                : only + ": the q-to-p transfer is not that of ") +
+                        (model.modes == 2 ? "two modes" : "one mode") + ": chi2/dof " +
+                        range(chi_least, chi_most) + ", which is 1 where the model is right, and " +
+                        range(kPerCent * explained_least, kPerCent * explained_most) +
+                        " % explained; omega, xi and N of such a fit describe it, not the rig"});
+}
+
 }  // namespace
 
 Health CheckTransfers(const AnalysisSet& set, const AnalysisOptions& options) {
@@ -135,6 +172,7 @@ Health CheckTransfers(const AnalysisSet& set, const AnalysisOptions& options) {
     mine.order = CostWithout(*analysis.transfer, Undone::kOrder, *options.model, band);
   });
   AddMistakes(set, costs, health);
+  AddMisses(set, *options.model, health);
   for (const Analysis& analysis : set.analyses) {
     if (!analysis.transfer_fit || !AtEnd(analysis.transfer_fit->xi.value)) continue;
     const double xi = analysis.transfer_fit->xi.value;

@@ -14,6 +14,7 @@
 
 #include "estimation/residual_spec.h"
 #include "io/config/schema/config_schema.h"
+#include "model/effects/catalogue.h"
 #include "tests/app/program.h"
 
 namespace howl {
@@ -211,6 +212,20 @@ TEST(CommandLine, HelpOnResidualsAndOnTheSchemaIsThatOfTheRegistry) {
   for (const char c : help) shown += c == '\n' ? std::string("\n    ") : std::string(1, c);
   EXPECT_THAT(ReadFile(std::filesystem::path(HOWL_SOURCE_DIR) / "docs/config.md"),
               HasSubstr("help residuals\n    " + shown.substr(0, shown.size() - 5)));
+}
+
+// Whatever joins the catalogue is told, with its block and every parameter.
+TEST(CommandLine, HelpOnEffectsIsThatOfTheCatalogue) {
+  const std::string help = RunHowl("help effects").out;
+  for (const EffectPointer& effect : Catalogue()) {
+    EXPECT_THAT(help, HasSubstr(std::string(effect->id()) + ": " +
+                                std::string(LoopBlockName(effect->block())) + "\n"));
+    for (const EffectParameter& parameter : effect->parameters()) {
+      EXPECT_THAT(help, HasSubstr(parameter.name + " (null "));
+    }
+  }
+  EXPECT_THAT(help, HasSubstr("\nflame_lowpass: flame\n    cutoff_hz (null inf; 60 .. 1e+06)\n"));
+  EXPECT_THAT(help, HasSubstr("\n    side after_flame: sigma_s (null 0; 1e-06 .. 0.002)\n"));
 }
 
 TEST(CommandLine, Version) {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "tests/estimation/analysis/measured_data.h"
 #include "tests/estimation/health/right_rig.h"
@@ -77,6 +79,38 @@ TEST(AnalysisHealth, ChannelsTakenForEachOtherAreNamed) {
   EXPECT_THAT(health, Contains(AllOf(Field(&Finding::subject, "p_and_q_swapped"),
                                      Field(&Finding::experiment, ""))))
       << Texts(health);
+}
+
+// What a mode of its own at 500 Hz adds to p for this q: a resonance of two poles.
+std::vector<double> OfASecondMode(const Record& record, double share) {
+  const double radius = 0.98;
+  const double turn = 2.0 * std::numbers::pi * 500.0 / record.sampling_hz;
+  std::vector<double> sum = record.pressure;
+  double last = 0.0;
+  double before = 0.0;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const double next =
+        record.heat_release[i] + 2.0 * radius * std::cos(turn) * last - radius * radius * before;
+    before = last;
+    last = next;
+    sum[i] += share * (last - before);
+  }
+  return sum;
+}
+
+TEST(AnalysisHealth, AModelThatIsPoorerThanTheRigIsSaidToMissTheTransfer) {
+  std::vector<NamedRecord> records = RightRecords(1);
+  for (NamedRecord& each : records) each.record.pressure = OfASecondMode(each.record, 5.0);
+  const AnalysisSet set = AnalyseRecords(records, OneMode());
+  const Health health = CheckAnalysis(records, set, OneMode());
+  const auto found = std::ranges::find(health, "transfer", &Finding::subject);
+  ASSERT_NE(found, health.end()) << Texts(health);
+  double worst = 0.0;
+  for (const Analysis& each : set.analyses) {
+    worst = std::max(worst, each.transfer_fit->chi_square_per_dof);
+  }
+  EXPECT_EQ(found->value, worst);
+  EXPECT_THAT(found->text, HasSubstr("are not those of one mode: chi2/dof"));
 }
 
 TEST(AnalysisHealth, ATimeColumnInMillisecondsIsNamed) {
