@@ -106,10 +106,10 @@ void PrintLines(const AnalysisSet& set) {
                     line.harmonic > 0 ? "-" : Fixed(LoopPhaseErrorAt(analysis, line).value, 0)});
     }
   }
-  std::printf(
-      "\nstrongest lines (all in lines.csv; %s; loop deg: by how much the loop's phase misses a "
-      "second\ncrossing there):\n%s",
-      kPlusMinusLegend, table.Text().c_str());
+  const std::string title = std::string("strongest lines (all in lines.csv; ") + kPlusMinusLegend +
+                            "; loop deg: by how much the loop's phase misses a second crossing "
+                            "there):";
+  std::printf("\n%s\n%s", Wrapped(title, 2).c_str(), table.Text().c_str());
 }
 
 void PrintTransfers(const AnalysisSet& set, const ModelSpec& model) {

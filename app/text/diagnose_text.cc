@@ -35,7 +35,7 @@ std::string MovedText(const Diagnosis& diagnosis) {
     text += text.empty() ? "the fit without it had absorbed some: " : ", ";
     text += p.name + " " + Significant(p.without, 4) + " for " + Significant(p.with, 4);
   }
-  return text.empty() ? text : text + "\n";
+  return text.empty() ? text : Wrapped(text, 2) + "\n";
 }
 
 // The note where the best candidate is at a bound: its size then comes from the search, not from
@@ -48,8 +48,10 @@ std::string BoundText(const Diagnosis& diagnosis) {
     if (parameter.at_bound) names += (names.empty() ? "" : ", ") + parameter.name;
   }
   if (names.empty()) return "";
-  return best.effect + ": at a bound of the search: " + names +
-         "; the data ask for more than the catalogue allows, or for none of it\n";
+  return Wrapped(best.effect + ": at a bound of the search: " + names +
+                     "; the data ask for more than the catalogue allows, or for none of it",
+                 2) +
+         "\n";
 }
 
 // Cells of the map that are more than noise.
@@ -81,7 +83,7 @@ std::string BaseText(const Diagnosis& diagnosis) {
     text += " (the config states no scope of tau_s: own delays gain " +
             Fixed(diagnosis.own_delays_gain, 1) + " nats)";
   }
-  return text + "\n";
+  return Wrapped(text, 2) + "\n";
 }
 
 // The budget as a waterfall: a bar as long as the gap before each item, of which the item takes off
