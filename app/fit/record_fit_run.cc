@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,6 +67,13 @@ void RequireUsable(const Config& config, std::size_t index, const NamedRecord& r
   }
 }
 
+// Where the config states them: a record needs more of them than a table does.
+std::optional<std::size_t> StartsOf(const Config& config) {
+  const LocatedMember* const solver = config.tree.Find("solver");
+  if (solver == nullptr || solver->value.Find("starts") == nullptr) return std::nullopt;
+  return static_cast<std::size_t>(config.solver.starts);
+}
+
 RecordSolution Solve(const Config& config, const Options& options) {
   const std::vector<NamedRecord> records = LoadRecords(config);
   const AnalysisSet set = AnalyseRecords(records, MakeAnalysisOptions(config, options));
@@ -81,6 +89,7 @@ RecordSolution Solve(const Config& config, const Options& options) {
                                                        config.record_loop->flame_input)};
   });
   RecordsFitOptions fit_options;
+  fit_options.starts = StartsOf(config).value_or(fit_options.starts);
   fit_options.seed = options.seed;
   fit_options.threads = options.threads;
   out.loop = FitLoop(out.points, *config.record_loop, fit_options);
@@ -91,6 +100,11 @@ RecordSolution Solve(const Config& config, const Options& options) {
     out.fitted[e] = FittedLoopOf(out.points[e].record, fit.structure, fit.points[e]);
     out.other_delays[e] = OtherDelaysOf(out.points[e].record, fit.structure, fit.points[e]);
   });
+  std::vector<OnsetPoint> points;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    points.push_back({records[e].phi, out.fitted[e].small_signal});
+  }
+  out.onset = OnsetOf(points);
   return out;
 }
 

@@ -35,6 +35,23 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
   return out + "\n";
 }
 
+std::string OnsetText(const RecordSolution& solution, const std::string& operating_parameter) {
+  const Onset& onset = solution.onset;
+  if (!onset.at.available) return "";
+  if (!std::isfinite(onset.frequency_hz.value)) {
+    return "where small oscillations begin to grow, a straight line through these loop gains "
+           "cannot "
+           "tell\n";
+  }
+  return Wrapped("small oscillations begin to grow at " + operating_parameter + " " +
+                     Significant(onset.at.phi, 4) + " (95 %: " + Significant(onset.at.lo, 4) +
+                     " .. " + Significant(onset.at.hi, 4) + "), at " +
+                     PlusMinus(onset.frequency_hz, 4) +
+                     " Hz, by straight lines through the points' loop gains and frequencies",
+                 2) +
+         "\n";
+}
+
 constexpr std::size_t kMostOthers = 3;
 
 std::string DelaysText(const RecordSolution& solution) {
@@ -85,8 +102,8 @@ std::string TriedText(const ChosenLoop& loop) {
 }  // namespace
 
 std::string RecordFitText(const RecordSolution& solution, const std::string& operating_parameter) {
-  return LoopsText(solution, operating_parameter) + DelaysText(solution) + ModesText(solution) +
-         TriedText(solution.loop);
+  return LoopsText(solution, operating_parameter) + OnsetText(solution, operating_parameter) +
+         DelaysText(solution) + ModesText(solution) + TriedText(solution.loop);
 }
 
 }  // namespace howl

@@ -9,6 +9,7 @@
 
 #include "estimation/joint_records/choose_modes.h"
 #include "estimation/joint_records/fitted_loop.h"
+#include "estimation/joint_records/onset.h"
 
 namespace howl {
 
@@ -18,6 +19,7 @@ struct RecordSolution {
   ChosenLoop loop;
   std::vector<FittedLoop> fitted;
   std::vector<std::vector<OtherDelay>> other_delays;  // of each experiment
+  Onset onset;
 
   bool Converged() const;
 };

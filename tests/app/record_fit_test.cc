@@ -95,6 +95,19 @@ TEST_F(RecordFitOfFirstRig, OtherCommandsRefuseTheLoop) {
   }
 }
 
+// A value that is fixed, or a residual that is switched off, would be passed over in silence.
+TEST_F(RecordFitOfFirstRig, SectionsThatItDoesNotTakeAreNamed) {
+  const std::string model = "model: {residue: complex}\n";
+  for (const std::string section :
+       {"parameters: {tau_s: {initial: 0.003, fixed: true}}", "residuals: {transfer: off}"}) {
+    const ProgramResult result = Run("fit", model + section + "\n");
+    EXPECT_EQ(result.status, 2) << section;
+    const std::string key = section.substr(0, section.find(':'));
+    EXPECT_THAT(result.err, HasSubstr("rig.yaml:9: " + key +
+                                      ": is not taken by a loop that is fitted to whole records"));
+  }
+}
+
 TEST(RecordFit, NeedsRecordsOfBothSignals) {
   const TemporaryFolder folder;
   const std::string table =

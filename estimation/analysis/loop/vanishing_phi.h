@@ -1,11 +1,8 @@
 // The operating parameter at which the limit cycle vanishes (the paper, section 3.2 and figure 7):
-// a straight line g = a + b phi through the loop gains reaches one at phi = (1 - a) / b. Weighted
-// least squares where every gain has a standard deviation, else ordinary. Fieller's interval: all
-// phi with
+// a straight line g = a + b phi through the loop gains (straight_line.h) reaches one at
+// phi = (1 - a) / b. Fieller's interval: all phi with
 //
-//   (a + b phi - 1)^2 <= t^2 var(a + b phi),       t: Student's 0.975 quantile, n - 2
-//
-// With known standard deviations t is the normal's, and scatter beyond them widens the variance.
+//   (a + b phi - 1)^2 <= t^2 var(a + b phi)
 #ifndef HOWL_ESTIMATION_ANALYSIS_LOOP_VANISHING_PHI_H_
 #define HOWL_ESTIMATION_ANALYSIS_LOOP_VANISHING_PHI_H_
 

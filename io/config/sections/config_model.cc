@@ -51,6 +51,17 @@ void CheckSecondMode(const ConfigCursor& parameters, const ModelSpec& model) {
                     "model");
 }
 
+// A number that is stated must not be passed over: what a fit to whole records does not take, it
+// does not accept.
+void CheckTakenByRecords(const ConfigCursor& root) {
+  for (const std::string key : {"parameters", "residuals"}) {
+    if (!root.Find(key)) continue;
+    root.FailAt(key,
+                "is not taken by a loop that is fitted to whole records, as `model` states one; "
+                "expected no such section");
+  }
+}
+
 }  // namespace
 
 void ReadModel(const ConfigCursor& root, Config& config) {
@@ -59,6 +70,7 @@ void ReadModel(const ConfigCursor& root, Config& config) {
     model->Read("harmonic_ratio", config.model.harmonic_ratio);
     ReadRecordLoop(*model, config);
   }
+  if (config.record_loop) CheckTakenByRecords(root);
   const auto parameters = root.Find("parameters");
   if (!parameters) return;
   CheckSecondMode(*parameters, config.model);

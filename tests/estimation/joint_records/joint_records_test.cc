@@ -7,6 +7,7 @@
 
 #include "estimation/joint_records/choose_modes.h"
 #include "estimation/joint_records/fitted_loop.h"
+#include "estimation/joint_records/onset.h"
 #include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/point_starts.h"
 #include "estimation/record_fit/richer_structure.h"
@@ -82,6 +83,23 @@ TEST_F(JointRecords, FindsEachPointsLoop) {
     EXPECT_FALSE(others.empty());
     for (const OtherDelay& other : others) EXPECT_GT(other.nats_below, 10.0);
   }
+}
+
+// The operating parameter is the loop's gain: oscillations begin to grow at one.
+TEST_F(JointRecords, SayWhereOscillationsBeginToGrow) {
+  std::vector<OnsetPoint> points;
+  for (std::size_t e = 0; e < kGains.size(); ++e) {
+    points.push_back(
+        {kGains[e], SmallSignalLoopOf((*points_)[e].record, *structure_, fit_->points[e])});
+  }
+  const Onset onset = OnsetOf(points);
+  ASSERT_TRUE(onset.at.available);
+  EXPECT_LT(onset.at.lo, 1.0);
+  EXPECT_GT(onset.at.hi, 1.0);
+  EXPECT_LT(onset.at.hi - onset.at.lo, 0.2);
+  const double frequency_hz = CycleFrequency(DuctAt(1.0), 150.0, 300.0);
+  EXPECT_LT(std::abs(onset.frequency_hz.value - frequency_hz), 3.0 * onset.frequency_hz.std);
+  EXPECT_LT(onset.frequency_hz.std, 0.01 * frequency_hz);
 }
 
 // From a maximum with a wrong delay, the right one is seen and is more likely.
