@@ -43,10 +43,10 @@ std::string OnsetText(const RecordSolution& solution, const std::string& operati
            "cannot "
            "tell\n";
   }
-  return Wrapped("small oscillations begin to grow at " + operating_parameter + " " +
-                     Significant(onset.at.phi, 4) + " (95 %: " + Significant(onset.at.lo, 4) +
-                     " .. " + Significant(onset.at.hi, 4) + "), at " +
-                     PlusMinus(onset.frequency_hz, 4) +
+  return Wrapped("the loop gain about rest reaches one, and a cycle begins or ends, at " +
+                     operating_parameter + " " + Significant(onset.at.phi, 4) +
+                     " (95 %: " + Significant(onset.at.lo, 4) + " .. " +
+                     Significant(onset.at.hi, 4) + "), at " + PlusMinus(onset.frequency_hz, 4) +
                      " Hz, by straight lines through the points' loop gains and frequencies",
                  2) +
          "\n";
