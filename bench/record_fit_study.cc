@@ -1,7 +1,7 @@
 // Loops of three and four modes with complex residues and a delay of their own, identified from
 // records of their limit cycles at five levels of noise: bias and coverage of each parameter.
 //
-//   record_fit_study [RECORDS] [SECONDS]
+//   record_fit_study [RECORDS] [SECONDS] [MODES ...]
 //
 // One row for each number of modes and level: combustion noise (of q at saturation), sensors' noise
 // (of each signal), the share of all 95 % intervals that contain the truth, the largest bias of a
@@ -85,7 +85,10 @@ void Row(int modes, double noise, double sensor_noise, int records, double secon
 int main(int argc, char** argv) {
   const int records = argc > 1 ? std::atoi(argv[1]) : 40;
   const double seconds = argc > 2 ? std::atof(argv[2]) : 4.0;
-  for (const int modes : {3, 4}) {
+  std::vector<int> numbers;
+  for (int i = 3; i < argc; ++i) numbers.push_back(std::atoi(argv[i]));
+  if (numbers.empty()) numbers = {3, 4};
+  for (const int modes : numbers) {
     for (const double level : {0.2, 0.5, 1.0, 2.0, 4.0}) {
       howl::Row(modes, 0.1 * level, 0.005 * level, records, seconds);
     }

@@ -7,8 +7,10 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/point_starts.h"
 #include "tests/estimation/record_fit/modal_loop.h"
@@ -45,7 +47,10 @@ inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std:
   const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
   const PointPrior prior = PriorOf(structure, spectra);
   IdentifiedLoop out;
+  // As one point by itself is fitted (records_fit.h): from starts, then at its most likely delay.
   out.fit = FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, starts, 1));
+  out.fit = BestByDelay(spectra, structure, prior, std::move(out.fit));
+  out.fit = FitPoint(spectra, structure, prior, out.fit.parameters);
   LoopPoint found = ToPoint(structure, spectra.flame.cols(), out.fit.parameters);
   LoopPoint truth = found;
   const double turn = 2.0 * std::numbers::pi * cycle_hz;
