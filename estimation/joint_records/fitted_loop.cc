@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "estimation/record_fit/delay_maxima.h"
+#include "estimation/record_fit/growing_roots.h"
 
 namespace howl {
 namespace {
@@ -93,6 +94,7 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
   out.tau_s = FromLogarithm(std::log(point.tau), covariance(structure.Delay(), structure.Delay()),
                             1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz));
   out.small_signal = SmallSignalLoopOf(record, structure, fit);
+  out.growing_roots = GrowingRoots(record, point);
   out.noise = NoiseOf(record, structure, point, covariance);
   out.converged = fit.converged;
   return out;

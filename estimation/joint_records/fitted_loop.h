@@ -43,6 +43,7 @@ struct FittedLoop {
   std::vector<FittedMode> modes;  // by frequency
   Estimate tau_s;
   SmallSignalLoop small_signal;
+  int growing_roots = 0;  // growing_roots.h
   std::vector<FittedNoise> noise;
   bool converged = false;
 };

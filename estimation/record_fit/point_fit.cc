@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "estimation/record_fit/growing_roots.h"
 #include "estimation/record_fit/return_difference.h"
 #include "model/numerics/dense_algebra.h"
 
@@ -27,10 +28,13 @@ constexpr int kIterationsToCompare = 30;
 constexpr double kSameDelay = 0.03;  // of ln tau
 constexpr std::size_t kMostDelays = 3;
 constexpr double kDifference = 1e-5;  // of the prior's deviation
+constexpr int kMostHalvings = 20;     // of a start's flame
 
 double Value(const RecordSpectra& record, const PointStructure& structure, const PointPrior& prior,
              const Eigen::VectorXd& parameters) {
-  if (!parameters.allFinite()) return -std::numeric_limits<double>::infinity();
+  constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+  if (!parameters.allFinite()) return kImpossible;
+  if (Diverges(record, ToPoint(structure, record.flame.cols(), parameters))) return kImpossible;
   return LogLikelihood(record, structure, parameters) + prior.LogDensity(parameters);
 }
 
@@ -142,6 +146,17 @@ std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
   return out;
 }
 
+// With so weak a flame that the loop does not diverge.
+Eigen::VectorXd Bounded(const RecordSpectra& record, const PointStructure& structure,
+                        Eigen::VectorXd parameters) {
+  const Eigen::Index flame = record.flame.cols();
+  for (int i = 0; i < kMostHalvings; ++i) {
+    if (!Diverges(record, ToPoint(structure, flame, parameters))) break;
+    parameters.segment(structure.Delay() + 1, flame) *= 0.5;
+  }
+  return parameters;
+}
+
 // What the quadratic about the present parameters consists of.
 enum class Source : std::uint8_t { kInformation, kCorrected, kCurvature };
 
@@ -163,7 +178,7 @@ double LogLikelihood(const RecordSpectra& record, const PointStructure& structur
 PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, Eigen::VectorXd start, const PointFitOptions& options) {
   PointFit out;
-  out.parameters = std::move(start);
+  out.parameters = Bounded(record, structure, std::move(start));
   out.log_posterior = Value(record, structure, prior, out.parameters);
   double damping = kFirstDamping;
   double raise = 2.0;

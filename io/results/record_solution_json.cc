@@ -70,6 +70,7 @@ Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
            {{"frequency_hz", EstimateJson(small.frequency_hz)},
             {"growth_rate_1_s", EstimateJson(small.growth_rate_1_s)},
             {"loop_gain", EstimateJson(small.loop_gain)}}},
+          {"growing_roots", loop.growing_roots},
           {"other_delays", OtherDelaysJson(solution.other_delays[e])},
           {"noise", NoiseJson(loop)},
           {"log_density_left_out",

@@ -75,6 +75,7 @@ TEST_F(JointRecords, FindsEachPointsLoop) {
       near(loop.modes[k].N, truth.modes[k].a, "N");
       near(loop.modes[k].B, truth.modes[k].b, "B");
     }
+    EXPECT_EQ(loop.growing_roots, 0);
     ASSERT_TRUE(loop.small_signal.found);
     near(loop.small_signal.loop_gain, kGains[e], "loop gain");
     EXPECT_EQ(loop.small_signal.growth_rate_1_s.value > 0.0, kGains[e] > 1.0);

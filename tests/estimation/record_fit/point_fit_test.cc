@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include "estimation/record_fit/growing_roots.h"
 #include "estimation/record_fit/return_difference.h"
 #include "tests/estimation/record_fit/identified.h"
 
@@ -25,6 +26,28 @@ TEST(PointFit, FindsTwoModesOfALimitCycle) {
   // All that the record tells: the delay to 0.1 %, the first mode's damping to 5 %.
   EXPECT_LT(found.parameters.back().std, 1e-3);
   EXPECT_LT(found.parameters[2].std, 0.05);
+}
+
+// Begun with a flame so steep that the loop diverges all over the band, a fit ends at one that does
+// not.
+TEST(PointFit, EndsAtALoopThatDoesNotDiverge) {
+  const ModalLoop loop = DuctOfModes(2);
+  const Record record = SimulateModalLoop(loop, 1.0, 5);
+  const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
+  const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
+  const PointStructure structure = FreeStructure(2);
+  const PointPrior prior = PriorOf(structure, spectra);
+  Eigen::VectorXd start =
+      FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, 6, 1)).parameters;
+  start.segment(structure.Delay() + 1, spectra.flame.cols()) *= 100.0;
+  const auto diverges = [&](const Eigen::VectorXd& parameters) {
+    return Diverges(spectra, ToPoint(structure, spectra.flame.cols(), parameters));
+  };
+  ASSERT_TRUE(diverges(start)) << GrowingRoots(spectra,
+                                               ToPoint(structure, spectra.flame.cols(), start));
+  const PointFit fit = FitPoint(spectra, structure, prior, start);
+  EXPECT_TRUE(std::isfinite(fit.log_posterior));
+  EXPECT_FALSE(diverges(fit.parameters));
 }
 
 // A model with a mode more than the loop has says less of the record, for all its freedom.
