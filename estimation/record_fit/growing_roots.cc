@@ -14,9 +14,7 @@ using C = std::complex<double>;
 constexpr double kLowest = 1e-3;  // of the cycle's frequency
 constexpr double kTurn = 0.5;     // radians that one step may turn
 constexpr double kLongest = 0.1;  // step
-// Enough for a delay of eighty periods of the cycle, which no search comes to but in a wild step.
-constexpr double kShortest = 1e-3;
-constexpr int kDeepest = 24;  // halvings of a step
+constexpr int kDeepest = 24;      // halvings of a step
 
 class ReturnDifference {
  public:
@@ -50,7 +48,7 @@ class ReturnDifference {
 
 // So that no step passes over a resonance or over a turn of the delay unseen.
 std::vector<double> Frequencies(const LoopPoint& point, double highest) {
-  const double step = std::clamp(kTurn / std::max(point.tau, kLowest), kShortest, kLongest);
+  const double step = std::min(kLongest, kTurn / std::max(point.tau, kLowest));
   std::vector<double> out;
   for (double at = kLowest + step; at < highest; at += step) out.push_back(at);
   for (const LoopMode& mode : point.modes) {

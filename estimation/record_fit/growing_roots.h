@@ -25,6 +25,10 @@ inline bool Diverges(const RecordSpectra& record, const LoopPoint& point) {
   return GrowingRoots(record, point) > 2;
 }
 
+// A hundred radians are sixteen periods of the cycle: no rig's delay, and the wild step of a
+// search.
+inline bool IsWild(const LoopPoint& point) { return !(point.tau < 100.0); }
+
 }  // namespace howl
 
 #endif  // HOWL_ESTIMATION_RECORD_FIT_GROWING_ROOTS_H_

@@ -34,7 +34,8 @@ double Value(const RecordSpectra& record, const PointStructure& structure, const
              const Eigen::VectorXd& parameters) {
   constexpr double kImpossible = -std::numeric_limits<double>::infinity();
   if (!parameters.allFinite()) return kImpossible;
-  if (Diverges(record, ToPoint(structure, record.flame.cols(), parameters))) return kImpossible;
+  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  if (IsWild(point) || Diverges(record, point)) return kImpossible;
   return LogLikelihood(record, structure, parameters) + prior.LogDensity(parameters);
 }
 
