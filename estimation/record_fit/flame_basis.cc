@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace howl {
 namespace {
@@ -17,7 +18,9 @@ struct Piece {
 Piece Evaluate(double v, double range) {
   const double scaled =
       std::clamp((v / range + 1.0) * 0.5, 0.0, 1.0) * static_cast<double>(kIntervals);
-  const Eigen::Index interval = std::min(static_cast<Eigen::Index>(scaled), kIntervals - 1);
+  // What is no number, as after a wild step of a search, has weights that are none, in some column.
+  const Eigen::Index interval =
+      std::isnan(scaled) ? 0 : std::min(static_cast<Eigen::Index>(scaled), kIntervals - 1);
   const double u = scaled - static_cast<double>(interval);
   const double w = 1.0 - u;
   return {interval,

@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include "estimation/record_fit/flame_basis.h"
 #include "estimation/record_fit/growing_roots.h"
 #include "estimation/record_fit/return_difference.h"
 #include "tests/estimation/record_fit/identified.h"
@@ -87,6 +88,15 @@ TEST(LongPointFit, IntervalsCoverAndAreNotBiased) {
   EXPECT_GE(inside, static_cast<int>(0.93 * all));
   EXPECT_LE(inside, static_cast<int>(0.97 * all));
   for (const auto& [name, z] : bias) EXPECT_LT(std::abs(z), 0.6) << name;
+}
+
+// An odd number of values: no index that wraps around falls into place by chance.
+TEST(FlameBasis, WhatIsNoNumberStaysNone) {
+  const Eigen::VectorXd v = Eigen::Vector3d(0.1, std::nan(""), -0.2);
+  const Eigen::MatrixXd columns = FlameBasis(1.0).Columns(v);
+  EXPECT_TRUE(columns.row(0).allFinite());
+  EXPECT_TRUE(columns.row(1).hasNaN());
+  EXPECT_TRUE(columns.row(2).allFinite());
 }
 
 // Of a flame driven by a sinusoid, the mean slope and the slope at twice the cycle's frequency are
