@@ -146,7 +146,13 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
                 std::string(LoopBlockName(place.block)).c_str(), place.low_hz, place.high_hz,
                 place.experiments.size(), place.share);
   }
-  std::printf("gap, held out: %.3f before, %.3f after; floor %.3f\n", diagnosis.gap_before,
+  // Of a lone experiment nothing can be held out: its gap is that of the fit to itself.
+  const auto is_other = [&](const GapCell& cell) {
+    return cell.experiment != diagnosis.map[0].experiment;
+  };
+  const bool lone = !diagnosis.map.empty() && std::ranges::none_of(diagnosis.map, is_other);
+  std::printf("gap, %s: %.3f before, %.3f after; floor %.3f\n",
+              lone ? "not held out (one experiment)" : "held out", diagnosis.gap_before,
               diagnosis.gap_after, diagnosis.gap_floor);
   std::printf("%s", BaseText(diagnosis).c_str());
   std::printf("%s", MapText(diagnosis).c_str());

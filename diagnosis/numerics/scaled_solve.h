@@ -7,7 +7,8 @@
 
 namespace howl {
 
-// g: one right-hand side in each column.
+// g: one right-hand side in each column. An unknown of which h tells nothing, with a zero on the
+// diagonal, is zero.
 Eigen::MatrixXd SolveScaled(const Eigen::MatrixXd& h, const Eigen::MatrixXd& g, double damping);
 
 }  // namespace howl

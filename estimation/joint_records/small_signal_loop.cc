@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "estimation/record_fit/return_difference.h"
+
 namespace howl {
 namespace {
 
@@ -25,10 +27,7 @@ class Loop {
   Loop(const RecordSpectra& record, const LoopPoint& point)
       : record_(record), point_(point), slope_(record.rest_slopes.dot(point.flame)) {}
 
-  C At(C s) const {
-    return slope_ * AcousticTransfer(point_, s) * std::exp(-point_.tau * s) *
-           FlameInputResponse(record_.flame_input, s);
-  }
+  C At(C s) const { return slope_ * OpenLoop(record_, point_, s); }
 
   std::optional<Root> Find() const {
     C s(0.0, 1.0);

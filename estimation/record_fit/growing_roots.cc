@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "estimation/record_fit/return_difference.h"
+
 namespace howl {
 namespace {
 
@@ -22,9 +24,7 @@ class ReturnDifference {
       : record_(record), point_(point), slope_(record.slopes.dot(point.flame)) {}
 
   C At(double frequency) const {
-    const C s(0.0, frequency);
-    return 1.0 - slope_ * AcousticTransfer(point_, s) * std::polar(1.0, -point_.tau * frequency) *
-                     FlameInputResponse(record_.flame_input, s);
+    return 1.0 - slope_ * OpenLoop(record_, point_, C(0.0, frequency));
   }
 
   // By how much the phase rises from one frequency to another.

@@ -36,7 +36,9 @@ double Value(const RecordSpectra& record, const PointStructure& structure, const
   if (!parameters.allFinite()) return kImpossible;
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   if (IsWild(point) || Diverges(record, point)) return kImpossible;
-  return LogLikelihood(record, structure, parameters) + prior.LogDensity(parameters);
+  return WhittleLogLikelihood(structure.noise, record.share,
+                              ResidualsOf(record, structure, point)) +
+         LogDeterminant(record, point) + prior.LogDensity(parameters);
 }
 
 struct Quadratic {

@@ -10,11 +10,12 @@ namespace {
 
 using C = std::complex<double>;
 
-// At one frequency, s = j f, e^(-tau s) V(s) and U: that times R.
-struct OpenLoop {
-  OpenLoop(const RecordSpectra& record, const LoopPoint& point, C at)
+// At s, e^(-tau s) V(s) and U: that times R.
+struct LoopAt {
+  LoopAt(const RecordSpectra& record, const LoopPoint& point, C at)
       : s(at),
-        path(std::polar(1.0, -point.tau * s.imag()) * FlameInputResponse(record.flame_input, s)),
+        path(std::polar(std::exp(-point.tau * s.real()), -point.tau * s.imag()) *
+             FlameInputResponse(record.flame_input, s)),
         u(AcousticTransfer(point, s) * path) {}
 
   // Adds the real part of `by` times dU, by the acoustics' parameters and ln tau.
@@ -35,16 +36,20 @@ bool HasPartner(C s) { return s.imag() < 2.0; }
 
 }  // namespace
 
+C OpenLoop(const RecordSpectra& record, const LoopPoint& point, C s) {
+  return LoopAt(record, point, s).u;
+}
+
 double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
   const double phi_0 = record.slopes.dot(point.flame);
   const double square = std::norm((record.coupling.transpose() * point.flame).value());
   double sum = 0.0;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const C s = record.s[i];
-    const C u = OpenLoop(record, point, s).u;
+    const C u = LoopAt(record, point, s).u;
     C d = (1.0 - phi_0 * u) * (1.0 - phi_0 * u);
     if (HasPartner(s)) {
-      const C w = std::conj(OpenLoop(record, point, Partner(s)).u);
+      const C w = std::conj(LoopAt(record, point, Partner(s)).u);
       d = (1.0 - phi_0 * u) * (1.0 - phi_0 * w) - square * u * w;
     }
     sum += record.share[i] * std::log(std::abs(d));
@@ -64,7 +69,7 @@ Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointS
   double by_square = 0.0;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const C s = record.s[i];
-    const OpenLoop loop(record, point, s);
+    const LoopAt loop(record, point, s);
     const C u = loop.u;
     if (!HasPartner(s)) {
       const C over = -2.0 * record.share[i] * Reciprocal(1.0 - phi_0 * u);
@@ -72,7 +77,7 @@ Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointS
       by_phi_0 += (over * u).real();
       continue;
     }
-    const OpenLoop partner(record, point, Partner(s));
+    const LoopAt partner(record, point, Partner(s));
     const C w = std::conj(partner.u);
     const C over = record.share[i] *
                    Reciprocal(Times(1.0 - phi_0 * u, 1.0 - phi_0 * w) - square * Times(u, w));

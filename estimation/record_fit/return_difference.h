@@ -18,10 +18,15 @@
 #define HOWL_ESTIMATION_RECORD_FIT_RETURN_DIFFERENCE_H_
 
 #include <Eigen/Core>
+#include <complex>
 
 #include "estimation/record_fit/loop_point.h"
 
 namespace howl {
+
+// U at s.
+std::complex<double> OpenLoop(const RecordSpectra& record, const LoopPoint& point,
+                              std::complex<double> s);
 
 double LogDeterminant(const RecordSpectra& record, const LoopPoint& point);
 

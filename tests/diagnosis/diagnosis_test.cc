@@ -8,6 +8,7 @@
 #include "diagnosis/cuts/acoustic_cut.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/fit/effect_fit.h"
+#include "diagnosis/numerics/scaled_solve.h"
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
@@ -37,6 +38,26 @@ TEST(BaseFit, RecoversTheRig) {
     EXPECT_NEAR(found.N / truth.N, 1.0, 0.03);
     EXPECT_NEAR(found.M / truth.M, 1.0, 0.06);
   }
+}
+
+// Of one experiment no other tells what the parameters are: what is left is its own fit, and not
+// the square of a number that is none.
+TEST(HeldOut, OfALoneExperimentIsItsOwnFit) {
+  const std::vector<CutRecord> records = MakeCutRecords({CleanRig()[0]});
+  const EffectFit fit = FitBase(records);
+  const ExperimentFit held_out = HeldOut(records, fit, 0);
+  ASSERT_TRUE(held_out.flame_residual.allFinite());
+  EXPECT_NEAR(held_out.flame_residual.norm() / fit.experiments[0].flame_residual.norm(), 1.0, 0.02);
+  EXPECT_NEAR(held_out.acoustic_residual.norm() / fit.experiments[0].acoustic_residual.norm(), 1.0,
+              0.02);
+}
+
+TEST(ScaledSolve, AnUnknownWithoutCurvatureIsZero) {
+  const Eigen::MatrixXd h = Eigen::Vector3d(4.0, 0.0, 9e-40).asDiagonal();
+  const Eigen::VectorXd x = SolveScaled(h, Eigen::Vector3d(8.0, 5.0, 9e-40), 0.0);
+  EXPECT_NEAR(x[0], 2.0, 1e-12);
+  EXPECT_EQ(x[1], 0.0);
+  EXPECT_NEAR(x[2], 1.0, 1e-12);
 }
 
 TEST(Effects, NullResidualsAreTheBasesBitForBit) {
