@@ -8,6 +8,7 @@
 #include "app/input/record_input.h"
 #include "app/text/text_table.h"
 #include "estimation/health/analysis_health.h"
+#include "estimation/health/gain_health.h"
 #include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
 #include "io/records/record_faults.h"
@@ -108,6 +109,8 @@ CheckReport RunCheck(const Options& options) {
     Append(CheckAnalysis(input.records, *input.analysis, MakeAnalysisOptions(config, options),
                          RateSources(config)),
            report.warnings);
+  } else {
+    Append(CheckGains(input.experiments), report.warnings);
   }
   report.abilities = FindAbilities(config, options, input, reading.points_are_known);
   return report;

@@ -14,6 +14,7 @@
 #include "estimation/family/problem/membership.h"
 #include "estimation/fit/joint_fit.h"
 #include "estimation/health/fit_health.h"
+#include "estimation/health/gain_health.h"
 #include "estimation/health/mistake_search.h"
 #include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
@@ -100,6 +101,8 @@ Health CheckAll(const Config& config, const Options& options, const ProblemInput
   if (input.analysis) {
     health =
         CheckRecords(config, input.records, *input.analysis, MakeAnalysisOptions(config, options));
+  } else {
+    health = CheckGains(problem.experiments());
   }
   Append(CheckFit(problem, fit), health);
   std::vector<std::string> recorded;

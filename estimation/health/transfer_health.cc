@@ -8,6 +8,7 @@
 
 #include "estimation/analysis/transfer/transfer_search.h"
 #include "estimation/health/analysis_health.h"
+#include "estimation/health/gain_health.h"
 #include "estimation/health/mistake_search.h"
 #include "estimation/health/number_words.h"
 #include "estimation/parallel.h"
@@ -194,6 +195,14 @@ Health CheckAnalysis(std::span<const NamedRecord> records, const AnalysisSet& se
     Append(CheckState(set.analyses[i], options.characteristics), each[i]);
   });
   for (Health& one : each) Append(std::move(one), health);
+  std::vector<NamedGain> gains;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Characteristics& cycle = set.analyses[i].characteristics;
+    if (cycle.state == CycleState::kNoLimitCycle || records[i].record.heat_release.empty())
+      continue;
+    gains.push_back({records[i].name, cycle.gain.value});
+  }
+  Append(CheckGains(std::move(gains)), health);
   return health;
 }
 
