@@ -11,6 +11,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -40,9 +42,19 @@ void PrintPoint(const std::string& name, const PointStructure& structure,
                 mode.omega * record.scale.cycle_hz, half(structure.ratio ? 0 : k), mode.xi,
                 half(structure.Frequencies() + (structure.own_damping ? k : 0)), mode.a, mode.b);
   }
-  std::printf(" | tau %.3f ms +-%.1f%% %s\n",
-              1e3 * point.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz),
-              half(structure.Delay()), fit.converged ? "" : "(not converged)");
+  std::printf(" | tau %.3f ms +-%.1f%%",
+              1e3 * point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz),
+              half(structure.Delay()));
+  if (structure.Delays() > 1) std::printf(" rho %.2f", point.path.rho);
+  for (Eigen::Index h = 0; h < point.acoustic_lines.size(); ++h) {
+    std::printf("%s %.2f@%.0f", h ? "" : " | d", std::abs(point.acoustic_lines[h]),
+                180.0 / std::numbers::pi * std::arg(point.acoustic_lines[h]));
+  }
+  for (Eigen::Index h = 0; h < point.flame_lines.size(); ++h) {
+    std::printf("%s %.2f@%.0f", h ? "" : " | e", std::abs(point.flame_lines[h]),
+                180.0 / std::numbers::pi * std::arg(point.flame_lines[h]));
+  }
+  std::printf("%s\n", fit.converged ? "" : " (not converged)");
 }
 
 int Run(int argc, char** argv) {
@@ -57,7 +69,11 @@ int Run(int argc, char** argv) {
   std::vector<double> first;
   std::vector<double> before;
   RecordsFit poorer;
+  const char* only = std::getenv("ONLY");
+  int number = -1;
   for (const NamedStructure& each : RecordStructures()) {
+    ++number;
+    if (only && !std::strchr(only, '0' + number)) continue;
     const double begun = Seconds();
     RecordsFit fit = FitRecords(points, each.structure, {}, first.empty() ? nullptr : &poorer);
     const double fitted = Seconds();

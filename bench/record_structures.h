@@ -25,6 +25,8 @@ inline std::vector<NoiseTerm> RecordNoise(Eigen::Index combustion, Eigen::Index 
   return out;
 }
 
+inline constexpr int kLines = 6;  // multiples of the cycle's frequency within the band
+
 inline std::vector<NamedStructure> RecordStructures() {
   PointStructure loop;
   loop.modes = 2;
@@ -44,6 +46,12 @@ inline std::vector<NamedStructure> RecordStructures() {
   out.push_back({"free modes", loop});
   loop.complex_residues = true;
   out.push_back({"complex residues", loop});
+  loop.flame_lines = kLines;
+  out.push_back({"flame's lines", loop});
+  loop.acoustic_lines = kLines;
+  out.push_back({"acoustics' lines", loop});
+  loop.delay_spread = DelaySpread::kGamma;
+  out.push_back({"spread delays", loop});
   loop.modes = 3;
   out.push_back({"three modes", loop});
   loop.modes = 4;

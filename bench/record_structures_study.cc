@@ -44,7 +44,7 @@ Score ScoreOf(const Record& record, const std::array<Record, 2>& halves, double 
   const PointFit fit = Fit(whole, structure);
   out.evidence = fit.log_evidence;
   out.delay_of_period =
-      ToPoint(structure, whole.flame.cols(), fit.parameters).tau / (2.0 * std::numbers::pi);
+      ToPoint(structure, whole.flame.cols(), fit.parameters).path.tau / (2.0 * std::numbers::pi);
   const PointPrior prior = PriorOf(structure, whole);
   for (const std::size_t half : {0, 1}) {
     const RecordSpectra fitted = MakeRecordSpectra(halves[half], whole);

@@ -70,6 +70,35 @@ std::string DelaysText(const RecordSolution& solution) {
          "of none\nof them, and nats hold as far as the model does\n";
 }
 
+// Root mean square over points and lines.
+double LineError(const RecordSolution& solution, std::vector<FittedLineError> FittedLoop::*of_cut) {
+  double square = 0.0;
+  double count = 0.0;
+  for (const FittedLoop& loop : solution.fitted) {
+    for (const FittedLineError& line : loop.*of_cut) square += line.Size() * line.Size();
+    count += static_cast<double>((loop.*of_cut).size());
+  }
+  return std::sqrt(square / std::max(count, 1.0));
+}
+
+// From here on what the curve says of the cycle is of the size of what it does not.
+constexpr double kLargeLineError = 0.3;
+
+std::string LinesText(const RecordSolution& solution) {
+  if (solution.fitted[0].flame_lines.empty()) return "";
+  const double acoustics = LineError(solution, &FittedLoop::acoustic_lines);
+  const double flame = LineError(solution, &FittedLoop::flame_lines);
+  std::string out = "of the cycle's own lines the acoustics miss " +
+                    Significant(100.0 * acoustics, 2) + " % and the flame's curve " +
+                    Significant(100.0 * flame, 2) + " %, root mean square over points and lines";
+  if (std::max(acoustics, flame) > kLargeLineError) {
+    out +=
+        ": the cycle is not the one of this loop, whose modes, delay and noise rest on what the "
+        "records show beside the lines";
+  }
+  return Wrapped(out, 2) + "\n";
+}
+
 std::string ModesText(const RecordSolution& solution) {
   TextTable table({"experiment", "mode", "omega Hz", "xi", "N", "angle"});
   for (std::size_t e = 0; e < solution.fitted.size(); ++e) {
@@ -103,7 +132,8 @@ std::string TriedText(const ChosenLoop& loop) {
 
 std::string RecordFitText(const RecordSolution& solution, const std::string& operating_parameter) {
   return LoopsText(solution, operating_parameter) + OnsetText(solution, operating_parameter) +
-         DelaysText(solution) + ModesText(solution) + TriedText(solution.loop);
+         DelaysText(solution) + LinesText(solution) + ModesText(solution) +
+         TriedText(solution.loop);
 }
 
 }  // namespace howl

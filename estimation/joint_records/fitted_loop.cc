@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "estimation/record_fit/delay_maxima.h"
-#include "estimation/record_fit/growing_roots.h"
 
 namespace howl {
 namespace {
@@ -47,7 +46,7 @@ std::vector<FittedMode> ModesOf(const PointStructure& structure, const LoopPoint
 std::vector<FittedNoise> NoiseOf(const RecordSpectra& record, const PointStructure& structure,
                                  const LoopPoint& point, const Eigen::MatrixXd& covariance) {
   std::vector<FittedNoise> out;
-  Eigen::Index first = structure.Delay() + 1 + record.flame.cols();
+  Eigen::Index first = structure.Noise(record.flame.cols());
   const double lowest = std::abs(record.s[0]);
   const double highest = std::abs(record.s[record.bins() - 1]);
   for (std::size_t j = 0; j < structure.noise.size(); ++j) {
@@ -80,6 +79,20 @@ std::vector<FittedNoise> NoiseOf(const RecordSpectra& record, const PointStructu
   return out;
 }
 
+// `first`: the index of the first real part.
+std::vector<FittedLineError> LinesOf(const Eigen::VectorXcd& errors, Eigen::Index first,
+                                     const Eigen::MatrixXd& covariance) {
+  std::vector<FittedLineError> out;
+  const Eigen::Index count = errors.size();
+  for (Eigen::Index h = 0; h < count; ++h) {
+    const auto std_of = [&](Eigen::Index i) { return std::sqrt(covariance(i, i)); };
+    out.push_back({static_cast<int>(h) + 1,
+                   {errors[h].real(), std_of(first + h)},
+                   {errors[h].imag(), std_of(first + count + h)}});
+  }
+  return out;
+}
+
 }  // namespace
 
 FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& structure,
@@ -91,10 +104,18 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
   out.transfer =
       AcousticTransfer(point, {0.0, 1.0}) * record.scale.pressure / record.scale.heat_release;
   out.modes = ModesOf(structure, point, covariance, record.scale);
-  out.tau_s = FromLogarithm(std::log(point.tau), covariance(structure.Delay(), structure.Delay()),
-                            1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz));
+  out.tau_s =
+      FromLogarithm(std::log(point.path.tau), covariance(structure.Delay(), structure.Delay()),
+                    1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz));
+  if (structure.Delays() > 1) {
+    out.delay_spread = FromLogarithm(std::log(point.path.rho),
+                                     covariance(structure.Delay() + 1, structure.Delay() + 1), 1.0);
+  }
+  out.acoustic_lines =
+      LinesOf(point.acoustic_lines, structure.Transfer() + structure.Transients(), covariance);
+  out.flame_lines = LinesOf(
+      point.flame_lines, structure.Noise(record.flame.cols()) - structure.FlameLines(), covariance);
   out.small_signal = SmallSignalLoopOf(record, structure, fit);
-  out.growing_roots = GrowingRoots(record, point);
   out.noise = NoiseOf(record, structure, point, covariance);
   out.converged = fit.converged;
   return out;

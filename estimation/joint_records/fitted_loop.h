@@ -6,6 +6,7 @@
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_FITTED_LOOP_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_FITTED_LOOP_H_
 
+#include <cmath>
 #include <complex>
 #include <optional>
 #include <vector>
@@ -31,6 +32,16 @@ struct FittedNoise {
   std::optional<Estimate> ratio;
 };
 
+// What a cut misses of the cycle's line at a multiple of its frequency, relative to what it
+// foretells.
+struct FittedLineError {
+  int multiple = 1;
+  Estimate real;
+  Estimate imaginary;
+
+  double Size() const { return std::hypot(real.value, imaginary.value); }
+};
+
 // Another delay at which this record by itself has a maximum (delay_maxima.h).
 struct OtherDelay {
   double tau_s = 0.0;
@@ -42,8 +53,11 @@ struct FittedLoop {
   std::complex<double> transfer;  // R at the cycle
   std::vector<FittedMode> modes;  // by frequency
   Estimate tau_s;
+  // Standard deviation of the delays over their mean; 0: not spread.
+  Estimate delay_spread;
+  std::vector<FittedLineError> acoustic_lines;
+  std::vector<FittedLineError> flame_lines;
   SmallSignalLoop small_signal;
-  int growing_roots = 0;  // growing_roots.h
   std::vector<FittedNoise> noise;
   bool converged = false;
 };

@@ -14,6 +14,8 @@ namespace {
 // that, as shares of the prior's deviation: of what the prior allows, a rig's points show a part.
 constexpr double kTrend = 0.3;
 constexpr double kTypicalSpread = 0.1;
+// Of errors: so small that what a right model's lines tell is kept.
+constexpr double kTypicalError = 0.01;
 constexpr double kPriorDegrees = 1.0;  // of freedom, of s^2
 constexpr int kIterations = 300;
 constexpr double kConverged = 1e-4;  // of the largest change of ln s
@@ -29,11 +31,12 @@ PointPrior ParameterLaw::PredictionAt(double z) const {
     out.deviation[i] =
         std::sqrt(spread[i] * spread[i] + x.dot(covariance[static_cast<std::size_t>(i)] * x));
   }
-  out.degrees = Eigen::VectorXd::Constant(mean.size(), kPriorDegrees + static_cast<double>(points));
+  out.degrees = kPriorDegrees + values.array();
   return out;
 }
 
-ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const PointPrior& base) {
+ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const PointPrior& base,
+                             const std::vector<ErrorGroup>& errors) {
   CHECK(!points.empty());
   const Eigen::Index size = base.mean.size();
   const auto count = static_cast<double>(points.size());
@@ -42,8 +45,17 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
     const Eigen::Vector2d x(1.0, point.z);
     moments += x * x.transpose();
   }
-  ParameterLaw law{base.mean, Eigen::VectorXd::Zero(size), base.deviation,
-                   std::vector<Eigen::Matrix2d>(static_cast<std::size_t>(size)), points.size()};
+  ParameterLaw law{base.mean,      Eigen::VectorXd::Zero(size),
+                   base.deviation, std::vector<Eigen::Matrix2d>(static_cast<std::size_t>(size)),
+                   points.size(),  Eigen::VectorXd::Constant(size, count)};
+  std::vector<bool> is_error(static_cast<std::size_t>(size), false);
+  for (const ErrorGroup& group : errors) {
+    for (Eigen::Index i = group.first; i < group.first + group.count; ++i) {
+      is_error[static_cast<std::size_t>(i)] = true;
+      law.covariance[static_cast<std::size_t>(i)] = Eigen::Matrix2d::Zero();
+      law.values[i] = count * static_cast<double>(group.count);
+    }
+  }
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     // What is expected of each point, given the law.
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
@@ -63,7 +75,19 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
       sum_z += point.z * value.back();
     }
     double change = 0.0;
+    for (const ErrorGroup& group : errors) {
+      const double typical = kTypicalError * base.deviation[group.first];
+      double squares = kPriorDegrees * typical * typical;
+      for (std::size_t e = 0; e < points.size(); ++e) {
+        squares += variance[e].segment(group.first, group.count).sum() +
+                   value[e].segment(group.first, group.count).squaredNorm();
+      }
+      const double spread = std::sqrt(squares / (law.values[group.first] + kPriorDegrees));
+      change = std::max(change, std::abs(std::log(spread / law.spread[group.first])));
+      law.spread.segment(group.first, group.count).setConstant(spread);
+    }
     for (Eigen::Index i = 0; i < size; ++i) {
+      if (is_error[static_cast<std::size_t>(i)]) continue;
       const double deviation = base.deviation[i];
       const double square = law.spread[i] * law.spread[i];
       Eigen::Matrix2d precision = moments / square;

@@ -9,6 +9,9 @@
 // What a record tells is normal about its most likely parameters (Laplace). The posteriors of the
 // u_e, of (m, b) and of s^2 are taken as independent (mean-field variational Bayes, Attias 2000;
 // the random effects of Laird & Ware 1982), each in turn given the others until they stand still.
+//
+// Errors of the model, of one kind and without a unit, have m = b = 0 and one s together: how far
+// the model errs is a property of the rig, which all its lines and points tell.
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_
 
@@ -34,6 +37,8 @@ struct ParameterLaw {
   // Of (m, b), for each parameter.
   std::vector<Eigen::Matrix2d> covariance;
   std::size_t points = 0;  // from which it was estimated
+  // Of each parameter: how many values told of its s.
+  Eigen::VectorXd values;
 
   // Of a point that was among those from which the law was estimated.
   PointPrior PriorAt(double z) const;
@@ -41,8 +46,15 @@ struct ParameterLaw {
   PointPrior PredictionAt(double z) const;
 };
 
+// Parameters of one kind that follow one another.
+struct ErrorGroup {
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+};
+
 // `base`: the prior of a point when nothing is known of the others.
-ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const PointPrior& base);
+ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const PointPrior& base,
+                             const std::vector<ErrorGroup>& errors = {});
 
 }  // namespace howl
 

@@ -7,6 +7,7 @@ namespace {
 // shapes, fewer for what electronics adds. bench/joint_records_study compares them.
 constexpr Eigen::Index kOfTurbulence = 6;
 constexpr Eigen::Index kOfSensors = 4;
+constexpr int kLines = 6;  // the cycle's multiples that the band holds
 
 }  // namespace
 
@@ -16,6 +17,8 @@ PointStructure StructureOf(const RecordLoopSpec& spec, int modes) {
   out.ratio = spec.ratio;
   out.own_damping = spec.own_damping;
   out.complex_residues = spec.complex_residues;
+  out.delay_spread = spec.delay_spread;
+  if (spec.line_errors) out.acoustic_lines = out.flame_lines = kLines;
   out.noise = {{LoopNoise::kCombustion, kOfTurbulence},
                {LoopNoise::kPressureSensor, kOfSensors},
                {LoopNoise::kHeatReleaseSensor, kOfSensors},

@@ -18,6 +18,8 @@ struct RecordLoopSpec {
   bool own_damping = true;
   bool complex_residues = true;
   FlameInput flame_input = FlameInput::kPressureRate;
+  DelaySpread delay_spread = DelaySpread::kNone;
+  bool line_errors = true;  // loop_point.h
 };
 
 // Noise is that of rigs: combustion's, the duct's, both sensors' and a background that both

@@ -20,7 +20,10 @@ namespace {
 constexpr std::size_t kMostCandidates = 4;
 constexpr int kIterationsOfCandidate = 30;
 constexpr int kRounds = 12;
-constexpr double kLeastTold = 0.1;   // of what the prior tells
+constexpr int kRoundsOfSearch = 2;  // in which each point looks at other delays under the law
+constexpr double kLeastTold = 0.1;  // of what the prior tells
+constexpr double kRounding = 1e-12;
+constexpr double kErrorsConverged = 0.05;  // of ln s
 constexpr double kConverged = 0.02;  // of a parameter's spread, the largest move of the law's mean
 
 double GeometricMean(const std::vector<OperatingPoint>& points, auto value) {
@@ -89,7 +92,7 @@ ParameterEvidence EvidenceOf(const PointFit& fit, const PointPrior& prior, const
 Eigen::VectorXd WithFlame(const RecordSpectra& record, const PointStructure& structure,
                           const Eigen::VectorXd& parameters) {
   LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  point.flame = FlameStart(record, point.tau);
+  point.flame = FlameStart(record, point.path);
   return ToParameters(structure, point);
 }
 
@@ -113,13 +116,32 @@ class RecordsFitter {
   PointPrior Prior(std::size_t e, const PointPrior& common) const {
     return units_[e].FromCommon(common, base_[e]);
   }
+  // From one law to the next; of a point that has no others the errors alone have one.
+  bool Stands(const ParameterLaw& before, const ParameterLaw& after) const {
+    const auto stands = [&](const ErrorGroup& group) {
+      return std::abs(std::log(after.spread[group.first] / before.spread[group.first])) <
+             kErrorsConverged;
+    };
+    if (!std::ranges::all_of(units_[0].errors(), stands)) return false;
+    const Eigen::ArrayXd moved = (after.mean - before.mean).array().abs();
+    return size() == 1 || (moved < kConverged * after.spread.array() + kRounding).all();
+  }
+  // Of a point that has no others: its model's errors alone are what a law tells.
+  PointPrior PriorOfErrors(const ParameterLaw& law) const {
+    PointPrior common = units_[0].ToCommon(base_[0]);
+    for (const ErrorGroup& group : units_[0].errors()) {
+      common.deviation.segment(group.first, group.count) =
+          law.spread.segment(group.first, group.count);
+    }
+    return Prior(0, common);
+  }
 
   std::vector<PointFit> Alone(const RecordsFitOptions& options) const;
   Candidates FromOneAnother(const std::vector<PointFit>& alone) const;
   Candidates FromPoorer(const RecordsFit& poorer) const;
   std::vector<PointFit> Best(const Candidates& candidates) const;
   ParameterLaw Law(const std::vector<ParameterEvidence>& evidence) const {
-    return FitParameterLaw(evidence, common_base_);
+    return FitParameterLaw(evidence, common_base_, units_[0].errors());
   }
   std::vector<ParameterEvidence> Evidence(const std::vector<PointFit>& fits,
                                           const std::vector<PointPrior>& priors) const;
@@ -280,25 +302,20 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
   }
   out.points = fitter.Best(candidates);
   for (std::size_t e = 0; e < points.size(); ++e) out.prior.push_back(fitter.base(e));
-  RunUnits(points.size(), options.threads, [&](std::size_t e) {
-    out.points[e] =
-        BestByDelay(points[e].record, structure, out.prior[e], std::move(out.points[e]));
-  });
-  if (points.size() == 1) {
-    out.points[0] = FitPoint(points[0].record, structure, out.prior[0], out.points[0].parameters);
-    return out;
-  }
+  const bool alone = points.size() == 1;
   for (int round = 0; round < kRounds; ++round) {
     const ParameterLaw law = fitter.Law(fitter.Evidence(out.points, out.prior));
-    const bool first = round == 0;
-    const bool converged =
-        !first &&
-        ((law.mean - out.law.mean).cwiseAbs().array() < kConverged * law.spread.array()).all();
+    const bool converged = round >= kRoundsOfSearch && fitter.Stands(out.law, law);
     out.law = law;
     RunUnits(points.size(), options.threads, [&](std::size_t e) {
-      out.prior[e] = fitter.Prior(e, law.PriorAt(out.z[e]));
-      out.points[e] =
-          FitUnder(points[e].record, structure, out.prior[e], out.points[e].parameters, round < 2);
+      out.prior[e] = alone ? fitter.PriorOfErrors(law) : fitter.Prior(e, law.PriorAt(out.z[e]));
+      const bool early = round < kRoundsOfSearch;
+      out.points[e] = FitUnder(points[e].record, structure, out.prior[e], out.points[e].parameters,
+                               !alone && early);
+      if (early) {
+        out.points[e] =
+            BestByDelay(points[e].record, structure, out.prior[e], std::move(out.points[e]));
+      }
     });
     VLOG(1) << "round " << round << " of the law of the parameters";
     if (converged) break;

@@ -9,9 +9,16 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
                          const ReferenceUnits& reference) {
   for (Eigen::Index i = 0; i < structure.Transfer(); ++i) index_.push_back(i);
   const auto delay = static_cast<Eigen::Index>(index_.size());
-  index_.push_back(structure.Delay());
-  const Eigen::Index noise = structure.Delay() + 1 + record.flame.cols();
+  for (Eigen::Index i = structure.Delay(); i < structure.Flame(); ++i) index_.push_back(i);
+  const Eigen::Index noise = structure.Noise(record.flame.cols());
   for (Eigen::Index i = 0; i < structure.NoiseParameters(); ++i) index_.push_back(noise + i);
+  const auto add_errors = [&](Eigen::Index first, Eigen::Index count) {
+    if (count == 0) return;
+    errors_.push_back({static_cast<Eigen::Index>(index_.size()), count});
+    for (Eigen::Index i = 0; i < count; ++i) index_.push_back(first + i);
+  };
+  add_errors(structure.Transfer() + structure.Transients(), structure.AcousticLines());
+  add_errors(noise - structure.FlameLines(), structure.FlameLines());
   const auto size = static_cast<Eigen::Index>(index_.size());
   scale_ = Eigen::VectorXd::Ones(size);
   shift_ = Eigen::VectorXd::Zero(size);
@@ -22,7 +29,7 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
   scale_.segment(structure.Frequencies() + structure.Dampings(), structure.Residues())
       .setConstant(cycle * pressure / heat_release);
   shift_[delay] = -std::log(cycle);
-  Eigen::Index next = delay + 1;
+  Eigen::Index next = delay + structure.Delays();
   for (const NoiseTerm& term : structure.noise) {
     const double unit = term.source == LoopNoise::kPressureSensor ? pressure : heat_release;
     shift_[next] = 2.0 * std::log(unit) - std::log(record.sampling_hz / reference.sampling_hz);

@@ -1,6 +1,6 @@
 // The parameters that the operating points of one rig have in common (all of loop_point.h but the
 // flame's and what the record's ends leave), in units that are the same at every point: those of a
-// reference point.
+// reference point. Errors of the cycle's lines have no unit.
 //
 //   common = scale u + shift,   u without unit as in loop_point.h
 //
@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "estimation/joint_records/parameter_law.h"
 #include "estimation/record_fit/loop_point.h"
 #include "estimation/record_fit/point_prior.h"
 
@@ -44,9 +45,12 @@ class SharedUnits {
   PointPrior ToCommon(const PointPrior& prior) const;
 
   const Eigen::VectorXd& scale() const { return scale_; }
+  // Those of acoustics and of the flame, where there are any.
+  const std::vector<ErrorGroup>& errors() const { return errors_; }
 
  private:
   std::vector<Eigen::Index> index_;
+  std::vector<ErrorGroup> errors_;
   Eigen::VectorXd scale_;
   Eigen::VectorXd shift_;
 };

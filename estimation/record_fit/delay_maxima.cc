@@ -26,7 +26,8 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
   for (const double tau : DelayStarts(record, kDelays)) {
     Eigen::VectorXd start = parameters;
     start[structure.Delay()] = std::log(tau);
-    start.segment(structure.Delay() + 1, record.flame.cols()) = FlameStart(record, tau);
+    const FlamePath path = ToPoint(structure, record.flame.cols(), start).path;
+    start.segment(structure.Flame(), record.flame.cols()) = FlameStart(record, path);
     all.push_back(FitPoint(record, structure, prior, start, kToTheMaximum));
   }
   std::ranges::stable_sort(all, std::ranges::greater(), &PointFit::log_posterior);

@@ -14,11 +14,6 @@ double FrequencyRatio(const PointStructure& structure, Eigen::Index mode) {
   return 1.0 + (*structure.ratio - 1.0) * static_cast<double>(mode);
 }
 
-// e^(-tau s) for s = j f, without the exponential of its real part.
-Eigen::VectorXcd Delayed(const Eigen::VectorXcd& s, double tau) {
-  return s.unaryExpr([tau](C each) { return std::polar(1.0, -tau * each.imag()); });
-}
-
 C SumOverModes(const LoopPoint& point, C s, double LoopMode::*rate, double LoopMode::*level) {
   C out = 0.0;
   for (const LoopMode& mode : point.modes) {
@@ -35,6 +30,66 @@ Eigen::VectorXcd Transfer(const LoopPoint& point, const Eigen::VectorXcd& s) {
 
 Eigen::MatrixXcd TaperedColumns(const Eigen::MatrixXcd& x) {
   return x.topRows(x.rows() - 1) - x.bottomRows(x.rows() - 1);
+}
+
+Eigen::VectorXcd ByLogTau(const FlamePath& path, const Eigen::VectorXcd& s) {
+  return s.unaryExpr([&](C each) { return path.ByLogTau(each); });
+}
+
+Eigen::VectorXcd ByLogRho(const FlamePath& path, const Eigen::VectorXcd& s) {
+  return s.unaryExpr([&](C each) { return path.ByLogRho(each); });
+}
+
+// What the real and the imaginary part of the h-th line's error are multiplied by.
+struct LineShape {
+  LineShape(C s, double h) {
+    const C resonance = 2.0 * kLineReach * Reciprocal(Times(s, s) + 2.0 * kLineReach * s + h * h);
+    real = Times(s, resonance);
+    imag = -h * resonance;
+  }
+  C real;
+  C imag;
+};
+
+// 1 + the errors of all lines.
+Eigen::VectorXcd LineFactors(const Eigen::VectorXcd& s, const Eigen::VectorXcd& errors) {
+  Eigen::VectorXcd out = Eigen::VectorXcd::Ones(s.size());
+  for (Eigen::Index h = 0; h < errors.size(); ++h) {
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      const LineShape shape(s[i], static_cast<double>(h + 1));
+      out[i] += errors[h].real() * shape.real + errors[h].imag() * shape.imag;
+    }
+  }
+  return out;
+}
+
+// What the real and then the imaginary parts of the errors add to an answer.
+Eigen::MatrixXcd LineColumns(const Eigen::VectorXcd& s, const Eigen::VectorXcd& answer,
+                             Eigen::Index lines) {
+  Eigen::MatrixXcd out(s.size(), 2 * lines);
+  for (Eigen::Index h = 0; h < lines; ++h) {
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      const LineShape shape(s[i], static_cast<double>(h + 1));
+      out(i, h) = Times(shape.real, answer[i]);
+      out(i, lines + h) = Times(shape.imag, answer[i]);
+    }
+  }
+  return out;
+}
+
+Eigen::VectorXcd ComplexOf(const Eigen::VectorXd& parts) {
+  const Eigen::Index count = parts.size() / 2;
+  Eigen::VectorXcd out(count);
+  out.real() = parts.head(count);
+  out.imag() = parts.tail(count);
+  return out;
+}
+
+// R Q and what the record's ends leave, before the taper.
+Eigen::VectorXcd AnswerOfAcoustics(const RecordSpectra& record, const LoopPoint& point) {
+  return Transfer(point, record.edge_s).cwiseProduct(record.heat_release) +
+         record.edge_s.unaryExpr(
+             [&](C s) { return SumOverModes(point, s, &LoopMode::g, &LoopMode::h); });
 }
 
 // Calls `take` with the index of each parameter that moves mode k, dR and dT by it at s, T being
@@ -113,10 +168,15 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
     mode.h = parameters[structure.Transfer() + structure.modes + k];
     out.modes.push_back(mode);
   }
+  out.acoustic_lines = ComplexOf(
+      parameters.segment(structure.Transfer() + structure.Transients(), structure.AcousticLines()));
   Eigen::Index next = structure.Delay();
-  out.tau = std::exp(parameters[next++]);
+  out.path = {structure.delay_spread, std::exp(parameters[next++])};
+  if (structure.Delays() > 1) out.path.rho = std::exp(parameters[next++]);
   out.flame = parameters.segment(next, flame);
   next += flame;
+  out.flame_lines = ComplexOf(parameters.segment(next, structure.FlameLines()));
+  next += structure.FlameLines();
   for (const NoiseTerm& term : structure.noise) {
     out.noise.emplace_back(parameters.segment(next, term.coefficients));
     next += term.coefficients;
@@ -126,8 +186,18 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
 }
 
 Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& point) {
-  Eigen::VectorXd out(structure.Delay() + 1 + point.flame.size() + structure.NoiseParameters());
+  Eigen::VectorXd out(structure.Parameters(point.flame.size()));
   Eigen::Index next = 0;
+  const auto add = [&](const Eigen::VectorXd& values) {
+    out.segment(next, values.size()) = values;
+    next += values.size();
+  };
+  const auto add_lines = [&](const Eigen::VectorXcd& errors, Eigen::Index count) {
+    Eigen::VectorXcd all = Eigen::VectorXcd::Zero(count / 2);
+    all.head(errors.size()) = errors;
+    add(all.real());
+    add(all.imag());
+  };
   const auto mode = [&](Eigen::Index k) { return point.modes[static_cast<std::size_t>(k)]; };
   for (Eigen::Index k = 0; k < structure.Frequencies(); ++k) out[next++] = std::log(mode(k).omega);
   for (Eigen::Index k = 0; k < structure.Dampings(); ++k) out[next++] = std::log(mode(k).xi);
@@ -137,13 +207,12 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   }
   for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).g;
   for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).h;
-  out[next++] = std::log(point.tau);
-  out.segment(next, point.flame.size()) = point.flame;
-  next += point.flame.size();
-  for (const Eigen::VectorXd& source : point.noise) {
-    out.segment(next, source.size()) = source;
-    next += source.size();
-  }
+  add_lines(point.acoustic_lines, structure.AcousticLines());
+  out[next++] = std::log(point.path.tau);
+  if (structure.Delays() > 1) out[next++] = std::log(point.path.rho);
+  add(point.flame);
+  add_lines(point.flame_lines, structure.FlameLines());
+  for (const Eigen::VectorXd& source : point.noise) add(source);
   if (HasBackground(structure.noise)) out[next] = point.background_ratio;
   return out;
 }
@@ -153,13 +222,14 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   LoopResiduals out;
   out.r = Transfer(point, record.s);
   const double slope = record.slopes.dot(point.flame);
-  out.f = slope * Delayed(record.s, point.tau).cwiseProduct(record.input);
-  out.acoustic =
-      Tapered(record.pressure - Transfer(point, record.edge_s).cwiseProduct(record.heat_release) -
-              record.edge_s.unaryExpr(
-                  [&](C s) { return SumOverModes(point, s, &LoopMode::g, &LoopMode::h); }));
+  out.f = slope * point.path.At(record.s).cwiseProduct(record.input);
+  out.acoustic = Tapered(record.pressure -
+                         AnswerOfAcoustics(record, point)
+                             .cwiseProduct(LineFactors(record.edge_s, point.acoustic_lines)));
   out.flame = Tapered(record.heat_release -
-                      Delayed(record.edge_s, point.tau).cwiseProduct(record.flame * point.flame));
+                      point.path.At(record.edge_s)
+                          .cwiseProduct(record.flame * point.flame)
+                          .cwiseProduct(LineFactors(record.edge_s, point.flame_lines)));
   SetNoise(record, structure, point, &out);
   return out;
 }
@@ -190,17 +260,35 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
                               const LoopPoint& point) {
   LoopDerivatives out;
   out.r = TransferColumns(structure, point, record.s);
-  out.acoustic =
-      -TaperedColumns(PressureColumns(structure, point, record.edge_s, record.heat_release));
+  Eigen::MatrixXcd of_pressure =
+      PressureColumns(structure, point, record.edge_s, record.heat_release);
+  if (structure.acoustic_lines > 0) {
+    of_pressure = LineFactors(record.edge_s, point.acoustic_lines).asDiagonal() * of_pressure;
+    of_pressure.rightCols(structure.AcousticLines()) =
+        LineColumns(record.edge_s, AnswerOfAcoustics(record, point), structure.acoustic_lines);
+  }
+  out.acoustic = -TaperedColumns(of_pressure);
   const Eigen::Index flame = point.flame.size();
-  const Eigen::VectorXcd path = Delayed(record.s, point.tau).cwiseProduct(record.input);
-  out.f.resize(record.bins(), 1 + flame);
-  out.f.col(0) = -point.tau * record.slopes.dot(point.flame) * record.s.cwiseProduct(path);
-  out.f.rightCols(flame) = path * record.slopes.transpose();
-  const Eigen::MatrixXcd delayed = Delayed(record.edge_s, point.tau).asDiagonal() * record.flame;
-  out.flame.resize(record.bins(), 1 + flame);
-  out.flame.col(0) = point.tau * Tapered(record.edge_s.cwiseProduct(delayed * point.flame));
-  out.flame.rightCols(flame) = -TaperedColumns(delayed);
+  const Eigen::Index delays = structure.Delays();
+  const Eigen::Index of_flame = delays + flame + structure.FlameLines();
+  const Eigen::VectorXcd path = point.path.At(record.s).cwiseProduct(record.input);
+  out.f.setZero(record.bins(), of_flame);
+  const Eigen::VectorXcd sloped = record.slopes.dot(point.flame) * path;
+  out.f.col(0) = sloped.cwiseProduct(ByLogTau(point.path, record.s));
+  if (delays > 1) out.f.col(1) = sloped.cwiseProduct(ByLogRho(point.path, record.s));
+  out.f.middleCols(delays, flame) = path * record.slopes.transpose();
+  const Eigen::VectorXcd factors = LineFactors(record.edge_s, point.flame_lines);
+  const Eigen::MatrixXcd delayed =
+      point.path.At(record.edge_s).cwiseProduct(factors).asDiagonal() * record.flame;
+  const Eigen::VectorXcd answer = delayed * point.flame;
+  out.flame.resize(record.bins(), of_flame);
+  out.flame.col(0) = -Tapered(answer.cwiseProduct(ByLogTau(point.path, record.edge_s)));
+  if (delays > 1) {
+    out.flame.col(1) = -Tapered(answer.cwiseProduct(ByLogRho(point.path, record.edge_s)));
+  }
+  out.flame.middleCols(delays, flame) = -TaperedColumns(delayed);
+  out.flame.rightCols(structure.FlameLines()) = -TaperedColumns(
+      LineColumns(record.edge_s, answer.cwiseQuotient(factors), structure.flame_lines));
   for (const NoiseTerm& term : structure.noise) {
     out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));
   }

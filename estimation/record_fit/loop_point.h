@@ -1,7 +1,8 @@
 // One operating point's loop, as the likelihood of its record has it (whittle.h):
 //
 //   R = sum_k (a_k s + b_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
-//   F = e^(-tau s) V(s) sum_k c_k slope_k,   E_B = Q - e^(-tau s) sum_k c_k b_k record_spectra.h
+//   F = D(s) V(s) sum_k c_k slope_k,   E_B = Q - D(s) sum_k c_k b_k      record_spectra.h
+//   D = e^(-tau s), or that of spread delays                                    flame_path.h
 //   ln S_j = sum_k n_jk T_k                                                       noise_sources.h
 //   E_A = P - R Q - sum_k (g_k s + h_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
 //
@@ -10,9 +11,22 @@
 // mode held at the record's ends (Pintelon & Schoukens 2012, section 6.3.2): near a sharp resonance
 // the taper does not hide it.
 //
+// The cycle's own lines hold thousands of times the power of the noise beside them: what a loop
+// misses of them by a few per cent would outweigh all else that the record tells. So what a cut
+// foretells at the cycle's multiples h may have relative errors d_h and e_h, complex, normal about
+// zero (point_prior.h):
+//
+//   E_A: R Q becomes (1 + sum_h W_h) R Q,   E_B: the flame's answer becomes (1 + sum_h W_h) of it
+//   W_h = 2 r (s Re d_h - h Im d_h) / (s^2 + 2 r s + h^2),   which is d_h at s = j h
+//
+// r, kLineReach, is half its width. W_h is a filter that looks back only, as the loop itself does:
+// the Jacobian stays what it was (return_difference.h). It is an error of the mean alone: R and F,
+// which small signals see, and with them the noise's directions, are without it.
+//
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
-// and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared); ln tau; c; n;
-// where there is a background its ratio.
+// and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared), real and
+// imaginary parts of d; ln tau, where delays are spread ln rho; c; those of e; n; where there is a
+// background its ratio.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_H_
 
@@ -21,29 +35,46 @@
 #include <optional>
 #include <vector>
 
+#include "estimation/record_fit/flame_path.h"
 #include "estimation/record_fit/record_spectra.h"
 #include "estimation/record_fit/whittle.h"
 
 namespace howl {
+
+// Relative to the cycle's frequency.
+inline constexpr double kLineReach = 0.06;
 
 struct PointStructure {
   int modes = 1;
   std::optional<double> ratio;  // of the second mode's frequency to the first's; none: all are free
   bool own_damping = true;
   bool complex_residues = true;
+  DelaySpread delay_spread = DelaySpread::kNone;
   std::vector<NoiseTerm> noise;
+  // Multiples of the cycle's frequency at which acoustics and flame may err.
+  int acoustic_lines = 0;
+  int flame_lines = 0;
 
   Eigen::Index Frequencies() const { return ratio ? 1 : modes; }
   Eigen::Index Dampings() const { return own_damping ? modes : 1; }
   Eigen::Index Residues() const { return complex_residues ? Eigen::Index{2} * modes : modes; }
-  // Of R alone; then those of what the record's ends leave follow.
+  // Of R alone; then those of what the record's ends leave follow, and the lines' errors.
   Eigen::Index Transfer() const { return Frequencies() + Dampings() + Residues(); }
   Eigen::Index Transients() const { return Eigen::Index{2} * modes; }
-  Eigen::Index Acoustics() const { return Transfer() + Transients(); }
+  Eigen::Index AcousticLines() const { return Eigen::Index{2} * acoustic_lines; }
+  Eigen::Index FlameLines() const { return Eigen::Index{2} * flame_lines; }
+  Eigen::Index Acoustics() const { return Transfer() + Transients() + AcousticLines(); }
   // With the background's ratio.
   Eigen::Index NoiseParameters() const;
-  // The index of ln tau; the flame's coefficients follow.
+  // The index of ln tau; where delays are spread ln rho follows.
   Eigen::Index Delay() const { return Acoustics(); }
+  Eigen::Index Delays() const { return delay_spread == DelaySpread::kNone ? 1 : 2; }
+  // The index of the flame's first coefficient.
+  Eigen::Index Flame() const { return Delay() + Delays(); }
+  // That of the first source of noise, and how many parameters there are, given the number of the
+  // flame's coefficients.
+  Eigen::Index Noise(Eigen::Index flame) const { return Flame() + flame + FlameLines(); }
+  Eigen::Index Parameters(Eigen::Index flame) const { return Noise(flame) + NoiseParameters(); }
 };
 
 // One mode, without units.
@@ -58,10 +89,12 @@ struct LoopMode {
 
 struct LoopPoint {
   std::vector<LoopMode> modes;
-  double tau = 0.0;
+  FlamePath path;
   Eigen::VectorXd flame;               // c
   std::vector<Eigen::VectorXd> noise;  // one a source
   double background_ratio = 0.0;       // noise_sources.h
+  Eigen::VectorXcd acoustic_lines;     // d_h, from h = 1 on
+  Eigen::VectorXcd flame_lines;        // e_h
 };
 
 LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <utility>
 
-#include "estimation/record_fit/growing_roots.h"
 #include "estimation/record_fit/return_difference.h"
 #include "model/numerics/dense_algebra.h"
 
@@ -35,7 +34,6 @@ double Value(const RecordSpectra& record, const PointStructure& structure, const
   constexpr double kImpossible = -std::numeric_limits<double>::infinity();
   if (!parameters.allFinite()) return kImpossible;
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  if (IsWild(point) || Diverges(record, point)) return kImpossible;
   return WhittleLogLikelihood(structure.noise, record.share,
                               ResidualsOf(record, structure, point)) +
          LogDeterminant(record, point) + prior.LogDensity(parameters);
@@ -149,13 +147,13 @@ std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
   return out;
 }
 
-// With so weak a flame that the loop does not diverge.
-Eigen::VectorXd Bounded(const RecordSpectra& record, const PointStructure& structure,
-                        Eigen::VectorXd parameters) {
+// With so weak a flame that the loop is a possible one.
+Eigen::VectorXd Possible(const RecordSpectra& record, const PointStructure& structure,
+                         Eigen::VectorXd parameters) {
   const Eigen::Index flame = record.flame.cols();
   for (int i = 0; i < kMostHalvings; ++i) {
-    if (!Diverges(record, ToPoint(structure, flame, parameters))) break;
-    parameters.segment(structure.Delay() + 1, flame) *= 0.5;
+    if (std::isfinite(LogDeterminant(record, ToPoint(structure, flame, parameters)))) break;
+    parameters.segment(structure.Flame(), flame) *= 0.5;
   }
   return parameters;
 }
@@ -181,7 +179,7 @@ double LogLikelihood(const RecordSpectra& record, const PointStructure& structur
 PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, Eigen::VectorXd start, const PointFitOptions& options) {
   PointFit out;
-  out.parameters = Bounded(record, structure, std::move(start));
+  out.parameters = Possible(record, structure, std::move(start));
   out.log_posterior = Value(record, structure, prior, out.parameters);
   double damping = kFirstDamping;
   double raise = 2.0;

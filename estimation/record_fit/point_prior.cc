@@ -20,7 +20,11 @@ constexpr double kHeld = 3.0;
 // Half a period of the cycle, within a factor of three.
 constexpr double kMeanTau = std::numbers::pi;
 constexpr double kLogTau = 1.1;
+// From a tenth of the delay to as much as the delay.
+constexpr double kMeanLogRho = -1.2;
+constexpr double kLogRho = 0.8;
 constexpr double kFlame = 3.0;  // of recorded q's mean square
+constexpr double kLineError = 0.3;
 constexpr double kLevel = 3.0;  // of ln S_j, about the signal's mean
 constexpr double kShape = 1.5;  // of its higher coefficients
 // Amplifiers are set so that p and q fill their ranges alike.
@@ -63,7 +67,7 @@ Eigen::VectorXd PointPrior::Slope(const Eigen::VectorXd& parameters) const {
 
 PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record) {
   const Eigen::Index flame = record.flame.cols();
-  const Eigen::Index size = structure.Delay() + 1 + flame + structure.NoiseParameters();
+  const Eigen::Index size = structure.Parameters(flame);
   PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}};
   Eigen::Index next = 0;
   const auto add = [&](Eigen::Index count, double mean, double deviation) {
@@ -75,9 +79,12 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
   add(structure.Dampings(), kMeanLogXi, kLogXi);
   add(structure.Residues(), 0.0, kResidue);
   add(structure.Transients(), 0.0, kHeld * record.OneSample());
+  add(structure.AcousticLines(), 0.0, kLineError);
   add(1, std::log(kMeanTau), kLogTau);
+  if (structure.Delays() > 1) add(1, kMeanLogRho, kLogRho);
   const double bins = static_cast<double>(record.bins());
   add(flame, 0.0, kFlame * std::sqrt(Tapered(record.heat_release).squaredNorm() / bins));
+  add(structure.FlameLines(), 0.0, kLineError);
   for (const NoiseTerm& term : structure.noise) {
     const bool of_p = term.source == LoopNoise::kPressureSensor;
     add(1, MeanLogPower(of_p ? record.pressure : record.heat_release), kLevel);

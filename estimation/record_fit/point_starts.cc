@@ -15,6 +15,7 @@ namespace {
 constexpr int kDelays = 64;
 constexpr double kMostCycles = 1.25;  // of delay
 constexpr std::size_t kBestDelays = 3;
+constexpr double kRho = 0.2;  // spread of delays
 constexpr double kEulersGamma = 0.5772156649015329;
 constexpr double kQuiet = 0.1;  // share of bins
 constexpr double kWellDamped = 0.1;
@@ -40,8 +41,9 @@ class Starts {
   }
 
   std::vector<double> Delays(std::size_t count) const;
+  FlamePath Path(double tau) const;
   Eigen::VectorXd At(std::vector<LoopMode> modes, double tau) const;
-  StartSolution Flame(double tau) const;
+  StartSolution Flame(const FlamePath& path) const;
 
  private:
   double LogLeft(double tau) const;
@@ -55,8 +57,12 @@ class Starts {
   Eigen::VectorXd weight_;
 };
 
-StartSolution Starts::Flame(double tau) const {
-  const Eigen::VectorXcd delay = (-tau * record_.s.array()).exp();
+FlamePath Starts::Path(double tau) const {
+  return {structure_.delay_spread, tau, structure_.Delays() > 1 ? kRho : 0.0};
+}
+
+StartSolution Starts::Flame(const FlamePath& path) const {
+  const Eigen::VectorXcd delay = path.At(record_.s);
   const Eigen::VectorXcd weight = delay.cwiseProduct(weight_);
   return SolveStart(weight.asDiagonal() * flame_, weight_.cwiseProduct(heat_release_));
 }
@@ -65,9 +71,9 @@ StartSolution Starts::Flame(double tau) const {
 // of that spectrum is. Where there is little noise the right delay stands out by orders of
 // magnitude in bins which hold little of q's power.
 double Starts::LogLeft(double tau) const {
-  const Eigen::VectorXcd delay = (-tau * record_.s.array()).exp();
+  const Eigen::VectorXcd delay = Path(tau).At(record_.s);
   const Eigen::VectorXcd left =
-      heat_release_ - delay.cwiseProduct(flame_ * Flame(tau).coefficients);
+      heat_release_ - delay.cwiseProduct(flame_ * Flame(Path(tau)).coefficients);
   return SmoothPower(left, kStartReach).array().log().mean();
 }
 
@@ -101,8 +107,8 @@ Eigen::VectorXd Starts::LogSpectrum(const Eigen::VectorXd& power, Eigen::Index t
 Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
   LoopPoint point;
   point.modes = std::move(modes);
-  point.tau = tau;
-  point.flame = Flame(tau).coefficients;
+  point.path = Path(tau);
+  point.flame = Flame(point.path).coefficients;
   PointStructure quiet = structure_;
   quiet.noise.clear();
   const LoopResiduals left = ResidualsOf(record_, quiet, point);
@@ -151,8 +157,8 @@ void Starts::RaiseNoise(LoopPoint* point) const {
 
 }  // namespace
 
-Eigen::VectorXd FlameStart(const RecordSpectra& record, double tau) {
-  return Starts(record, PointStructure{}).Flame(tau).coefficients;
+Eigen::VectorXd FlameStart(const RecordSpectra& record, const FlamePath& path) {
+  return Starts(record, PointStructure{}).Flame(path).coefficients;
 }
 
 std::vector<double> DelayStarts(const RecordSpectra& record, std::size_t count) {

@@ -18,8 +18,8 @@ std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointSt
                                       const PointPrior& prior, std::size_t count,
                                       std::uint64_t seed);
 
-// The flame's coefficients that leave least of q, given its delay.
-Eigen::VectorXd FlameStart(const RecordSpectra& record, double tau);
+// The flame's coefficients that leave least of q, given its delays.
+Eigen::VectorXd FlameStart(const RecordSpectra& record, const FlamePath& path);
 
 // Delays, up to 1.25 periods of the cycle, with which the flame leaves less of q than with those
 // beside them: those that leave least, at most `count`.

@@ -24,7 +24,6 @@ constexpr double kHighestOfCycle = 6.4;
 constexpr double kHighestOfSampling = 0.4;
 constexpr double kFilterEdge = 1.05;   // of the band's upper end
 constexpr double kFilterWidth = 0.25;  // of the edge
-constexpr double kCycleReach = 0.25;   // of the cycle's frequency, about it
 constexpr double kRangeOverLargest = 1.02;
 // Combinations of splines that v hardly reaches are left out.
 constexpr double kLeastOfLargest = 1e-3;
@@ -81,24 +80,6 @@ Eigen::VectorXd InputOf(const Eigen::VectorXcd& pressure, FlameInput input, doub
   return Signal(std::move(spectrum), samples);
 }
 
-// e^(j theta), theta the phase of v near the cycle's frequency.
-Eigen::VectorXcd CyclePhase(const Eigen::VectorXd& v, double bin_of_cycle) {
-  const Eigen::Index samples = v.size();
-  Eigen::VectorXcd near = Spectrum(v);
-  for (Eigen::Index k = 0; k < near.size(); ++k) {
-    const double f = static_cast<double>(k) * bin_of_cycle;
-    if (std::abs(f - 1.0) > kCycleReach) near[k] = 0.0;
-  }
-  const Eigen::VectorXd in_phase = Signal(near, samples);
-  const Eigen::VectorXd quadrature = Signal(near * C(0.0, -1.0), samples);
-  Eigen::VectorXcd out(samples);
-  for (Eigen::Index i = 0; i < samples; ++i) {
-    const C z(in_phase[i], quadrature[i]);
-    out[i] = std::abs(z) > 0.0 ? z / std::abs(z) : C(1.0);
-  }
-  return out;
-}
-
 // Functions whose spectra are orthogonal, each with the mean square 1 over the band.
 Eigen::MatrixXd OrthogonalFunctions(const Eigen::MatrixXcd& spectra) {
   Eigen::MatrixXd stacked(2 * spectra.rows(), spectra.cols());
@@ -152,14 +133,11 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
       (basis.Columns(v.array() + step) - basis.Columns(v.array() - step)) / (2.0 * step);
   const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
   const Eigen::MatrixXd at_rest = basis.Columns(about_rest);
-  const Eigen::VectorXcd turn = CyclePhase(v, bin_of_cycle).array().conjugate().square();
   if (scale.functions.size() == 0) scale.functions = OrthogonalFunctions(spectra);
   out.flame = spectra * scale.functions;
   out.slopes = scale.functions.transpose() * rises.colwise().mean().transpose();
   out.rest_slopes =
       scale.functions.transpose() * (at_rest.row(0) - at_rest.row(1)).transpose() / (2.0 * step);
-  out.coupling =
-      scale.functions.transpose() * (rises.transpose() * turn) / static_cast<double>(samples);
   out.scale = std::move(scale);
   return out;
 }

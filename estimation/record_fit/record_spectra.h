@@ -60,9 +60,7 @@ struct RecordSpectra {
   Eigen::MatrixXcd flame;
   Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
   Eigen::VectorXd rest_slopes;  // d b_k / d v at v = 0
-  // Mean of d b_k / d v e^(-2 j theta), theta the phase of the cycle in v (return_difference.h).
-  Eigen::VectorXcd coupling;
-  Eigen::VectorXd share;  // what each bin counts for
+  Eigen::VectorXd share;        // what each bin counts for
 
   Eigen::Index bins() const { return s.size(); }
   // What a state of one unit, that begins with the record, has in its spectrum but for 1 / s.

@@ -1,19 +1,33 @@
-// The determinant of the loop about its cycle, which the likelihood of a closed loop needs
-// (whittle.h): the Jacobian of the change from the signals (p, q) to what drives them.
+// The Jacobian of the change from a record's signals to its residuals, which the likelihood of a
+// closed loop needs (whittle.h).
 //
-// Small signals see the flame's slope at the cycle's present value, which is periodic. With theta
-// the cycle's phase and U = R e^(-tau s) V(s) the loop but for the slope,
+// E_A(t) and E_B(t) follow from p and q up to t, each signal standing in its own residual with
+// weight one: over all frequencies the Jacobian is one, whatever the loop does, linear or not,
+// decaying, growing or in a cycle. Of a loop that decays Bode's integral says the same,
 //
-//   Phi'(v(t)) = phi_0 + 2 Re(phi_2 e^(2 j theta)) + ...
-//   D(f) = (1 - phi_0 U(f)) (1 - phi_0 U(f')*) - |phi_2|^2 U(f) U(f')*,     f' = 2 f_cycle - f
+//   D = 1 - phi_0 U,   U = R D_tau(s) V(s),   sum over all f of ln |D(f)| = 0,
 //
-// is the determinant of the two frequencies that phi_2 couples, the central block of Hill's. At the
-// cycle's own frequency it vanishes, as the cycle's phase is free: phi_0 alone makes a loop that is
-// stable there, and a fit makes up for it by a damping that is too large. Above twice the cycle's
-// frequency, where the coupling is with frequencies at which little happens, D is that of phi_0
-// alone.
+// D_tau being the path of flame_path.h and phi_0 the flame's mean slope. The likelihood has the
+// bins of a band alone, and of those the Jacobian is what the others leave:
 //
-//   ln |det| = w sum_f ln |D(f)|   (f' < 0: w sum_f 2 ln |1 - phi_0 U(f)|)
+//   ln |det| = -w sum over f beyond the band of 2 ln |D(f)|
+//
+// The sum of 2 w ln |D| over the band itself is the same for a loop that decays, but not for one
+// that grows, where Bode's integral is 2 pi times the sum of its growth rates: it would be a reward
+// for growing. In a cycle phi_0 alone makes a loop that grows, as a mean slope is steeper than the
+// describing function is. What the others leave is right there too, but known from the model alone,
+// and only where no mode is far above the band. Each of the two is too large where it is wrong: the
+// smaller one is taken, smoothly, as -ln(e^-a + e^-b) + ln 2.
+//
+// The sum goes over an octave above the band bin by bin. Beyond, from omega_2 on, U is D_tau times
+// a constant K / D_tau, which there is if dp/dt drives the flame, and what falls off as 1 /
+// omega^m:
+//
+//   integral of ln |D| = - Re [ Li2(K) / -j l + (Li2(U) - Li2(K)) / (m / omega_2 - j l) ]
+//
+// at omega_2, with l = d ln D_tau / ds and Li2 the dilogarithm (-j l = j tau where delays are not
+// spread). Where |K| or |U| is not below one there, the loop grows at all frequencies from there
+// on: no rig's, and impossible.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_RETURN_DIFFERENCE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_RETURN_DIFFERENCE_H_
 

@@ -10,7 +10,8 @@
 namespace howl {
 namespace {
 
-constexpr double kHardlyShows = 4.0;  // nats below the least of the others
+constexpr double kLittleSpread = 0.1;  // rho
+constexpr double kHardlyShows = 4.0;   // nats below the least of the others
 
 const NoiseTerm* TermOf(const PointStructure& structure, LoopNoise source) {
   const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
@@ -24,6 +25,9 @@ bool Contains(const PointStructure& rich, const PointStructure& poor) {
   if (rich.ratio && rich.modes != poor.modes) return false;
   if (poor.own_damping && !rich.own_damping) return false;
   if (poor.complex_residues && !rich.complex_residues) return false;
+  if (poor.Delays() > 1 && rich.delay_spread != poor.delay_spread) return false;
+  if (rich.acoustic_lines < poor.acoustic_lines || rich.flame_lines < poor.flame_lines)
+    return false;
   return std::ranges::all_of(poor.noise, [&](const NoiseTerm& term) {
     const NoiseTerm* of_rich = TermOf(rich, term.source);
     return of_rich != nullptr && of_rich->coefficients >= term.coefficients;
@@ -50,6 +54,8 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
   CHECK(Contains(rich, poor));
   CHECK_EQ(static_cast<int>(further.size()), rich.modes - poor.modes);
   LoopPoint point = ToPoint(poor, record.flame.cols(), parameters);
+  if (rich.delay_spread != poor.delay_spread)
+    point.path = {rich.delay_spread, point.path.tau, kLittleSpread};
   point.modes.insert(point.modes.end(), further.begin(), further.end());
   double least = 0.0;
   for (const Eigen::VectorXd& source : point.noise) least = std::min(least, source[0]);

@@ -5,11 +5,10 @@
 //
 //   E_A = P - R Q,   E_B = Q - what the flame makes of recorded p
 //   A = [1, -R; -F, 1],   Sigma = sum_j S_j u_j u_j^H                      noise_sources.h
-//   ln L = w sum_f [ 2 ln |det A| - ln det Sigma - E^H Sigma^-1 E ]
+//   ln L = ln |det| + w sum_f [ - ln det Sigma - E^H Sigma^-1 E ]
 //
-// The determinant of A is the Jacobian from (P, Q) to (E_A, E_B): without it a fit of both cuts of
-// a closed loop is biased. About a cycle it is more than this (return_difference.h), and so value
-// and gradient are here without it. w is what a bin counts for under the taper.
+// det is the Jacobian from (P, Q) to (E_A, E_B), which return_difference.h has: value and gradient
+// are here without it. w is what a bin counts for under the taper.
 //
 // Were the flame linear, (P, Q) would be Gaussian with covariance C = A^-1 Sigma A^-H, and two
 // parameters would have the information

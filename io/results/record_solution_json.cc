@@ -26,6 +26,16 @@ Json ModesJson(const FittedLoop& loop) {
   return modes;
 }
 
+Json LinesJson(const std::vector<FittedLineError>& lines) {
+  Json out = Json::array();
+  for (const FittedLineError& line : lines) {
+    out.push_back({{"multiple", line.multiple},
+                   {"real", EstimateJson(line.real)},
+                   {"imaginary", EstimateJson(line.imaginary)}});
+  }
+  return out;
+}
+
 Json OtherDelaysJson(const std::vector<OtherDelay>& delays) {
   Json out = Json::array();
   for (const OtherDelay& each : delays) {
@@ -70,7 +80,9 @@ Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
            {{"frequency_hz", EstimateJson(small.frequency_hz)},
             {"growth_rate_1_s", EstimateJson(small.growth_rate_1_s)},
             {"loop_gain", EstimateJson(small.loop_gain)}}},
-          {"growing_roots", loop.growing_roots},
+          {"delay_spread", EstimateJson(loop.delay_spread)},
+          {"line_errors",
+           {{"acoustics", LinesJson(loop.acoustic_lines)}, {"flame", LinesJson(loop.flame_lines)}}},
           {"other_delays", OtherDelaysJson(solution.other_delays[e])},
           {"noise", NoiseJson(loop)},
           {"log_density_left_out",

@@ -49,6 +49,8 @@ Defaults StructDefaults() {
       {"model.damping", Dump("shared")},
       {"model.residue", Dump("real")},
       {"model.flame_input", Dump("pressure_rate")},
+      {"model.delay_spread", Dump("none")},
+      {"model.line_errors", Dump(RecordLoopSpec().line_errors)},
       {"model.harmonic_ratio", Dump(config.model.harmonic_ratio)},
       {"residuals.unreliable_weight", Dump(config.residuals.unreliable_weight)},
       {"solver.starts", Dump(config.solver.starts)},

@@ -32,7 +32,8 @@ std::string Mistake(const std::string& model, LoopsTaken loops = LoopsTaken::kAn
 TEST(ConfigRecordLoop, ThePapersLoopIsNoOther) {
   for (const std::string model :
        {"modes: 1", "modes: 2", "modes: 2, harmonic_ratio: 2.8", "modes: 2, ratio: 2.8",
-        "modes: 2, damping: shared, residue: real, flame_input: pressure_rate"}) {
+        "modes: 2, damping: shared, residue: real, flame_input: pressure_rate",
+        "modes: 1, delay_spread: none, line_errors: true"}) {
     EXPECT_FALSE(Read(model, LoopsTaken::kPapers).record_loop) << model;
   }
   EXPECT_EQ(Read("modes: 2, ratio: 2.8").model.harmonic_ratio, 2.8);
@@ -52,6 +53,10 @@ TEST(ConfigRecordLoop, EachKeyStatesARicherLoop) {
   EXPECT_TRUE(Read("residue: complex").record_loop->complex_residues);
   EXPECT_EQ(Read("flame_input: velocity").record_loop->flame_input, FlameInput::kVelocity);
   EXPECT_EQ(Read("flame_input: pressure").record_loop->flame_input, FlameInput::kPressure);
+  EXPECT_EQ(Read("delay_spread: gamma").record_loop->delay_spread, DelaySpread::kGamma);
+  EXPECT_EQ(Read("delay_spread: normal").record_loop->delay_spread, DelaySpread::kNormal);
+  EXPECT_TRUE(three.line_errors);
+  EXPECT_FALSE(Read("modes: 3, line_errors: false").record_loop->line_errors);
   // What else reads the config takes two modes at most.
   EXPECT_EQ(Read("modes: 5").model.modes, 2);
 }

@@ -44,6 +44,11 @@ FlameInput FlameInputNamed(const std::string& name) {
   return name == "velocity" ? FlameInput::kVelocity : FlameInput::kPressureRate;
 }
 
+DelaySpread DelaySpreadNamed(const std::string& name) {
+  if (name == "normal") return DelaySpread::kNormal;
+  return name == "gamma" ? DelaySpread::kGamma : DelaySpread::kNone;
+}
+
 }  // namespace
 
 void ReadRecordLoop(const ConfigCursor& model, Config& config) {
@@ -61,11 +66,16 @@ void ReadRecordLoop(const ConfigCursor& model, Config& config) {
   word.clear();
   model.Read("flame_input", word);
   spec.flame_input = FlameInputNamed(word);
+  word.clear();
+  model.Read("delay_spread", word);
+  spec.delay_spread = DelaySpreadNamed(word);
+  model.Read("line_errors", spec.line_errors);
   config.model.modes = std::min(spec.modes, kPapersMostModes);
   config.model.harmonic_ratio = spec.ratio.value_or(config.model.harmonic_ratio);
   const bool papers = spec.modes <= kPapersMostModes && !spec.choose_modes && spec.ratio &&
                       !spec.own_damping && !spec.complex_residues &&
-                      spec.flame_input == FlameInput::kPressureRate;
+                      spec.flame_input == FlameInput::kPressureRate &&
+                      spec.delay_spread == DelaySpread::kNone && spec.line_errors;
   if (!papers) config.record_loop = spec;
 }
 

@@ -59,7 +59,7 @@ inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std:
     const ModalLoop::Mode& mode = loop.modes[k];
     truth.modes[k] = {mode.omega_hz / cycle_hz, mode.xi, mode.a / residue, mode.b / residue};
   }
-  truth.tau = loop.tau_s * turn;
+  truth.path.tau = loop.tau_s * turn;
   const Eigen::VectorXd true_parameters = ToParameters(structure, truth);
   out.from_truth = FitPoint(spectra, structure, prior, true_parameters);
   // The modes of a fit stand in any order.

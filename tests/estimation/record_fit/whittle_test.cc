@@ -17,22 +17,40 @@ namespace {
 
 using C = std::complex<double>;
 
+PointStructure TiedStructure() {
+  PointStructure structure = FreeStructure(2);
+  structure.ratio = 2.2;
+  structure.own_damping = false;
+  structure.complex_residues = false;
+  return structure;
+}
+
+PointStructure ErringStructure(DelaySpread spread) {
+  PointStructure structure = FreeStructure(2);
+  structure.delay_spread = spread;
+  structure.acoustic_lines = 3;
+  structure.flame_lines = 4;
+  return structure;
+}
+
 TEST(Whittle, GradientIsThatOfTheLikelihood) {
   const ModalLoop loop = DuctOfModes(2);
   const Record record = SimulateModalLoop(loop, 0.5, 1);
   const RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
-  for (const bool tied : {false, true}) {
-    PointStructure structure = FreeStructure(2);
+  for (PointStructure structure :
+       {FreeStructure(2), TiedStructure(), ErringStructure(DelaySpread::kNone),
+        ErringStructure(DelaySpread::kNormal), ErringStructure(DelaySpread::kGamma)}) {
     structure.noise.push_back({LoopNoise::kDuct, 2});
     structure.noise.push_back({LoopNoise::kBackground, 2});
-    if (tied) {
-      structure.ratio = 2.2;
-      structure.own_damping = false;
-      structure.complex_residues = false;
-    }
     const PointPrior prior = PriorOf(structure, spectra);
-    const Eigen::VectorXd at = StartsOf(spectra, structure, prior, 4, 1).back();
-    const LoopPoint point = ToPoint(structure, spectra.flame.cols(), at);
+    const LoopPoint start =
+        ToPoint(structure, spectra.flame.cols(), StartsOf(spectra, structure, prior, 4, 1).back());
+    LoopPoint point = start;
+    for (Eigen::Index h = 0; h < point.acoustic_lines.size(); ++h) {
+      point.acoustic_lines[h] = C(0.1, -0.2);
+    }
+    for (Eigen::Index h = 0; h < point.flame_lines.size(); ++h) point.flame_lines[h] = C(-0.3, 0.1);
+    const Eigen::VectorXd at = ToParameters(structure, point);
     const Eigen::VectorXd gradient =
         WhittleGradient(structure.noise, spectra.share, ResidualsOf(spectra, structure, point),
                         DerivativesOf(spectra, structure, point)) +
@@ -48,7 +66,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
           (LogLikelihood(spectra, structure, above) - LogLikelihood(spectra, structure, below)) /
           (2.0 * kStep);
       EXPECT_NEAR(gradient[i], difference, 1e-6 * scale + 1e-4 * std::abs(difference))
-          << "parameter " << i << (tied ? ", tied" : "");
+          << "parameter " << i << " of " << at.size();
     }
   }
 }

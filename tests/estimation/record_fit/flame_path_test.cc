@@ -1,0 +1,140 @@
+// Spread delays, against the integrals of their densities, and found again in drawn records.
+#include "estimation/record_fit/flame_path.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "estimation/record_fit/point_fit.h"
+#include "estimation/record_fit/point_starts.h"
+#include "model/noise/random_stream.h"
+#include "tests/estimation/record_fit/identified.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+// The integral of density(t) e^(-s t), by the trapezoidal rule.
+C Transform(C s, double from, double to, auto density) {
+  constexpr int kSteps = 200000;
+  const double h = (to - from) / kSteps;
+  C sum = 0.0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double t = from + i * h;
+    sum += (i == 0 || i == kSteps ? 0.5 : 1.0) * density(t) * std::exp(-s * t);
+  }
+  return h * sum;
+}
+
+TEST(FlamePath, IsTheTransformOfItsDelays) {
+  const double tau = 3.0;
+  const double rho = 0.25;
+  const double sigma = rho * tau;
+  const auto normal = [&](double t) {
+    return std::exp(-0.5 * std::pow((t - tau) / sigma, 2)) /
+           (sigma * std::sqrt(2.0 * std::numbers::pi));
+  };
+  const double shape = 1.0 / (rho * rho);
+  const auto gamma = [&](double t) {
+    if (t <= 0.0) return 0.0;
+    const double x = t * shape / tau;
+    return std::exp((shape - 1.0) * std::log(x) - x - std::lgamma(shape)) * shape / tau;
+  };
+  for (const C s : {C(0.0, 0.3), C(0.0, 1.0), C(0.0, 3.0), C(0.1, 1.2)}) {
+    const FlamePath by_normal{DelaySpread::kNormal, tau, rho};
+    EXPECT_LT(
+        std::abs(by_normal.At(s) - Transform(s, tau - 10.0 * sigma, tau + 10.0 * sigma, normal)),
+        1e-9);
+    const FlamePath by_gamma{DelaySpread::kGamma, tau, rho};
+    EXPECT_LT(std::abs(by_gamma.At(s) - Transform(s, 0.0, tau + 30.0 * sigma, gamma)), 1e-9);
+  }
+}
+
+TEST(FlamePath, SlopesAreThoseOfItsLogarithm) {
+  constexpr double kStep = 1e-6;
+  for (const DelaySpread spread : {DelaySpread::kNone, DelaySpread::kNormal, DelaySpread::kGamma}) {
+    for (const C s : {C(0.0, 0.5), C(0.05, 2.0)}) {
+      const auto log_at = [&](double log_tau, double log_rho) {
+        return std::log(FlamePath{spread, std::exp(log_tau), std::exp(log_rho)}.At(s));
+      };
+      const double a = std::log(1.1);
+      const double b = std::log(0.3);
+      const FlamePath path{spread, 1.1, 0.3};
+      const C by_tau = (log_at(a + kStep, b) - log_at(a - kStep, b)) / (2.0 * kStep);
+      const C by_rho = (log_at(a, b + kStep) - log_at(a, b - kStep)) / (2.0 * kStep);
+      EXPECT_LT(std::abs(path.ByLogTau(s) - by_tau), 1e-8);
+      EXPECT_LT(std::abs(path.ByLogRho(s) - by_rho), 1e-8);
+    }
+  }
+}
+
+// A record of a linear loop below onset that repeats itself, drawn frequency by frequency. A source
+// in the duct shows what the flame makes of p:
+//   P = R Q + E_A,   Q = F P + E_B.
+Record DrawnRecord(const ModalLoop& loop, const FlamePath& path, double seconds,
+                   std::uint64_t seed) {
+  RandomStream random(seed);
+  const auto n = static_cast<std::size_t>(seconds * loop.sampling_hz);
+  const auto highest = static_cast<std::size_t>(1500.0 * seconds);
+  Record out;
+  out.sampling_hz = loop.sampling_hz;
+  out.pressure.assign(n, 0.0);
+  out.heat_release.assign(n, 0.0);
+  for (std::size_t k = 1; k < highest; ++k) {
+    const double hz = static_cast<double>(k) / seconds;
+    const C s(0.0, 2.0 * std::numbers::pi * hz);
+    C r = 0.0;
+    for (const ModalLoop::Mode& mode : loop.modes) {
+      const double w = 2.0 * std::numbers::pi * mode.omega_hz;
+      r += (mode.a * s + mode.b * w) / (s * s + 2.0 * mode.xi * w * s + w * w);
+    }
+    const C f = -loop.slope * s * path.At(s);
+    const auto draw = [&](double std) { return std * C(random.Normal(), random.Normal()); };
+    const C of_flame = draw(1.0);
+    const C of_duct = r * draw(3.0);
+    const C p = (of_duct + r * of_flame) / (1.0 - r * f);
+    const C q = f * p + of_flame;
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
+    const C step = std::polar(1.0, turn);
+    C at = 1.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      out.pressure[i] += (p * at).real();
+      out.heat_release[i] += (q * at).real();
+      at *= step;
+    }
+  }
+  return out;
+}
+
+TEST(FlamePath, SpreadIsFoundInRecords) {
+  ModalLoop loop = DuctOfModes(2);
+  for (ModalLoop::Mode& mode : loop.modes) mode.xi *= 4.0;  // so that p is broad
+  loop.slope *= 2.0;
+  const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
+  for (const DelaySpread spread : {DelaySpread::kNormal, DelaySpread::kGamma}) {
+    const double rho = 0.15;
+    const Record record = DrawnRecord(loop, {spread, loop.tau_s, rho}, 1.5, 9);
+    const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
+    PointStructure structure = FreeStructure(2);
+    structure.delay_spread = spread;
+    structure.noise = {{LoopNoise::kCombustion, 2}, {LoopNoise::kDuct, 2}};
+    const PointPrior prior = PriorOf(structure, spectra);
+    const PointFit fit =
+        FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, 8, 1));
+    EXPECT_TRUE(fit.converged);
+    const Eigen::VectorXd std = fit.Covariance().diagonal().cwiseSqrt();
+    const Eigen::Index delay = structure.Delay();
+    const double tau = loop.tau_s * 2.0 * std::numbers::pi * cycle_hz;
+    EXPECT_LT(std::abs(fit.parameters[delay] - std::log(tau)), 4.0 * std[delay]);
+    EXPECT_LT(std::abs(fit.parameters[delay + 1] - std::log(rho)), 4.0 * std[delay + 1]);
+    EXPECT_LT(std[delay], 0.05);
+    EXPECT_LT(std[delay + 1], 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace howl

@@ -1,0 +1,88 @@
+// What the Jacobian leaves in the band, against the sum of ln |D| over the band itself.
+#include "estimation/record_fit/return_difference.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "tests/estimation/record_fit/identified.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+class Jacobian : public testing::Test {
+ protected:
+  Jacobian() {
+    const ModalLoop loop = DuctOfModes(2);
+    const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
+    record_ =
+        MakeRecordSpectra(SimulateModalLoop(loop, 2.0, 1), cycle_hz, FlameInput::kPressureRate);
+    point_.modes = {{0.97, 0.08, 0.2, 0.03}, {2.3, 0.06, 0.03, -0.01}};
+    point_.path.tau = 4.2;
+    point_.flame = Eigen::VectorXd::Zero(record_.flame.cols());
+    // So that the loop is positive near the cycle, with a gain of one.
+    const double gain = std::abs(OpenLoop(record_, point_, {0.0, 1.0}));
+    unit_ = -1.0 / (gain * record_.slopes[0]);
+  }
+
+  void SetGain(double gain) { point_.flame[0] = gain * unit_; }
+  C D(C s) const { return 1.0 - record_.slopes.dot(point_.flame) * OpenLoop(record_, point_, s); }
+
+  double InBand() const {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < record_.bins(); ++i) {
+      sum += 2.0 * record_.share[i] * std::log(std::abs(D(record_.s[i])));
+    }
+    return sum;
+  }
+
+  // Of the root near the cycle, by Newton's method.
+  C Root() const {
+    C s(0.0, 1.0);
+    for (int i = 0; i < 100; ++i) {
+      const double h = 1e-6;
+      s -= 0.5 * D(s) * (2.0 * h) / (D(s + h) - D(s - h));
+    }
+    return s;
+  }
+
+  RecordSpectra record_;
+  LoopPoint point_;
+  double unit_ = 0.0;
+};
+
+TEST_F(Jacobian, OfALoopThatDecaysIsTheSumOverTheBand) {
+  for (const double tau : {0.02, 0.3, 1.5, 4.2}) {
+    point_.path.tau = tau;
+    for (const double gain : {0.1, 0.3, 0.8}) {
+      SetGain(gain);
+      double magnitude = 0.0;
+      for (Eigen::Index i = 0; i < record_.bins(); ++i) {
+        magnitude += 2.0 * record_.share[i] * std::abs(std::log(std::abs(D(record_.s[i]))));
+      }
+      EXPECT_GT(magnitude, 10.0);
+      // Beyond an octave above the band |U| falls further by the square of 2.3 / 12.8.
+      EXPECT_NEAR(LogDeterminant(record_, point_), InBand(), 0.04 * magnitude)
+          << gain << " " << tau;
+    }
+  }
+}
+
+// A growing pair of roots adds 2 pi times its growth rates to Bode's integral: over the bins of a
+// record twice its growth rate times the record's length.
+TEST_F(Jacobian, DoesNotRewardALoopThatGrows) {
+  SetGain(1.3);
+  const C root = Root();
+  ASSERT_GT(root.real(), 0.01);
+  const double radians = 2.0 * std::numbers::pi * record_.scale.cycle_hz / record_.bin_hz;
+  const double reward = 2.0 * record_.share[0] * root.real() * radians;
+  EXPECT_GT(reward, 10.0);
+  EXPECT_NEAR(InBand() - LogDeterminant(record_, point_), reward, 0.05 * reward);
+}
+
+}  // namespace
+}  // namespace howl
