@@ -97,7 +97,8 @@ class Finder {
   }
 
   void RequirePapersLoop() const {
-    if (config_.record_loop) Fail("the config's model states a loop that howl fit alone takes");
+    if (config_.record_loop)
+      Fail("the config's model states a loop that howl fit, simulate and predict take");
   }
 
   void DescribeResiduals(const JointProblem& problem, Ability& ability) const {
@@ -214,13 +215,20 @@ class Finder {
   }
 
   void Predict(Ability& ability) const {
-    RequirePapersLoop();
-    RequireExperiments();
-    if (!points_are_known_) Fail(config_.operating_parameter + " is still to be filled in");
     std::set<double> points;
-    for (const Experiment& experiment : input_.experiments) points.insert(experiment.phi);
+    if (config_.record_loop) {
+      FitRecords(ability);
+      for (const NamedRecord& record : input_.records) points.insert(record.phi);
+    } else {
+      RequireExperiments();
+      for (const Experiment& experiment : input_.experiments) points.insert(experiment.phi);
+    }
+    if (!points_are_known_) Fail(config_.operating_parameter + " is still to be filled in");
     if (points.size() < 2) {
-      Fail("one operating point with a cycle, expected two or more: only it can be predicted");
+      Fail(
+          config_.record_loop
+              ? "one operating point, expected two or more to tell another from"
+              : "one operating point with a cycle, expected two or more: only it can be predicted");
     }
     ability.text = std::to_string(points.size()) + " operating points, " +
                    config_.operating_parameter + " " + Significant(*points.begin(), 4) + " to " +

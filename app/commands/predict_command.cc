@@ -11,6 +11,7 @@
 #include "app/family/family_questions.h"
 #include "app/family/family_run.h"
 #include "app/family/predict_map.h"
+#include "app/family/record_predict_run.h"
 #include "app/input/measured_flame.h"
 #include "app/input/problem_input.h"
 #include "app/input/without_conditions.h"
@@ -108,11 +109,13 @@ std::vector<double> AskedPoints(const Options& options, const std::optional<Aske
 }
 
 int Run(const Options& options) {
+  if (const auto at = options.Text("--at")) ParseAskedPoints("--at", *at);
+  const Config as_it_is = LoadConfig(options.config, LoopsTaken::kAny);
+  if (as_it_is.record_loop) return RunRecordPrediction(as_it_is, options);
   if (!options.Has("--at") && !options.Has("--map")) {
     throw UsageError("predict: no operating point given, expected --at 0.6 or --at FROM:TO:STEP");
   }
-  if (const auto at = options.Text("--at")) ParseAskedPoints("--at", *at);
-  const Config config = WithoutConditions(LoadConfig(options.config), options);
+  const Config config = WithoutConditions(as_it_is, options);
   const std::optional<AskedMap> map = ParseMap(config, options);
   const ProblemInput input = LoadInput(config, options);
   RequireExperiments(config, options, input);
@@ -165,7 +168,8 @@ Command PredictCommand() {
       "a measured point is any of it guaranteed. A point further away than the measured range\n"
       "is wide has no prediction. Writes prediction.csv and prediction.json. Exits with 1\n"
       "when the family is empty, or no point asked for can be predicted. --map adds a\n"
-      "stability chart over two quantities, prediction_map.csv.",
+      "stability chart over two quantities, prediction_map.csv. Of a loop that is fitted to\n"
+      "whole records it says what the records tell, and the law over their points.",
       {{"--at", "PHI...",
         "operating points: 0.6 or 0.5:0.7:0.01 (from, to, step), joined by commas (with --map:\n"
         "the measured ones)"},

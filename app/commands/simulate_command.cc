@@ -7,6 +7,7 @@
 #include "app/command_line/command.h"
 #include "app/input/asked_models.h"
 #include "app/input/problem_input.h"
+#include "app/simulate/record_simulation.h"
 #include "app/simulate/simulate_cases.h"
 #include "app/simulate/simulate_rig.h"
 #include "app/simulate/simulate_rigs.h"
@@ -61,7 +62,8 @@ void Print(const std::vector<Experiment>& experiments, const std::vector<Simulat
 }
 
 int Run(const Options& options) {
-  const Config config = LoadConfig(options.config);
+  const Config config = LoadConfig(options.config, LoopsTaken::kAny);
+  if (config.record_loop) return RunRecordSimulation(config, options);
   const ProblemInput input = LoadInput(config, options);
   RequireExperiments(config, options, input);
   const std::vector<Experiment>& experiments = input.experiments;
@@ -120,6 +122,7 @@ Command SimulateCommand() {
       "family take as it is, and simulation.json, which says where a slope was raised. The\n"
       "config's `simulate:` has duration, sampling, flame, noise, and `effects:`, any of the\n"
       "catalogue of howl diagnose, which neither file tells.\n"
+      "A loop that is fitted to whole records runs with the flame and noise that they show.\n"
       "With `sweep:` a parameter goes slowly there and back in one more run: sweep.csv, and where\n"
       "the loop jumps on the way up and on the way down.",
       {{"--member", "K", "member K of family.csv, which howl family wrote to DIR, not the fit"}},

@@ -2,6 +2,7 @@
 
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace howl {
@@ -24,8 +25,10 @@ ChosenLoop FitLoop(const std::vector<OperatingPoint>& points, const RecordLoopSp
   for (int modes = first; modes <= last; ++modes) {
     // Tied modes of one number are no special case of those of another.
     const RecordsFit* const poorer = before && !spec.ratio ? &*before : nullptr;
-    RecordsFit fit = FitRecords(points, StructureOf(spec, modes), options, poorer);
-    out.tried.push_back({modes, LeftOutDensities(points, fit, options.threads)});
+    RecordsFitOptions of_these = options;
+    of_these.key += "modes/" + std::to_string(modes) + "/";
+    RecordsFit fit = FitRecords(points, StructureOf(spec, modes), of_these, poorer);
+    out.tried.push_back({modes, LeftOutDensities(points, fit, of_these)});
     const std::size_t now = out.tried.size() - 1;
     if (now == 0 || out.tried[now].Sum() > out.tried[out.chosen].Sum()) {
       out.chosen = now;

@@ -96,6 +96,12 @@ Eigen::VectorXd WithFlame(const RecordSpectra& record, const PointStructure& str
   return ToParameters(structure, point);
 }
 
+// The key of a unit: what it is of, and which.
+std::string UnitKey(const RecordsFitOptions& options, const char* what, std::size_t a,
+                    std::size_t b) {
+  return options.key + what + "/" + std::to_string(a) + "/" + std::to_string(b);
+}
+
 // Where all points begin, one row a candidate.
 using Candidates = std::vector<std::vector<Eigen::VectorXd>>;
 
@@ -139,7 +145,7 @@ class RecordsFitter {
   std::vector<PointFit> Alone(const RecordsFitOptions& options) const;
   Candidates FromOneAnother(const std::vector<PointFit>& alone) const;
   Candidates FromPoorer(const RecordsFit& poorer) const;
-  std::vector<PointFit> Best(const Candidates& candidates) const;
+  std::vector<PointFit> Best(const Candidates& candidates, const RecordsFitOptions& options) const;
   ParameterLaw Law(const std::vector<ParameterEvidence>& evidence) const {
     return FitParameterLaw(evidence, common_base_, units_[0].errors());
   }
@@ -179,9 +185,11 @@ std::vector<PointFit> RecordsFitter::Alone(const RecordsFitOptions& options) con
   std::vector<PointFit> out(size());
   RunUnits(size(), threads_, [&](std::size_t e) {
     const RecordSpectra& record = points_[e].record;
-    out[e] = FitPoint(record, structure_, base_[e],
+    out[e] = KeptFit(options.units, UnitKey(options, "alone", 0, e), [&] {
+      return FitPoint(record, structure_, base_[e],
                       StartsOf(record, structure_, base_[e], options.starts,
                                UnitSeed(options.seed, "starts of a point", e)));
+    });
   });
   return out;
 }
@@ -232,14 +240,17 @@ Candidates RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
   return out;
 }
 
-std::vector<PointFit> RecordsFitter::Best(const Candidates& candidates) const {
+std::vector<PointFit> RecordsFitter::Best(const Candidates& candidates,
+                                          const RecordsFitOptions& options) const {
   PointFitOptions rough;
   rough.iterations = kIterationsOfCandidate;
   std::vector<std::vector<PointFit>> all(candidates.size(), std::vector<PointFit>(size()));
   RunUnits(candidates.size() * size(), threads_, [&](std::size_t i) {
     const std::size_t c = i / size();
     const std::size_t e = i % size();
-    all[c][e] = FitPoint(points_[e].record, structure_, base_[e], candidates[c][e], rough);
+    all[c][e] = KeptFit(options.units, UnitKey(options, "candidate", c, e), [&] {
+      return FitPoint(points_[e].record, structure_, base_[e], candidates[c][e], rough);
+    });
   });
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
@@ -300,7 +311,7 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
   if (poorer != nullptr) {
     for (auto& row : fitter.FromPoorer(*poorer)) candidates.push_back(std::move(row));
   }
-  out.points = fitter.Best(candidates);
+  out.points = fitter.Best(candidates, options);
   for (std::size_t e = 0; e < points.size(); ++e) out.prior.push_back(fitter.base(e));
   const bool alone = points.size() == 1;
   for (int round = 0; round < kRounds; ++round) {
@@ -310,12 +321,13 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
     RunUnits(points.size(), options.threads, [&](std::size_t e) {
       out.prior[e] = alone ? fitter.PriorOfErrors(law) : fitter.Prior(e, law.PriorAt(out.z[e]));
       const bool early = round < kRoundsOfSearch;
-      out.points[e] = FitUnder(points[e].record, structure, out.prior[e], out.points[e].parameters,
-                               !alone && early);
-      if (early) {
-        out.points[e] =
-            BestByDelay(points[e].record, structure, out.prior[e], std::move(out.points[e]));
-      }
+      out.points[e] = KeptFit(
+          options.units, UnitKey(options, "round", static_cast<std::size_t>(round), e), [&] {
+            PointFit fit = FitUnder(points[e].record, structure, out.prior[e],
+                                    out.points[e].parameters, !alone && early);
+            if (!early) return fit;
+            return BestByDelay(points[e].record, structure, out.prior[e], std::move(fit));
+          });
     });
     VLOG(1) << "round " << round << " of the law of the parameters";
     if (converged) break;
@@ -324,13 +336,15 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
 }
 
 std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,
-                                     const RecordsFit& fit, int threads) {
+                                     const RecordsFit& fit, const RecordsFitOptions& options) {
   if (points.size() == 1) return {fit.points[0].log_evidence};
-  const std::vector<PointPrior> prior = PriorsOfOthers(points, fit, threads);
+  const std::vector<PointPrior> prior = PriorsOfOthers(points, fit, options.threads);
   std::vector<double> out(points.size());
-  RunUnits(points.size(), threads, [&](std::size_t e) {
-    out[e] = FitUnder(points[e].record, fit.structure, prior[e], fit.points[e].parameters, true)
-                 .log_evidence;
+  RunUnits(points.size(), options.threads, [&](std::size_t e) {
+    out[e] = KeptFit(options.units, UnitKey(options, "left_out", 0, e), [&] {
+               return FitUnder(points[e].record, fit.structure, prior[e], fit.points[e].parameters,
+                               true);
+             }).log_evidence;
   });
   return out;
 }

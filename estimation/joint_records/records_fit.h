@@ -18,8 +18,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "estimation/joint_records/fit_units.h"
 #include "estimation/joint_records/parameter_law.h"
 #include "estimation/joint_records/shared_units.h"
 #include "estimation/record_fit/point_fit.h"
@@ -35,6 +37,9 @@ struct RecordsFitOptions {
   std::size_t starts = 12;  // of each point by itself
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all cores
+  // Where finished fits of single points are; none: nowhere. Keys begin with `key`.
+  FitUnits* units = nullptr;
+  std::string key = {};
 };
 
 struct RecordsFit {
@@ -52,8 +57,9 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
 
 // ln of the predictive density of each point's record, by the law that all other points give. Of
 // one point alone: the evidence of its record.
+// Of `options` threads, units and key hold.
 std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,
-                                     const RecordsFit& fit, int threads = 0);
+                                     const RecordsFit& fit, const RecordsFitOptions& options = {});
 
 }  // namespace howl
 

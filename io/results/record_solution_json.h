@@ -20,6 +20,8 @@ struct RecordSolution {
   std::vector<FittedLoop> fitted;
   std::vector<std::vector<OtherDelay>> other_delays;  // of each experiment
   Onset onset;
+  // Of the fundamental of p; zero where the record shows no cycle.
+  std::vector<double> cycle_amplitude;
 
   bool Converged() const;
 };

@@ -70,15 +70,23 @@ std::string RecordsYaml(const Config& config, const std::vector<Experiment>& exp
     out << YAML::EndMap << YAML::EndMap;
   }
   out << YAML::EndSeq;
-  out << YAML::Key << "model" << YAML::Value << YAML::Flow << YAML::BeginMap;
-  out << YAML::Key << "modes" << YAML::Value << config.model.modes;
-  out << YAML::Key << "harmonic_ratio" << YAML::Value << config.model.harmonic_ratio;
-  out << YAML::EndMap;
+  out << YAML::Key << "model" << YAML::Value;
+  if (config.record_loop) {
+    EmitYaml(config.tree.Find("model")->value, out);
+  } else {
+    out << YAML::Flow << YAML::BeginMap;
+    out << YAML::Key << "modes" << YAML::Value << config.model.modes;
+    out << YAML::Key << "harmonic_ratio" << YAML::Value << config.model.harmonic_ratio;
+    out << YAML::EndMap;
+  }
   std::set<std::string> left_out;
   for (const ExperimentConfig& each : config.experiments) left_out.insert(each.experiment.name);
   for (const Experiment& experiment : experiments) left_out.erase(experiment.name);
-  out << YAML::Key << "parameters" << YAML::Value;
-  EmitYaml(Without(left_out, Parameters(config)), out);
+  // A loop that is fitted to whole records takes none.
+  if (!config.record_loop) {
+    out << YAML::Key << "parameters" << YAML::Value;
+    EmitYaml(Without(left_out, Parameters(config)), out);
+  }
   for (const char* const section : kSections) {
     const LocatedMember* const member = config.tree.Find(section);
     if (member == nullptr) continue;

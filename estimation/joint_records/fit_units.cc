@@ -1,0 +1,68 @@
+#include "estimation/joint_records/fit_units.h"
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+namespace howl {
+namespace {
+
+// Three numbers of the fit, its iterations, whether it converged, and how many parameters it has.
+constexpr std::size_t kHead = 6;
+constexpr double kMostParameters = 10'000.0;
+
+}  // namespace
+
+std::string PointFitBytes(const PointFit& fit) {
+  const auto size = static_cast<std::size_t>(fit.parameters.size());
+  const std::array<double, kHead> head = {fit.log_likelihood,    fit.log_posterior,
+                                          fit.log_evidence,      double(fit.iterations),
+                                          double(fit.converged), static_cast<double>(size)};
+  std::string bytes(sizeof(double) * (kHead + size + size * size), '\0');
+  char* to = bytes.data();
+  const auto write = [&](const double* from, std::size_t count) {
+    std::memcpy(to, from, count * sizeof(double));
+    to += count * sizeof(double);
+  };
+  write(head.data(), kHead);
+  write(fit.parameters.data(), size);
+  write(fit.information.data(), size * size);
+  return bytes;
+}
+
+std::optional<PointFit> PointFitOf(const std::string& bytes) {
+  std::array<double, kHead> head;
+  if (bytes.size() < sizeof head) return std::nullopt;
+  std::memcpy(head.data(), bytes.data(), sizeof head);
+  if (!(head[5] >= 1.0 && head[5] <= kMostParameters)) return std::nullopt;
+  const auto size = static_cast<std::size_t>(head[5]);
+  if (bytes.size() != sizeof(double) * (kHead + size + size * size)) return std::nullopt;
+  PointFit fit;
+  fit.log_likelihood = head[0];
+  fit.log_posterior = head[1];
+  fit.log_evidence = head[2];
+  fit.iterations = static_cast<int>(head[3]);
+  fit.converged = head[4] != 0.0;
+  const auto rows = static_cast<Eigen::Index>(size);
+  fit.parameters.resize(rows);
+  fit.information.resize(rows, rows);
+  const char* const from = bytes.data() + sizeof head;
+  std::memcpy(fit.parameters.data(), from, size * sizeof(double));
+  std::memcpy(fit.information.data(), from + size * sizeof(double), size * size * sizeof(double));
+  return fit;
+}
+
+PointFit KeptFit(FitUnits* units, const std::string& key, const std::function<PointFit()>& fit) {
+  if (units == nullptr) return fit();
+  if (const std::optional<std::string> bytes = units->Recall(key)) {
+    if (std::optional<PointFit> kept = PointFitOf(*bytes)) return *std::move(kept);
+  }
+  PointFit found = fit();
+  // Parameters alone have a size where a fit has found no information.
+  if (found.information.size() == found.parameters.size() * found.parameters.size()) {
+    units->Keep(key, PointFitBytes(found));
+  }
+  return found;
+}
+
+}  // namespace howl
