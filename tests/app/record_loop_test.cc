@@ -148,6 +148,10 @@ TEST_F(RecordLoop, PredictsLoopsBetweenThePoints) {
   const Json json = Json::parse(Read("out/prediction.json"));
   EXPECT_EQ(json["points"][0]["experiment"], "lean");
   EXPECT_EQ(json["points"][2]["status"], "outside");
+  ASSERT_EQ(RunHowl("report " + Rig() + Out("out")).status, 0);
+  const std::string page = Read("out/report.html");
+  EXPECT_THAT(page, HasSubstr("unstable at rest with a probability of"));
+  EXPECT_THAT(page, Not(HasSubstr("of the members")));
   EXPECT_EQ(RunHowl("predict --at 0.7 " + Rig() + Out("out")).status, 1);
 }
 

@@ -37,9 +37,14 @@ std::optional<Figure> PredictionFigure(const ReportInput& input) {
     csv.EndRow();
   }
   Figure figure;
-  figure.title = "What the members do over the operating parameter";
+  // A loop that was fitted to whole records has no family.
+  const bool of_records = NumberAt(input.prediction, "members") == 0.0;
+  figure.title = of_records ? "What the loop does over the operating parameter"
+                            : "What the members do over the operating parameter";
   figure.caption =
-      "Median of the members and the interval that holds 95 % of them: the frequency at which the "
+      std::string(of_records ? "Median and the interval that holds 95 %: "
+                             : "Median of the members and the interval that holds 95 % of them: ") +
+      "the frequency at which the "
       "loop closes, and the growth rate at rest, above zero where the cycle grows by itself. "
       "Points: measured cycles. Nothing is guaranteed between them.";
   figure.csv = csv.Text();
@@ -48,8 +53,8 @@ std::optional<Figure> PredictionFigure(const ReportInput& input) {
     const std::string lo = std::to_string(column + 1), hi = std::to_string(column + 2);
     script.Line("set ylabel '" + label + "'");
     script.Plot("data using (pick('prediction',2)):" + lo + ":" + hi +
-                " with filledcurves linecolor rgb '" + colour::kSky +
-                "' title '95 % of the members'");
+                " with filledcurves linecolor rgb '" + colour::kSky + "' title '" +
+                (of_records ? "95 %" : "95 % of the members") + "'");
     script.Plot("data using (pick('prediction',2)):" + std::to_string(column) +
                 " with linespoints pointtype 7 pointsize 0.3 linewidth 1.5 linecolor rgb '" +
                 colour::kBlue + "' title 'median'");

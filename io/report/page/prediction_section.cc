@@ -42,10 +42,13 @@ std::string PredictionSummary(const ReportInput& input) {
       rows.size() < points.size()
           ? "; the first " + std::to_string(rows.size()) + " of " + std::to_string(points.size())
           : std::string();
+  // A loop that was fitted to whole records has no family.
+  const bool of_records = NumberAt(input.prediction, "members") == 0.0;
   return HtmlTable(
-      "Median of the members and the interval that holds 95 % of them; guaranteed at "
-      "measured points alone. All is in prediction.csv" +
-          shown,
+      std::string(of_records ? "Median and the interval that holds 95 %; nothing is guaranteed"
+                             : "Median of the members and the interval that holds 95 % of them; "
+                               "guaranteed at measured points alone") +
+          ". All is in prediction.csv" + shown,
       {input.OperatingLabel(), "", "f (Hz)", "growth rate (1/s)",
        relative ? "q over saturation" : "amplitude of p", "unstable (%)"},
       rows);

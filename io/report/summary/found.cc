@@ -108,8 +108,11 @@ void AddPrediction(const ReportInput& input, std::vector<std::string>& out) {
   }
   if (!phis.empty()) {
     out.push_back("Predicted for " + input.operating_parameter + " " + Reach(phis) + ": " +
-                  FromTo(frequencies, "Hz") + ", unstable at rest for " +
-                  FromTo(shares, "% of the members") + ".");
+                  FromTo(frequencies, "Hz") +
+                  (NumberAt(input.prediction, "members") == 0.0
+                       ? ", unstable at rest with a probability of " + FromTo(shares, "%")
+                       : ", unstable at rest for " + FromTo(shares, "% of the members")) +
+                  ".");
   }
   const nlohmann::json& cycle = JsonAt(input.prediction, "cycle");
   const std::string begins = End(cycle, "begins");

@@ -72,9 +72,12 @@ void AddPrediction(const ReportInput& input, std::vector<std::string>& out) {
   for (const auto& point : ListAt(input.prediction, "points")) {
     if (TextAt(point, "status") == "outside") far.push_back(Spelled(NumberAt(point, "phi"), 6));
   }
+  // A loop that was fitted to whole records has no family.
+  const bool of_records = NumberAt(input.prediction, "members") == 0.0;
   out.push_back(
-      "Predictions are intervals of 95 % of the members; only at a measured point is "
-      "anything guaranteed." +
+      std::string(of_records ? "Predictions are intervals of 95 %; nothing of them is guaranteed."
+                             : "Predictions are intervals of 95 % of the members; only at a "
+                               "measured point is anything guaranteed.") +
       (far.empty() ? std::string() : " Too far from what was measured: " + Listed(far) + "."));
 }
 
