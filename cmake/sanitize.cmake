@@ -19,3 +19,12 @@ if(HOWL_FUZZ)
   endif()
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
+# Which lines of the readers an input reaches: the program writes it when it ends. What is not a reader is
+# compiled as ever, so that turning this on compiles a third anew.
+if(HOWL_COVERAGE)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+    message(FATAL_ERROR "HOWL_COVERAGE: llvm-cov is clang's, but this is ${CMAKE_CXX_COMPILER_ID}")
+  endif()
+  set(howl_count_lines -fprofile-instr-generate -fcoverage-mapping)
+  add_link_options(-fprofile-instr-generate)
+endif()

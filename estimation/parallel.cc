@@ -1,13 +1,13 @@
 #include "estimation/parallel.h"
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
+
+#include "model/numerics/parallel_for.h"
 
 namespace howl {
 namespace {
@@ -52,8 +52,7 @@ void RunUnits(std::size_t count, int threads, const std::function<void(std::size
     for (std::size_t i = 0; i < count; ++i) run(i);
     return;
   }
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, run); });
+  ParallelFor(count, threads, run);
 }
 
 }  // namespace howl

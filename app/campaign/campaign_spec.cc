@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -18,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostValues = 1e6;
+constexpr double kMostValues = 1e6;  // of an axis; of all axes, as many combinations
+constexpr const char* kManyRigs = "makes more than a million rigs, expected fewer";
 
 // The rules of one key alone; those between keys follow below.
 constexpr const char* kSchema = R"({
@@ -57,7 +59,9 @@ std::vector<fs::path> Matches(const ConfigCursor& item, const fs::path& folder) 
   return files;
 }
 
-std::vector<LocatedNode> RangeValues(const ConfigCursor& range) {
+// `most`: that the axes before it leave. A few words state a million values for each axis, so that
+// they are counted before they are made.
+std::vector<LocatedNode> RangeValues(const ConfigCursor& range, double most) {
   double from = 0.0;
   double to = 0.0;
   double step = 1.0;
@@ -76,17 +80,17 @@ std::vector<LocatedNode> RangeValues(const ConfigCursor& range) {
   if (!(count >= 1.0) || count > kMostValues) {
     range.Fail("has no values, or more than a million, expected from, to and step to agree");
   }
+  if (count > most) range.Fail(kManyRigs);
   std::vector<LocatedNode> values;
   for (int k = 0; k < static_cast<int>(count); ++k) {
-    std::ostringstream text;
-    text.precision(15);
-    text << from + k * step;
-    values.push_back(MakeScalar(text.str(), false, range.Line()));
+    char text[32];
+    std::snprintf(text, sizeof text, "%.15g", from + k * step);
+    values.push_back(MakeScalar(text, false, range.Line()));
   }
   return values;
 }
 
-GridAxis ReadAxis(const std::string& file, const LocatedMember& member) {
+GridAxis ReadAxis(const std::string& file, const LocatedMember& member, double most) {
   const ConfigCursor cursor(file, member.value, "grid." + member.key);
   GridAxis axis{member.key, member.key_line, {}};
   switch (member.value.kind) {
@@ -94,12 +98,13 @@ GridAxis ReadAxis(const std::string& file, const LocatedMember& member) {
       axis.values = member.value.items;
       break;
     case LocatedNode::Kind::kMapping:
-      axis.values = RangeValues(cursor);
+      axis.values = RangeValues(cursor, most);
       break;
     default:
       break;
   }
   if (axis.values.empty()) cursor.Fail("expected a list of values, or {from, to, step}");
+  if (static_cast<double>(axis.values.size()) > most) cursor.Fail(kManyRigs);
   return axis;
 }
 
@@ -149,8 +154,10 @@ void ReadRigs(const ConfigCursor& root, const fs::path& folder, CampaignSpec& sp
     spec.fleet_line = fleet->Line();
   }
   if (const auto grid = root.Find("grid")) {
+    double rigs = 1.0;
     for (const LocatedMember& member : grid->Node().members) {
-      spec.grid.push_back(ReadAxis(root.File(), member));
+      spec.grid.push_back(ReadAxis(root.File(), member, kMostValues / rigs));
+      rigs *= static_cast<double>(spec.grid.back().values.size());
     }
   }
 }

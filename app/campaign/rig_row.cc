@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/files/digest.h"
+#include "io/json_text.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -152,7 +153,7 @@ void HarvestResults(const std::string& command, const std::filesystem::path& fol
   const Harvest& harvest = HarvestOf(command);
   const std::filesystem::path path = folder / harvest.file;
   const std::optional<std::string> text = ReadWholeFile(path);
-  const Json results = Json::parse(text.value_or(""), nullptr, false);
+  const Json results = ParseJsonOrNone<Json>(text.value_or(""));
   if (!results.is_object()) {
     throw UserError(path.string(), 0, "",
                     "is missing or damaged, expected howl " + command + " to have written it");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/jobs/shard.h"
+#include "io/json_text.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -26,7 +27,7 @@ std::vector<fs::path> FindShards(const fs::path& out) {
 }
 
 Json ParseHeader(const fs::path& path, const std::string& header) {
-  Json parsed = Json::parse(header, nullptr, false);
+  Json parsed = ParseJsonOrNone<Json>(header);
   const bool is_shard =
       parsed.is_object() && parsed.contains("schema") && parsed["schema"] == "howl.shard/1" &&
       parsed.contains("command") && parsed["command"].is_string() && parsed.contains("config") &&

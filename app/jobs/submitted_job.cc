@@ -6,6 +6,7 @@
 #include "app/files/digest.h"
 #include "app/jobs/shard.h"
 #include "app/jobs/slurm.h"
+#include "io/json_text.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -29,7 +30,7 @@ std::optional<SubmittedJob> ReadJob(const fs::path& out) {
   const std::optional<std::string> text = ReadWholeFile(JobPath(out));
   if (!text) return std::nullopt;
   try {
-    const Json json = Json::parse(*text);
+    const Json json = ParseJson<Json>(*text);
     if (json.at("schema") != kSchema) throw std::invalid_argument("schema");
     SubmittedJob job{
         json.at("folder").get<std::string>(), json.at("command").get<std::vector<std::string>>(),

@@ -11,7 +11,12 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kLongestUnit = 1'000'000'000;
+// No unit is longer than its file: a damaged length does not claim memory.
+std::uintmax_t LongestUnit(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? 0 : size;
+}
 
 std::uint64_t Hash(const std::string& key, const std::string& bytes) {
   return UnitSeed(0, key + " " + bytes);
@@ -33,12 +38,13 @@ StoredUnits ReadUnits(const std::filesystem::path& path) {
     return stored;
   }
   stored.end = stored.header.size() + 1;
+  const std::uintmax_t longest = LongestUnit(path);
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
     std::string key;
     std::size_t size = 0;
     std::uint64_t hash = 0;
-    if (!(words >> key >> size >> hash) || size > kLongestUnit) {
+    if (!(words >> key >> size >> hash) || size > longest) {
       ++stored.damaged;
       break;
     }

@@ -8,6 +8,7 @@
 
 #include "app/files/digest.h"
 #include "io/json_fields.h"
+#include "io/json_text.h"
 
 namespace howl {
 namespace {
@@ -52,7 +53,7 @@ void CompareSealed(const TrialFolder& folder, const TrialLog& log, Changes& chan
   }
   changes.Compare(folder.Seal(), TextAt(*sealed, "seal_sha256"), "the sealing");
   const nlohmann::json seal =
-      nlohmann::json::parse(ReadWholeFile(folder.Seal()).value_or(""), nullptr, false);
+      ParseJsonOrNone<nlohmann::json>(ReadWholeFile(folder.Seal()).value_or(""));
   if (!seal.is_object()) return;
   changes.Compare(folder.SealedKey(), TextAt(seal, "sealed_key_sha256"), "the sealing");
   if (fs::exists(folder.OpenKey())) {

@@ -11,6 +11,7 @@
 
 #include "app/files/digest.h"
 #include "io/json_fields.h"
+#include "io/json_text.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -43,7 +44,7 @@ std::size_t TrialLog::Read(const std::string& text) {
   while ((to = text.find('\n', from)) != std::string::npos) {
     const std::string line = text.substr(from, to - from);
     from = to + 1;
-    nlohmann::json entry = nlohmann::json::parse(line, nullptr, false);
+    nlohmann::json entry = ParseJsonOrNone<nlohmann::json>(line);
     const bool holds = entry.is_object() && TextAt(entry, "previous") == last_hash_;
     if (!holds && broken_line_ == 0) broken_line_ = entries_.size() + 1;
     last_hash_ = Sha256(line);

@@ -9,6 +9,7 @@
 #include "app/process/child_process.h"
 #include "app/trial/trial_seal.h"
 #include "io/json_fields.h"
+#include "io/json_text.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -48,7 +49,7 @@ void AddCases(const TrialRequest& request, const std::string& name, const Units&
               const fs::path& folder, SealedCases& cases) {
   const std::string sealed_key = Required(units, KeyOf(kKey, name), folder);
   const std::string seal_text = Required(units, KeyOf(kSeal, name), folder);
-  const Json seal = Json::parse(seal_text, nullptr, false);
+  const Json seal = ParseJsonOrNone<Json>(seal_text);
   const std::optional<std::string> key = OpenText(sealed_key, request.Passphrase());
   if (!key || !seal.is_object() || TextAt(seal, "key_sha256") != Sha256(*key)) {
     throw UserError(folder.string(), 0, KeyOf(kKey, name),

@@ -1,7 +1,6 @@
 #include "diagnosis/structure/structure_fit.h"
 
 #include <glog/logging.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -14,6 +13,7 @@
 #include "diagnosis/fit/fitter.h"
 #include "diagnosis/structure/point_scoring.h"
 #include "diagnosis/structure/structure_priors.h"
+#include "model/numerics/parallel_for.h"
 
 namespace howl {
 namespace {
@@ -99,7 +99,7 @@ double Scoring::SharedPrior() const {
 double Scoring::Value(const SharedLoop& shared, std::vector<PointLoop>* points,
                       std::vector<JointResiduals>* residuals, std::vector<double>* each) const {
   each->assign(bands_.size(), 0.0);
-  tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t e) {
+  ParallelFor(bands_.size(), [&](std::size_t e) {
     PointLoop& point = (*points)[e];
     JointResiduals& here = (*residuals)[e];
     here =
@@ -116,7 +116,7 @@ double Scoring::Value(const SharedLoop& shared, std::vector<PointLoop>* points,
 
 void Scoring::Score() {
   scores_.resize(bands_.size());
-  tbb::parallel_for(std::size_t{0}, bands_.size(), [&](std::size_t e) {
+  ParallelFor(bands_.size(), [&](std::size_t e) {
     scores_[e] = ScorePoint(layout_, bands_[e], *joined_, at_.structure.noise, at_.shared,
                             at_.points[e], at_.centres[e], residuals_[e]);
   });

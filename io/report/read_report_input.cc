@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "io/config/reading/config_reading.h"
+#include "io/json_text.h"
 #include "io/records/records.h"
 #include "io/report/fault_words.h"
 #include "io/report/read_measured.h"
@@ -45,7 +46,7 @@ void Try(ReportInput& input, const char* file, const char* command,
 
 Json ReadJson(const std::filesystem::path& path, const std::string& schema) {
   std::ifstream file(path);
-  Json json = Json::parse(file, nullptr, false);
+  Json json = ParseJsonOrNone<Json>(file);
   if (json.is_discarded() || !json.is_object()) throw std::runtime_error("half written");
   const std::string found = json.contains("schema") && json["schema"].is_string()
                                 ? json["schema"].get<std::string>()
@@ -246,7 +247,7 @@ ReportInput ReadReportInput(const std::filesystem::path& folder, int threads) {
     input.operating_parameter = input.config->operating_parameter;
     ReadRecords(input, *input.config, input.records);
   }
-  if (input.campaign.is_object()) input.title = input.campaign.value("title", "");
+  if (input.campaign.is_object()) input.title = TextAt(input.campaign, "title");
   if (input.title.empty()) input.title = folder.lexically_normal().filename().string();
   try {
     input.measured = ReadMeasured(input);

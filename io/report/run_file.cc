@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "io/json_text.h"
 #include "io/whole_file.h"
 #include "model/version.h"
 
@@ -25,7 +26,7 @@ std::string FileText(const std::filesystem::path& path) {
 RunFile ReadRunFile(const std::filesystem::path& folder) {
   std::ifstream file(folder / "run.json");
   if (!file) throw std::runtime_error("no such file");
-  const auto json = nlohmann::json::parse(file, nullptr, false);
+  const auto json = ParseJsonOrNone<nlohmann::json>(file);
   if (!json.is_object() || json.value("schema", "") != kSchema) {
     throw std::runtime_error(std::string("half written, or not of the schema ") + kSchema);
   }

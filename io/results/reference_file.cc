@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "io/json_text.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -145,10 +146,12 @@ Json ReadReference(const std::filesystem::path& path) {
   const std::string text = content.str();
   Json reference;
   try {
-    reference = Json::parse(text);
+    reference = ParseJson<Json>(text);
   } catch (const Json::parse_error& error) {
     throw UserError(path.string(), LineOfByte(text, error.byte), "",
                     "not JSON, expected stored results");
+  } catch (const JsonTooDeep& error) {
+    throw UserError(path.string(), 0, "", error.what());
   } catch (const Json::exception&) {  // a number that is too large
     throw UserError(path.string(), 0, "", "a number is out of range, expected stored results");
   }

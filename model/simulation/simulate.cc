@@ -1,8 +1,6 @@
 #include "model/simulation/simulate.h"
 
 #include <glog/logging.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <tuple>
 
 #include "model/cycles/harmonic_balance.h"
+#include "model/numerics/parallel_for.h"
 #include "model/simulation/cycle_scale.h"
 #include "model/simulation/lane_group.h"
 
@@ -90,8 +89,7 @@ std::vector<SimulatedRecord> SimulateBatch(std::span<const SimulationCase> cases
     }
     internal::RunLanes(members, options, order[units[u].begin].internal_hz, results);
   };
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, units.size(), run); });
+  ParallelFor(units.size(), options.threads, run);
   return records;
 }
 

@@ -54,6 +54,66 @@ TEST_F(Bomb, OfAliases) {
   ExpectRefused("check", "aliases make more than");
 }
 
+TEST_F(Bomb, OfAliasesOfOneLongText) {
+  // 120000 values are allowed, and 4 kB of text: together they are half a gigabyte.
+  std::string text = "a: &a " + std::string(4000, 'x') + "\nb:\n";
+  for (int line = 0; line < 3; ++line) {
+    text += "  - [";
+    for (int i = 0; i < 40'000; ++i) text += "*a,";
+    text += "]\n";
+  }
+  folder_.Write("rig.yaml", text);
+  ExpectRefused("check", "aliases make more than 4 MB of text");
+}
+
+TEST_F(Bomb, OfKeys) {
+  std::string some;
+  std::string effect;
+  for (int i = 0; i < 60'000; ++i) {
+    const std::string key = "k" + std::to_string(i);
+    some += "  " + key + ": 1\n";
+    effect += "      " + key + ": []\n";
+  }
+  folder_.Write("rig.yaml", "a: &a\n" + some + "b:\n  <<: *a\n");
+  ExpectRefused("check", "a mapping of more than 2000 keys");
+  // The one mapping of a config whose keys are free.
+  folder_.Write("rig.yaml", "effects:\n  - name: e\n    at: delay\n    parameters:\n" + effect);
+  ExpectRefused("check", "a mapping of more than 2000 keys");
+}
+
+TEST_F(Bomb, OfUnknownKeys) {
+  std::string text = "experiments:\n";
+  for (int i = 0; i < 40; ++i) {
+    text += "  - {";
+    for (int k = 0; k < 1'900; ++k) text += "frequency_hz_" + std::to_string(k) + ": 1, ";
+    text += "}\n";
+  }
+  folder_.Write("rig.yaml", text);
+  ExpectRefused("fit", "is not a known key");
+}
+
+TEST_F(Bomb, OfAxes) {
+  std::string text = "config: rig.yaml\ngrid:\n";
+  for (int i = 0; i < 20; ++i) {
+    text += "  a" + std::to_string(i) + ": {from: 1, to: 100000}\n";
+  }
+  folder_.Write("rig.yaml", text);
+  ExpectRefused("campaign", "grid.a1: makes more than a million rigs");
+}
+
+TEST_F(Bomb, OfColumns) {
+  const auto row = [](int columns) {
+    std::string text = "1";
+    for (int i = 1; i < columns; ++i) text += ",1";
+    return text + "\n";
+  };
+  RecordIs("r.csv");
+  folder_.Write("r.csv", row(10'000'000));
+  ExpectRefused("analyse", "a line of more than 1 MiB");
+  folder_.Write("r.csv", row(100'000) + row(100'000));
+  ExpectRefused("analyse", "a row of 100000 columns, expected at most 5000");
+}
+
 TEST_F(Bomb, OfNesting) {
   folder_.Write("rig.yaml", "experiments: " + std::string(1000, '[') + std::string(1000, ']'));
   ExpectRefused("check", "nested more than");

@@ -29,11 +29,12 @@ fs::path Folder() {
 
 // The input is several files, each behind a line "#file NAME".
 void WriteFiles(std::string_view input) {
-  constexpr std::array<std::string_view, 16> kNames = {
-      "run.json",     "analysis.json", "solution.json",   "family.json",
-      "family.csv",   "tradeoff.csv",  "diagnosis.json",  "simulation.json",
-      "trial.json",   "trial.csv",     "campaign.json",   "campaign.csv",
-      "transfer.csv", "lines.csv",     "flame_curve.csv", "campaign_points.csv"};
+  constexpr std::array<std::string_view, 18> kNames = {
+      "run.json",        "analysis.json",     "solution.json",   "family.json",
+      "family.csv",      "tradeoff.csv",      "diagnosis.json",  "simulation.json",
+      "trial.json",      "trial.csv",         "campaign.json",   "campaign.csv",
+      "transfer.csv",    "lines.csv",         "flame_curve.csv", "campaign_points.csv",
+      "prediction.json", "prediction_map.csv"};
   for (const std::string_view name : kNames) fs::remove(Folder() / name);
   while (input.starts_with(kFileMark)) {
     const std::size_t end = std::min(input.find('\n'), input.size());

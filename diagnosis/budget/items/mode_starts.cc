@@ -1,13 +1,12 @@
 #include "diagnosis/budget/items/mode_starts.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "diagnosis/structure/point_scoring.h"
+#include "model/numerics/parallel_for.h"
 
 namespace howl {
 namespace {
@@ -67,7 +66,7 @@ std::vector<StructureFit> ModeStarts(const std::vector<JointBand>& bands,
   const EffectPointer joined = with.structure.Joined();
   std::vector<Place> grid = Grid(bands.size());
   std::vector<std::vector<double>> gains(bands.size(), std::vector<double>(grid.size(), 0.0));
-  tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t e) {
+  ParallelFor(bands.size(), [&](std::size_t e) {
     const JointBand& band = bands[e];
     const JointResiduals now = MakeJointResiduals(band, *joined, from.shared, from.points[e]);
     for (std::size_t i = 0; i < grid.size(); ++i) {

@@ -19,6 +19,9 @@
 namespace howl {
 namespace {
 
+// A file that is no config at all may break the schema at each of its values.
+constexpr std::size_t kMostMistakes = 1000;
+
 struct Place {
   const LocatedNode* node = nullptr;
   const nlohmann::json* schema = nullptr;
@@ -62,6 +65,7 @@ std::vector<SchemaMistake> FindSchemaMistakes(const LocatedNode& root,
   // One place may break several rules, and a list or mapping breaks those of what is in it.
   std::set<const LocatedNode*> seen;
   for (const valijson::ValidationResults::Error& error : results) {
+    if (mistakes.size() >= kMostMistakes) break;
     const Place place = Locate(error.context, root, schema);
     if (!seen.insert(place.node).second) continue;
     for (SchemaMistake& mistake : ExplainMistakes(*place.node, place.key, *place.schema, schema)) {

@@ -68,6 +68,13 @@ std::size_t LocatedNode::CountNodes() const {
   return count;
 }
 
+std::size_t LocatedNode::CountText() const {
+  std::size_t bytes = text.size();
+  for (const LocatedNode& item : items) bytes += item.CountText();
+  for (const LocatedMember& member : members) bytes += member.key.size() + member.value.CountText();
+  return bytes;
+}
+
 LocatedNode MakeScalar(const std::string& text, bool quoted, int line) {
   LocatedNode node;
   node.line = line;

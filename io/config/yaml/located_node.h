@@ -26,6 +26,7 @@ struct LocatedNode {
 
   const LocatedMember* Find(std::string_view key) const;
   std::size_t CountNodes() const;
+  std::size_t CountText() const;  // bytes of all scalars and keys
 };
 
 struct LocatedMember {

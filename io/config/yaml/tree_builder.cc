@@ -36,6 +36,12 @@ void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) {
          "aliases make more than " + std::to_string(kMaxNodes) +
              " values of this file, expected fewer");
   }
+  alias_bytes_ += found->second.bytes;
+  if (alias_bytes_ > kMaxAliasBytes) {
+    Fail(LineOf(mark), Path(),
+         "aliases make more than " + std::to_string(kMaxAliasBytes >> 20) +
+             " MB of text of this file, expected less");
+  }
   Add(found->second.node, 0, found->second.count);
 }
 
@@ -65,7 +71,7 @@ void TreeBuilder::OnMapStart(const YAML::Mark& mark, const std::string& tag, YAM
 }
 
 void TreeBuilder::OnMapEnd() {
-  Merge(open_.back().node);
+  Merge(open_.back());
   Close();
 }
 
@@ -115,8 +121,18 @@ void TreeBuilder::Close() {
   Frame frame = std::move(open_.back());
   open_.pop_back();
   const std::size_t count = frame.anchor != 0 ? frame.node.CountNodes() : 1;
-  if (frame.anchor != 0) anchored_[frame.anchor] = {frame.node, count};
+  Anchor(frame.anchor, frame.node, count);
   Add(std::move(frame.node), 0, 1);
+}
+
+void TreeBuilder::Anchor(YAML::anchor_t anchor, const LocatedNode& node, std::size_t count) {
+  if (anchor != 0) anchored_[anchor] = {node, count, node.CountText()};
+}
+
+void TreeBuilder::CheckKeys(std::size_t count, int line) const {
+  if (count <= kMaxKeys) return;
+  Fail(line, Path(),
+       "a mapping of more than " + std::to_string(kMaxKeys) + " keys, expected fewer");
 }
 
 void TreeBuilder::Add(LocatedNode node, YAML::anchor_t anchor, std::size_t count) {
@@ -125,7 +141,7 @@ void TreeBuilder::Add(LocatedNode node, YAML::anchor_t anchor, std::size_t count
     Fail(node.line, Path(),
          "the file has more than " + std::to_string(kMaxNodes) + " values, expected fewer");
   }
-  if (anchor != 0) anchored_[anchor] = {node, count};
+  Anchor(anchor, node, count);
   if (open_.empty()) {
     root_ = std::move(node);
   } else if (open_.back().node.kind == LocatedNode::Kind::kList) {
@@ -149,17 +165,20 @@ void TreeBuilder::AddKey(const LocatedNode& node) {
     Fail(node.line, JoinKey(Path(), node.text),
          "given twice (first on line " + std::to_string(earlier->second) + "), expected once");
   }
+  CheckKeys(frame.key_lines.size(), node.line);
   frame.key = node.text;
   frame.key_line = node.line;
 }
 
-void TreeBuilder::Merge(LocatedNode& mapping) const {
+void TreeBuilder::Merge(Frame& frame) const {
+  LocatedNode& mapping = frame.node;
   const auto merge =
       std::find_if(mapping.members.begin(), mapping.members.end(),
                    [](const LocatedMember& member) { return member.key == kMergeKey; });
   if (merge == mapping.members.end()) return;
   const LocatedMember merged = std::move(*merge);
   mapping.members.erase(merge);
+  frame.key_lines.erase(kMergeKey);
   std::vector<LocatedNode> sources = merged.value.items;
   if (sources.empty()) sources = {merged.value};
   for (const LocatedNode& source : sources) {
@@ -168,7 +187,9 @@ void TreeBuilder::Merge(LocatedNode& mapping) const {
            "what is merged is not a mapping, expected an alias of one (*name)");
     }
     for (const LocatedMember& member : source.members) {
-      if (mapping.Find(member.key) == nullptr) mapping.members.push_back(member);
+      if (!frame.key_lines.try_emplace(member.key, member.key_line).second) continue;
+      CheckKeys(frame.key_lines.size(), merged.key_line);
+      mapping.members.push_back(member);
     }
   }
 }

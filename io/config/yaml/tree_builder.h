@@ -21,6 +21,9 @@ class TreeBuilder : public YAML::EventHandler {
   static constexpr std::size_t kMaxDepth = 16;           // the schema needs 6
   static constexpr std::size_t kMaxNodes = 200'000;      // with every alias written out
   static constexpr std::size_t kMaxScalarBytes = 4'096;  // bounds what regular expressions see
+  // Many aliases of one long text are few values, and gigabytes.
+  static constexpr std::size_t kMaxAliasBytes = std::size_t{4} << 20;
+  static constexpr std::size_t kMaxKeys = 2'000;  // of one mapping, which is searched key by key
 
   explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
 
@@ -53,6 +56,7 @@ class TreeBuilder : public YAML::EventHandler {
   struct Anchored {
     LocatedNode node;
     std::size_t count = 0;
+    std::size_t bytes = 0;
   };
 
   bool ExpectsKey() const;
@@ -63,12 +67,15 @@ class TreeBuilder : public YAML::EventHandler {
   void Close();
   void Add(LocatedNode node, YAML::anchor_t anchor, std::size_t count);
   void AddKey(const LocatedNode& node);
-  void Merge(LocatedNode& mapping) const;
+  void Anchor(YAML::anchor_t anchor, const LocatedNode& node, std::size_t count);
+  void CheckKeys(std::size_t count, int line) const;
+  void Merge(Frame& frame) const;
 
   std::string file_;
   std::vector<Frame> open_;
   std::map<YAML::anchor_t, Anchored> anchored_;
   std::size_t num_nodes_ = 0;
+  std::size_t alias_bytes_ = 0;
   YAML::Mark last_quoted_ = YAML::Mark::null_mark();
   LocatedNode root_;
 };

@@ -1,8 +1,8 @@
 #include "io/records/binary/array_columns.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <unordered_map>
 
 #include "io/memory.h"
 #include "io/records/columns/packed_size.h"
@@ -36,7 +36,9 @@ std::string ListArrays(const std::vector<ArrayInfo>& arrays) {
 class Finder {
  public:
   Finder(const std::string& file, const std::vector<ArrayInfo>& arrays)
-      : file_(file), arrays_(arrays) {}
+      : file_(file), arrays_(arrays) {
+    for (const ArrayInfo& array : arrays_) by_name_.try_emplace(WithoutRoot(array.name), &array);
+  }
 
   ArrayChannel Find(const ColumnName& name) const {
     if (const ArrayInfo* array = Named(name)) return Channel(*array, name, 0);
@@ -62,10 +64,8 @@ class Finder {
   }
 
   const ArrayInfo* Named(const std::string& name) const {
-    const auto found = std::find_if(arrays_.begin(), arrays_.end(), [&](const ArrayInfo& array) {
-      return WithoutRoot(array.name) == WithoutRoot(name);
-    });
-    return found == arrays_.end() ? nullptr : &*found;
+    const auto found = by_name_.find(WithoutRoot(name));
+    return found == by_name_.end() ? nullptr : found->second;
   }
 
   const ArrayInfo& OnlyMatrix(const ColumnName& name) const {
@@ -99,6 +99,8 @@ class Finder {
 
   const std::string& file_;
   const std::vector<ArrayInfo>& arrays_;
+  // A file may have as many arrays as bytes allow, and a look at it asks for each by its name.
+  std::unordered_map<std::string, const ArrayInfo*> by_name_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #define HOWL_IO_RECORDS_COLUMNS_NUMBER_TEXT_H_
 
 #include <charconv>
+#include <cstdlib>
 #include <string>
 
 namespace howl {
@@ -19,6 +20,12 @@ inline std::string NumberText(double value) {
   char text[64];
   const auto [end, error] = std::to_chars(text, text + sizeof(text), value);
   return std::string(text, end);
+}
+
+// The value rounded to so many digits; of a value at an end of the range, which std::stod refuses,
+// infinity or what is left of it.
+inline double RoundedTo(double value, int digits) {
+  return std::strtod(NumberText(value, digits).c_str(), nullptr);
 }
 
 }  // namespace howl

@@ -117,7 +117,7 @@ double SamplingRateHz(std::span<const double> time_s, double resolution_s) {
   const double rate_hz = static_cast<double>(time_s.size() - 1) / span_s;
   const double uncertainty_hz = rate_hz * resolution_s / span_s;
   for (int digits = 1; digits < 17; ++digits) {
-    const double rounded = std::stod(NumberText(rate_hz, digits));
+    const double rounded = RoundedTo(rate_hz, digits);
     if (std::abs(rounded - rate_hz) <= uncertainty_hz) return rounded;
   }
   return rate_hz;

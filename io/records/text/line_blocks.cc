@@ -7,8 +7,8 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // stays in the second-level cache
-constexpr std::size_t kLongestLine = std::size_t{1} << 26;
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;   // stays in the second-level cache
+constexpr std::size_t kLongestLine = std::size_t{1} << 20;  // of thousands of columns
 
 }  // namespace
 
@@ -21,7 +21,8 @@ bool LineBlocks::Next() {
   whole_ = 0;
   while (!at_end_) {
     if (filled_ + 1 >= buffer_.size()) {
-      if (buffer_.size() > kLongestLine) throw ByteError("a line of more than 64 MiB");
+      if (buffer_.size() > kLongestLine)
+        throw ByteError("a line of more than 1 MiB, expected a row for each sample");
       buffer_.resize(2 * buffer_.size());
     }
     const std::size_t room = buffer_.size() - 1 - filled_;  // one kept for an added line's end

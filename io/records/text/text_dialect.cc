@@ -12,6 +12,17 @@ namespace {
 constexpr int kMostSkipped = 60;  // longer preambles are none that a person wrote
 constexpr std::size_t kFewestRows = 3;
 constexpr std::size_t kRowsLooked = 20;
+// Each candidate splits the lines anew, and there are hundreds of candidates.
+constexpr std::size_t kBytesLooked = std::size_t{1} << 17;
+
+std::span<const std::string_view> Looked(std::span<const std::string_view> lines) {
+  std::size_t bytes = 0;
+  std::size_t count = 0;
+  while (count < lines.size() && bytes + lines[count].size() <= kBytesLooked) {
+    bytes += lines[count++].size();
+  }
+  return lines.first(count);
+}
 
 // `at`: the first row of the data.
 TextLayout LayoutOf(std::span<const std::string_view> lines, const TextDialect& dialect,
@@ -52,8 +63,9 @@ bool MakesTable(std::span<const std::string_view> lines, const TextDialect& dial
 
 }  // namespace
 
-std::optional<TextDialect> GuessDialect(std::span<const std::string_view> lines,
+std::optional<TextDialect> GuessDialect(std::span<const std::string_view> all,
                                         const TextDialect& stated) {
+  const std::span<const std::string_view> lines = Looked(all);
   std::vector<TextDialect> candidates = {stated, {stated.skip_rows, !stated.decimal_comma}};
   for (int skip_rows = 0; skip_rows <= kMostSkipped; ++skip_rows) {
     candidates.push_back({skip_rows, stated.decimal_comma});

@@ -21,6 +21,8 @@ namespace howl {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+// Of no record: each is looked for among the others by its name.
+constexpr std::size_t kMostColumns = 5000;
 
 class TextTable final : public TableSource {
  public:
@@ -110,7 +112,12 @@ void TextTable::ReadLayout() {
         continue;
       }
       const bool had_names = !layout_.names.empty();
-      if (layout_.TakeLine(std::string_view(at_, static_cast<std::size_t>(stop - at_)))) return;
+      if (layout_.TakeLine(std::string_view(at_, static_cast<std::size_t>(stop - at_)))) {
+        if (layout_.columns <= kMostColumns) return;
+        Fail(line_, "",
+             "a row of " + std::to_string(layout_.columns) + " columns, expected at most " +
+                 std::to_string(kMostColumns));
+      }
       if (!had_names && !layout_.names.empty()) header_line_ = line_;
       at_ = stop + 1;
       ++line_;
@@ -190,7 +197,7 @@ std::string TextTable::Format() const {
 std::optional<double> TextTable::StatedRateHz() const {
   if (!labview_ || !labview_->step_s) return std::nullopt;
   // Delta_X has six decimals: 1.000000E-4, and 10 kHz.
-  return std::stod(NumberText(1.0 / *labview_->step_s, 6));
+  return RoundedTo(1.0 / *labview_->step_s, 6);
 }
 
 std::size_t TextTable::Find(const ColumnName& name) const {
