@@ -125,6 +125,17 @@ def aliases(place):
     return place.shell("howl analyse rig.yaml --out out")
 
 
+def axes(place):
+    place.write("rig.yaml", "config: rig.yaml\ngrid:\n" + "".join(
+        f"  experiments[0].{key}: {{from: 1, to: 100000}}\n" for key in ("gain", "phase_deg")))
+    return place.shell("howl campaign rig.yaml --out out")
+
+
+def nested_results(place):
+    place.write("reference.json", '{"schema": "howl.reference/2", "solution": ' + "[" * 300_000 + "]" * 300_000 + "}")
+    return place.shell("ulimit -c 0; howl regress rig.yaml --reference . --out out")
+
+
 def text_config(place, text):
     place.write("rig.yaml", text)
     return place.shell("howl analyse rig.yaml --out out")
@@ -169,12 +180,20 @@ HOSTILE = [
     ("a variable in a record's path that is not set",
      lambda p: text_config(p, RECORD.format('"${HOWL_NOT_SET}/r.csv"'))),
     ("aliases of aliases", aliases),
+    ("aliases of one long text", lambda p: text_config(
+        p, "a: &a " + "x" * 4000 + "\nb:\n" + ("  - [" + "*a," * 40_000 + "]\n") * 3)),
+    ("a mapping of 60000 keys",
+     lambda p: text_config(p, "effects:\n" + "".join(f"  k{i}: 1\n" for i in range(60_000)))),
+    ("a grid of a hundred thousand values on each axis", axes),
     ("lists in lists", lambda p: text_config(p, "experiments: " + "[" * 1000 + "]" * 1000)),
     ("one very long line", lambda p: text_config(p, "title: " + "x" * 1_000_000)),
     ("a config of 30 MB", lambda p: text_config(p, "\n" * 30_000_000)),
     ("a record in place of the config", lambda p: text_config(p, rows())),
     ("a gzip file that unpacks to 300 MB",
      lambda p: p.record("r.csv.gz", gzip.compress(b"p,q\n" + b"1,2\n" * 75_000_000, 6))),
+    ("one line of ten million columns", lambda p: p.record("r.csv", "1" + ",1" * 10_000_000 + "\n")),
+    ("rows of a hundred thousand columns", lambda p: p.record("r.csv", ("1" + ",1" * 99_999 + "\n") * 40)),
+    ("stored results of 300000 lists in one another", nested_results),
     ("an HDF5 file of 800 MB of which nothing is stored",
      lambda p: p.record("r.h5", p.corpus("hdf5/nothing_stored"))),
     ("an executable in place of a record",
