@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "model/numerics/dense_algebra.h"
@@ -16,6 +17,9 @@ constexpr double kTrend = 0.3;
 constexpr double kTypicalSpread = 0.1;
 // Of errors: so small that what a right model's lines tell is kept.
 constexpr double kTypicalError = 0.01;
+// An error as large as what is foretold says that nothing is: a larger one would make a model of
+// its own.
+constexpr double kLargestError = 1.0;
 constexpr double kPriorDegrees = 1.0;  // of freedom, of s^2
 constexpr int kIterations = 300;
 constexpr double kConverged = 1e-4;  // of the largest change of ln s
@@ -82,7 +86,8 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
         squares += variance[e].segment(group.first, group.count).sum() +
                    value[e].segment(group.first, group.count).squaredNorm();
       }
-      const double spread = std::sqrt(squares / (law.values[group.first] + kPriorDegrees));
+      const double spread =
+          std::min(std::sqrt(squares / (law.values[group.first] + kPriorDegrees)), kLargestError);
       change = std::max(change, std::abs(std::log(spread / law.spread[group.first])));
       law.spread.segment(group.first, group.count).setConstant(spread);
     }

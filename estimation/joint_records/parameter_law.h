@@ -10,8 +10,8 @@
 // u_e, of (m, b) and of s^2 are taken as independent (mean-field variational Bayes, Attias 2000;
 // the random effects of Laird & Ware 1982), each in turn given the others until they stand still.
 //
-// Errors of the model, of one kind and without a unit, have m = b = 0 and one s together: how far
-// the model errs is a property of the rig, which all its lines and points tell.
+// Errors of the model, of one kind and without a unit, have m = b = 0 and one s together, at most
+// one: how far the model errs is a property of the rig, which all its lines and points tell.
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_PARAMETER_LAW_H_
 
