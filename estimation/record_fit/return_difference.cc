@@ -1,40 +1,18 @@
 #include "estimation/record_fit/return_difference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
-#include <cstddef>
 #include <limits>
 #include <numbers>
 
+#include "estimation/record_fit/loop_tail.h"
 #include "model/numerics/complex_products.h"
 
 namespace howl {
 namespace {
 
 using C = std::complex<double>;
-
-// At s, D(s) V(s) and U: that times R.
-struct LoopAt {
-  LoopAt(const RecordSpectra& record, const LoopPoint& point, C at)
-      : s(at),
-        path(point.path.At(s) * FlameInputResponse(record.flame_input, s)),
-        u(AcousticTransfer(point, s) * path) {}
-
-  // Adds the real part of `by` times dU, by the acoustics' parameters, ln tau and ln rho.
-  void AddSlopes(const PointStructure& structure, const LoopPoint& point, C by,
-                 Eigen::VectorXd* out) const {
-    AddAcousticSlopes(structure, point, s, by * path, out);
-    (*out)[structure.Delay()] += (by * u * point.path.ByLogTau(s)).real();
-    if (structure.Delays() < 2) return;
-    (*out)[structure.Delay() + 1] += (by * u * point.path.ByLogRho(s)).real();
-  }
-
-  C s;
-  C path;
-  C u;
-};
 
 constexpr int kBelow = 16;   // points from zero to the band
 constexpr int kAbove = 160;  // of the octave above it
@@ -56,67 +34,8 @@ void ForEachBeside(const RecordSpectra& record, const Take& take) {
   for (int i = 0; i < kAbove; ++i) take(C(0.0, highest + (i + 0.5) * above), weight * above);
 }
 
-// By Bernoulli's numbers in -ln(1 - z), |z| < 1 (Lewin 1981, 1.1).
-C Dilogarithm(C z) {
-  constexpr std::array<double, 9> kBernoulli = {1.0 / 6.0,   -1.0 / 30.0,     1.0 / 42.0,
-                                                -1.0 / 30.0, 5.0 / 66.0,      -691.0 / 2730.0,
-                                                7.0 / 6.0,   -3617.0 / 510.0, 43867.0 / 798.0};
-  const C u = -std::log(1.0 - z);
-  C power = u;  // u^(2k + 1) / (2k + 1)!
-  C out = u - 0.25 * u * u;
-  for (std::size_t k = 0; k < kBernoulli.size(); ++k) {
-    const double n = 2.0 * static_cast<double>(k) + 2.0;
-    power *= u * u / (n * (n + 1.0));
-    out += kBernoulli[k] * power;
-  }
-  return out;
-}
-
-double SumOfResidues(const LoopPoint& point) {
-  double sum = 0.0;
-  for (const LoopMode& mode : point.modes) sum += mode.a;
-  return sum;
-}
-
-// All that is above, to infinity.
-struct Tail {
-  Tail(const RecordSpectra& record, const LoopPoint& point)
-      : loop(record, point, 2.0 * record.s[record.bins() - 1]),
-        u(record.slopes.dot(point.flame) * loop.u) {
-    if (record.flame_input == FlameInput::kPressureRate) {
-      constant = record.slopes.dot(point.flame) * SumOfResidues(point) * point.path.At(loop.s);
-    }
-    const double falls = record.flame_input == FlameInput::kVelocity ? 2.0 : 1.0;
-    const C turns = C(0.0, -1.0) * point.path.BySlope(loop.s);
-    of_constant = 1.0 / turns;
-    of_rest = 1.0 / (falls / loop.s.imag() + turns);
-  }
-
-  bool Possible(const FlamePath& path) const {
-    if (path.spread == DelaySpread::kGamma && !(path.rho < 1.0)) return false;
-    return std::abs(u) < 1.0 && std::abs(constant) < 1.0;
-  }
-  C Value() const {
-    return Dilogarithm(constant) * (of_constant - of_rest) + Dilogarithm(u) * of_rest;
-  }
-  // Of Value by ln K, by ln U, and by d ln D_tau / ds.
-  C ByConstant() const { return -std::log(1.0 - constant) * (of_constant - of_rest); }
-  C ByLoop() const { return -std::log(1.0 - u) * of_rest; }
-  C BySlope() const {
-    const C of = Dilogarithm(constant);
-    return C(0.0, 1.0) *
-           (of * of_constant * of_constant + (Dilogarithm(u) - of) * of_rest * of_rest);
-  }
-
-  LoopAt loop;
-  C u;
-  C constant;  // K
-  C of_constant;
-  C of_rest;
-};
-
 // -sum of 2 w ln |D| beside the band.
-double Beside(const RecordSpectra& record, const LoopPoint& point, const Tail& tail) {
+double Beside(const RecordSpectra& record, const LoopPoint& point, const LoopTail& tail) {
   const double slope = record.slopes.dot(point.flame);
   double sum = BinsEach(record) * tail.Value().real();
   ForEachBeside(record, [&](C s, double weight) {
@@ -150,7 +69,7 @@ struct LoopGradient {
 };
 
 LoopGradient BesideGradient(const RecordSpectra& record, const PointStructure& structure,
-                            const LoopPoint& point, const Tail& tail) {
+                            const LoopPoint& point, const LoopTail& tail) {
   const double slope = record.slopes.dot(point.flame);
   LoopGradient out{Eigen::VectorXd::Zero(structure.Flame())};
   ForEachBeside(record, [&](C s, double weight) {
@@ -199,7 +118,7 @@ C OpenLoop(const RecordSpectra& record, const LoopPoint& point, C s) {
 }
 
 double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
-  const Tail tail(record, point);
+  const LoopTail tail(record, point);
   if (!tail.Possible(point.path)) return -std::numeric_limits<double>::infinity();
   const double beside = Beside(record, point, tail);
   const double within = Within(record, point);
@@ -209,7 +128,7 @@ double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
 
 Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointStructure& structure,
                                        const LoopPoint& point) {
-  const Tail tail(record, point);
+  const LoopTail tail(record, point);
   const double weight = WeightOfFirst(Beside(record, point, tail), Within(record, point));
   const LoopGradient beside = BesideGradient(record, structure, point, tail);
   const LoopGradient within = WithinGradient(record, structure, point);

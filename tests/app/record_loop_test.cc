@@ -22,7 +22,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
-constexpr const char* kModel = "model: {modes: 1, residue: complex}\nsolver: {starts: 4}\n";
+constexpr const char* kModel =
+    "model: {modes: 1, residue: complex, line_errors: false}\nsolver: {starts: 4}\n";
 
 // Two points of first_rig.yaml, fitted once.
 class RecordLoop : public testing::Test {
