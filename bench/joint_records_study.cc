@@ -1,6 +1,6 @@
 // What each structure of the loop is worth on measured records of several operating points:
 //
-//   joint_records_study CONFIG [EXPERIMENT ...]
+//   [STRUCTURES="complex residues,acoustics' lines"] joint_records_study CONFIG [EXPERIMENT ...]
 //
 // A row for each structure, from the paper's loop on: nats of the density of each point's record by
 // the law that the other points give, summed, above the paper's loop; on how many points it is
@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -69,11 +68,9 @@ int Run(int argc, char** argv) {
   std::vector<double> first;
   std::vector<double> before;
   RecordsFit poorer;
-  const char* only = std::getenv("ONLY");
-  int number = -1;
+  const char* const only = std::getenv("STRUCTURES");
   for (const NamedStructure& each : RecordStructures()) {
-    ++number;
-    if (only && !std::strchr(only, '0' + number)) continue;
+    if (only && std::string(only).find(each.name) == std::string::npos) continue;
     const double begun = Seconds();
     RecordsFit fit = FitRecords(points, each.structure, {}, first.empty() ? nullptr : &poorer);
     const double fitted = Seconds();

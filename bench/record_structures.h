@@ -25,8 +25,6 @@ inline std::vector<NoiseTerm> RecordNoise(Eigen::Index combustion, Eigen::Index 
   return out;
 }
 
-inline constexpr int kLines = 6;  // multiples of the cycle's frequency within the band
-
 inline std::vector<NamedStructure> RecordStructures() {
   PointStructure loop;
   loop.modes = 2;
@@ -46,9 +44,9 @@ inline std::vector<NamedStructure> RecordStructures() {
   out.push_back({"free modes", loop});
   loop.complex_residues = true;
   out.push_back({"complex residues", loop});
-  loop.flame_lines = kLines;
+  loop.flame_lines = kCycleLines;
   out.push_back({"flame's lines", loop});
-  loop.acoustic_lines = kLines;
+  loop.acoustic_lines = kCycleLines;
   out.push_back({"acoustics' lines", loop});
   loop.delay_spread = DelaySpread::kGamma;
   out.push_back({"spread delays", loop});

@@ -69,18 +69,6 @@ std::optional<Shard> ShardOfReplicates(const Options& options) {
 
 std::filesystem::path StatePath(const Options& options) { return options.out / "diagnosis.state"; }
 
-void SayWhereItGoesOn(const UnitStore& store, const std::filesystem::path& path,
-                      const Options& options) {
-  if (options.quiet) return;
-  if (!store.found().empty()) {
-    const std::string anew = store.damaged() == 0 ? "" : ", what was damaged there is done anew";
-    std::fprintf(stderr, "going on from %s: %zu fits are done%s\n", path.c_str(),
-                 store.found().size(), anew.c_str());
-  } else if (store.refused()) {
-    std::fprintf(stderr, "%s is of another build or of other inputs: begun anew\n", path.c_str());
-  }
-}
-
 std::vector<DiagnosisExperiment> LoadReference(const Options& options) {
   const auto path = options.Text("--reference");
   return path ? LoadDiagnosisExperiments(LoadConfig(*path)) : std::vector<DiagnosisExperiment>();
@@ -141,7 +129,7 @@ int Run(const Options& options) {
   const std::filesystem::path state_path =
       shard ? ShardPartPath(options.out, "diagnose", *shard) : StatePath(options);
   UnitStore store(state_path, header);
-  SayWhereItGoesOn(store, state_path, options);
+  if (!options.quiet) SayWhereItGoesOn(store, state_path);
   DiagnoseState state(store);
   how.memory = &state;
   how.stopped = IsInterrupted;

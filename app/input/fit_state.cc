@@ -1,7 +1,5 @@
 #include "app/input/fit_state.h"
 
-#include <cstdio>
-
 #include "app/jobs/config_inputs.h"
 #include "app/process/interruption.h"
 
@@ -14,16 +12,6 @@ constexpr const char* kComplete = "complete";
 std::string Header(const Config& config, const Options& options) {
   return "howl.fit.state/" + std::to_string(kFormat) + " " + ProgramIdentity() + " " +
          std::to_string(options.seed) + " " + ConfigInputsSha256(config);
-}
-
-void SayWhereItGoesOn(const UnitStore& store, const std::filesystem::path& path) {
-  if (!store.found().empty()) {
-    const std::string anew = store.damaged() == 0 ? "" : ", what was damaged there is done anew";
-    std::fprintf(stderr, "going on from %s: %zu fits are done%s\n", path.c_str(),
-                 store.found().size(), anew.c_str());
-  } else if (store.refused()) {
-    std::fprintf(stderr, "%s is of another build or of other inputs: begun anew\n", path.c_str());
-  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "app/jobs/unit_store.h"
 
+#include <cstdio>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -100,6 +101,16 @@ void UnitStore::Forget() {
   log_.close();
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
+}
+
+void SayWhereItGoesOn(const UnitStore& store, const std::filesystem::path& path) {
+  if (!store.found().empty()) {
+    const std::string anew = store.damaged() == 0 ? "" : ", what was damaged there is done anew";
+    std::fprintf(stderr, "going on from %s: %zu fits are done%s\n", path.c_str(),
+                 store.found().size(), anew.c_str());
+  } else if (store.refused()) {
+    std::fprintf(stderr, "%s is of another build or of other inputs: begun anew\n", path.c_str());
+  }
 }
 
 }  // namespace howl

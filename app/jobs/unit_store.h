@@ -60,6 +60,9 @@ class UnitStore {
   std::ofstream log_;
 };
 
+// On standard error: how many fits are done already, or why the work is begun anew.
+void SayWhereItGoesOn(const UnitStore& store, const std::filesystem::path& path);
+
 }  // namespace howl
 
 #endif  // HOWL_APP_JOBS_UNIT_STORE_H_

@@ -111,10 +111,9 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
     out.delay_spread = FromLogarithm(std::log(point.path.rho),
                                      covariance(structure.Delay() + 1, structure.Delay() + 1), 1.0);
   }
-  out.acoustic_lines =
-      LinesOf(point.acoustic_lines, structure.Transfer() + structure.Transients(), covariance);
-  out.flame_lines = LinesOf(
-      point.flame_lines, structure.Noise(record.flame.cols()) - structure.FlameLines(), covariance);
+  out.acoustic_lines = LinesOf(point.acoustic_lines, structure.AcousticLine(), covariance);
+  out.flame_lines =
+      LinesOf(point.flame_lines, structure.FlameLine(record.flame.cols()), covariance);
   out.small_signal = SmallSignalLoopOf(record, structure, fit);
   out.noise = NoiseOf(record, structure, point, covariance);
   out.converged = fit.converged;

@@ -7,7 +7,6 @@ namespace {
 // shapes, fewer for what electronics adds. bench/joint_records_study compares them.
 constexpr Eigen::Index kOfTurbulence = 6;
 constexpr Eigen::Index kOfSensors = 4;
-constexpr int kLines = 6;  // the cycle's multiples that the band holds
 
 }  // namespace
 
@@ -18,7 +17,7 @@ PointStructure StructureOf(const RecordLoopSpec& spec, int modes) {
   out.own_damping = spec.own_damping;
   out.complex_residues = spec.complex_residues;
   out.delay_spread = spec.delay_spread;
-  if (spec.line_errors) out.acoustic_lines = out.flame_lines = kLines;
+  if (spec.line_errors) out.acoustic_lines = out.flame_lines = kCycleLines;
   out.noise = {{LoopNoise::kCombustion, kOfTurbulence},
                {LoopNoise::kPressureSensor, kOfSensors},
                {LoopNoise::kHeatReleaseSensor, kOfSensors},

@@ -12,7 +12,7 @@
 // before, all points begin as well with what it found there.
 //
 // The work grows as the number of points does, and points run in parallel. One point by itself is
-// fitted under its own prior.
+// fitted under its own prior, but for the size of its errors, which is estimated.
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_RECORDS_FIT_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_RECORDS_FIT_H_
 

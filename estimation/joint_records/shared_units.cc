@@ -17,8 +17,8 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
     errors_.push_back({static_cast<Eigen::Index>(index_.size()), count});
     for (Eigen::Index i = 0; i < count; ++i) index_.push_back(first + i);
   };
-  add_errors(structure.Transfer() + structure.Transients(), structure.AcousticLines());
-  add_errors(noise - structure.FlameLines(), structure.FlameLines());
+  add_errors(structure.AcousticLine(), structure.AcousticLines());
+  add_errors(structure.FlameLine(record.flame.cols()), structure.FlameLines());
   const auto size = static_cast<Eigen::Index>(index_.size());
   scale_ = Eigen::VectorXd::Ones(size);
   shift_ = Eigen::VectorXd::Zero(size);

@@ -23,18 +23,8 @@ Eigen::VectorXcd FlamePath::At(const Eigen::VectorXcd& s) const {
   return s.unaryExpr([this](C each) { return At(each); });
 }
 
-C FlamePath::ByLogTau(C s) const {
-  const C delayed = tau * s;
-  switch (spread) {
-    case DelaySpread::kNone:
-      break;
-    case DelaySpread::kNormal:
-      return -delayed + rho * rho * delayed * delayed;
-    case DelaySpread::kGamma:
-      return -delayed / (1.0 + rho * rho * delayed);
-  }
-  return -delayed;
-}
+// All three depend on tau s alone.
+C FlamePath::ByLogTau(C s) const { return s * BySlope(s); }
 
 C FlamePath::ByLogRho(C s) const {
   const C delayed = tau * s;

@@ -168,8 +168,8 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
     mode.h = parameters[structure.Transfer() + structure.modes + k];
     out.modes.push_back(mode);
   }
-  out.acoustic_lines = ComplexOf(
-      parameters.segment(structure.Transfer() + structure.Transients(), structure.AcousticLines()));
+  out.acoustic_lines =
+      ComplexOf(parameters.segment(structure.AcousticLine(), structure.AcousticLines()));
   Eigen::Index next = structure.Delay();
   out.path = {structure.delay_spread, std::exp(parameters[next++])};
   if (structure.Delays() > 1) out.path.rho = std::exp(parameters[next++]);

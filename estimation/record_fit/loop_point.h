@@ -43,6 +43,8 @@ namespace howl {
 
 // Relative to the cycle's frequency.
 inline constexpr double kLineReach = 0.06;
+// The cycle's multiples that the band of a record holds.
+inline constexpr int kCycleLines = 6;
 
 struct PointStructure {
   int modes = 1;
@@ -63,7 +65,9 @@ struct PointStructure {
   Eigen::Index Transients() const { return Eigen::Index{2} * modes; }
   Eigen::Index AcousticLines() const { return Eigen::Index{2} * acoustic_lines; }
   Eigen::Index FlameLines() const { return Eigen::Index{2} * flame_lines; }
-  Eigen::Index Acoustics() const { return Transfer() + Transients() + AcousticLines(); }
+  // The index of the first of them.
+  Eigen::Index AcousticLine() const { return Transfer() + Transients(); }
+  Eigen::Index Acoustics() const { return AcousticLine() + AcousticLines(); }
   // With the background's ratio.
   Eigen::Index NoiseParameters() const;
   // The index of ln tau; where delays are spread ln rho follows.
@@ -71,9 +75,10 @@ struct PointStructure {
   Eigen::Index Delays() const { return delay_spread == DelaySpread::kNone ? 1 : 2; }
   // The index of the flame's first coefficient.
   Eigen::Index Flame() const { return Delay() + Delays(); }
-  // That of the first source of noise, and how many parameters there are, given the number of the
-  // flame's coefficients.
-  Eigen::Index Noise(Eigen::Index flame) const { return Flame() + flame + FlameLines(); }
+  // Those of the flame's first line and of the first source of noise, and how many parameters there
+  // are, given the number of the flame's coefficients.
+  Eigen::Index FlameLine(Eigen::Index flame) const { return Flame() + flame; }
+  Eigen::Index Noise(Eigen::Index flame) const { return FlameLine(flame) + FlameLines(); }
   Eigen::Index Parameters(Eigen::Index flame) const { return Noise(flame) + NoiseParameters(); }
 };
 

@@ -24,6 +24,7 @@ constexpr double kLogTau = 1.1;
 constexpr double kMeanLogRho = -1.2;
 constexpr double kLogRho = 0.8;
 constexpr double kFlame = 3.0;  // of recorded q's mean square
+// Where a search begins: its size is estimated (parameter_law.h).
 constexpr double kLineError = 0.3;
 constexpr double kLevel = 3.0;  // of ln S_j, about the signal's mean
 constexpr double kShape = 1.5;  // of its higher coefficients

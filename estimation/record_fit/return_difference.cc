@@ -55,10 +55,11 @@ double Within(const RecordSpectra& record, const LoopPoint& point) {
   return sum;
 }
 
-// By the loop's parameters, and by the flame's slope.
+// A sum with its slopes by the loop's parameters and by the flame's slope.
 struct LoopGradient {
   Eigen::VectorXd loop;
   double slope = 0.0;
+  double value = 0.0;
 
   // `over`: of d (slope U).
   void Add(const PointStructure& structure, const LoopPoint& point, double slope_now,
@@ -72,8 +73,10 @@ LoopGradient BesideGradient(const RecordSpectra& record, const PointStructure& s
                             const LoopPoint& point, const LoopTail& tail) {
   const double slope = record.slopes.dot(point.flame);
   LoopGradient out{Eigen::VectorXd::Zero(structure.Flame())};
+  out.value = BinsEach(record) * tail.Value().real();
   ForEachBeside(record, [&](C s, double weight) {
     const LoopAt loop(record, point, s);
+    out.value -= weight * std::log(std::abs(1.0 - slope * loop.u));
     out.Add(structure, point, slope, loop, weight * Reciprocal(1.0 - slope * loop.u));
   });
   const double bins = BinsEach(record);
@@ -103,6 +106,7 @@ LoopGradient WithinGradient(const RecordSpectra& record, const PointStructure& s
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const LoopAt loop(record, point, record.s[i]);
     const C over = -2.0 * record.share[i] * Reciprocal(1.0 - slope * loop.u);
+    out.value += 2.0 * record.share[i] * std::log(std::abs(1.0 - slope * loop.u));
     out.Add(structure, point, slope, loop, over);
   }
   return out;
@@ -129,9 +133,9 @@ double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
 Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointStructure& structure,
                                        const LoopPoint& point) {
   const LoopTail tail(record, point);
-  const double weight = WeightOfFirst(Beside(record, point, tail), Within(record, point));
   const LoopGradient beside = BesideGradient(record, structure, point, tail);
   const LoopGradient within = WithinGradient(record, structure, point);
+  const double weight = WeightOfFirst(beside.value, within.value);
   const Eigen::Index flame = point.flame.size();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(structure.Parameters(flame));
   out.head(structure.Flame()) = weight * beside.loop + (1.0 - weight) * within.loop;

@@ -70,7 +70,7 @@ Found Fit(const Record& record, double cycle_hz, int lines) {
   const double turn = 2.0 * std::numbers::pi * cycle_hz;
   out.tau_s = out.point.path.tau / turn;
   out.tau_std_s = out.tau_s * std[structure.Delay()];
-  out.std = std.segment(structure.Noise(flame) - structure.FlameLines(), structure.FlameLines());
+  out.std = std.segment(structure.FlameLine(flame), structure.FlameLines());
   if (lines > 0) out.flame_error = fit.law.spread[fit.law.spread.size() - 1];
   return out;
 }
