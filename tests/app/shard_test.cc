@@ -182,7 +182,7 @@ TEST(LongDiagnoseShards, JoinToTheBytesOfOneMachine) {
   const std::string config = folder.Write("rig.yaml", kTable).string();
   ASSERT_EQ(RunHowl("simulate " + config + " --out " + folder.path().string()).status, 0);
   const std::string command =
-      "diagnose " + (folder.path() / "records.yaml").string() + " --bootstrap 7 --out ";
+      "diagnose " + (folder.path() / "records.yaml").string() + " --bootstrap 19 --out ";
   ASSERT_EQ(RunHowl(command + (folder.path() / "whole").string()).status, 0);
   const std::string out = (folder.path() / "parts").string();
   RunShards(command + out, {3, 1, 2});
