@@ -1,11 +1,14 @@
 // What each structure of the loop is worth on measured records of several operating points:
 //
-//   [STRUCTURES="complex residues,acoustics' lines"] joint_records_study CONFIG [EXPERIMENT ...]
+//   [STRUCTURES="complex residues,acoustics' lines"] [FLAME_INPUT=velocity]
+//     joint_records_study CONFIG [EXPERIMENT ...]
 //
+// FLAME_INPUT: pressure_rate, pressure or velocity.
 // A row for each structure, from the paper's loop on: nats of the density of each point's record by
 // the law that the other points give, summed, above the paper's loop; on how many points it is
 // better than the structure before; and the delays. Then each structure's modes, delay and levels
 // of noise over the points, with the law's mean and spread.
+#include <glog/logging.h>
 #include <tbb/parallel_for.h>
 
 #include <chrono>
@@ -56,14 +59,23 @@ void PrintPoint(const std::string& name, const PointStructure& structure,
   std::printf("%s\n", fit.converged ? "" : " (not converged)");
 }
 
+FlameInput InputAsked() {
+  const char* const asked = std::getenv("FLAME_INPUT");
+  const std::string input = asked ? asked : "pressure_rate";
+  if (input == "pressure") return FlameInput::kPressure;
+  if (input == "velocity") return FlameInput::kVelocity;
+  CHECK_EQ(input, "pressure_rate");
+  return FlameInput::kPressureRate;
+}
+
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1]);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
   const std::vector<CutRecord> cuts = MakeCutRecords(rig);
   std::vector<OperatingPoint> points(rig.size());
   tbb::parallel_for(std::size_t{0}, rig.size(), [&](std::size_t e) {
-    points[e] = {rig[e].phi, MakeRecordSpectra(rig[e].record, cuts[e].at.cycle_frequency_hz,
-                                               FlameInput::kPressureRate)};
+    points[e] = {rig[e].phi,
+                 MakeRecordSpectra(rig[e].record, cuts[e].at.cycle_frequency_hz, InputAsked())};
   });
   std::vector<double> first;
   std::vector<double> before;

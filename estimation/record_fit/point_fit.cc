@@ -18,6 +18,9 @@ namespace {
 
 constexpr double kFirstDamping = 0.1;
 constexpr double kMostDamping = 1e12;
+// Of a parameter, in its prior's deviations: from a start far from any maximum a quadratic may point
+// to where no rig is, and the likelihood be flat.
+constexpr double kLongestStep = 3.0;
 constexpr double kNear = 20.0;  // nats foretold, from which on steps correct the information
 constexpr int kMostCorrections = 12;
 constexpr double kLeastCosine =
@@ -191,7 +194,8 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     const Eigen::MatrixXd information = Positive(here.information);
     Eigen::MatrixXd damped = information;
     damped.diagonal().array() *= 1.0 + damping;
-    const Eigen::VectorXd step = SolveSymmetric(damped, here.gradient);
+    Eigen::VectorXd step = SolveSymmetric(damped, here.gradient);
+    step *= std::min(1.0, kLongestStep / step.cwiseAbs().maxCoeff());
     const double foretold = here.gradient.dot(step) - 0.5 * step.dot(information * step);
     if (damping < 1.0 && foretold < options.converged) {
       if (source == Source::kCurvature || options.converged >= kNear) {

@@ -9,6 +9,7 @@
 
 #include "estimation/record_fit/flame_basis.h"
 #include "estimation/record_fit/return_difference.h"
+#include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 
 namespace howl {
@@ -47,6 +48,31 @@ TEST(PointFit, EndsAtAPossibleLoop) {
   const PointFit fit = FitPoint(spectra, structure, prior, start);
   EXPECT_TRUE(std::isfinite(fit.log_posterior));
   EXPECT_TRUE(possible(fit.parameters));
+}
+
+// From wherever a fit begins, its delay and its modes stay where a rig's may be: a quadratic far
+// from any maximum points anywhere.
+TEST(PointFit, StaysWhereRigsAre) {
+  const Record record = SimulateModalLoop(DuctOfModes(2), 0.6, 5);
+  const double cycle_hz = CycleFrequency(DuctOfModes(2), 150.0, 300.0);
+  const PointStructure structure = FreeStructure(2);
+  RandomStream random(1);
+  for (const FlameInput input :
+       {FlameInput::kPressure, FlameInput::kVelocity, FlameInput::kPressureRate}) {
+    const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, input);
+    const PointPrior prior = PriorOf(structure, spectra);
+    for (int i = 0; i < 50; ++i) {
+      Eigen::VectorXd start = prior.mean;
+      for (Eigen::Index k = 0; k < start.size(); ++k) {
+        start[k] += 2.0 * random.Normal() * prior.deviation[k];
+      }
+      const PointFit fit = FitPoint(spectra, structure, prior, start);
+      EXPECT_TRUE(std::isfinite(fit.log_evidence));
+      const Eigen::ArrayXd z = (fit.parameters - prior.mean).array() / prior.deviation.array();
+      EXPECT_LT(std::abs(z[structure.Delay()]), 10.0) << i;
+      EXPECT_LT(z.head(structure.Frequencies()).abs().maxCoeff(), 10.0) << i;
+    }
+  }
 }
 
 // A model with a mode more than the loop has says less of the record, for all its freedom.
