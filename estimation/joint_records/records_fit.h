@@ -51,9 +51,26 @@ struct RecordsFit {
   std::vector<PointPrior> prior;  // of each point, by the law
 };
 
+// Where all points begin, one row a candidate.
+using StartRows = std::vector<std::vector<Eigen::VectorXd>>;
+
 // `poorer`: a fit of these points by a structure that this one contains (richer_structure.h).
 RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStructure& structure,
                       const RecordsFitOptions& options = {}, const RecordsFit* poorer = nullptr);
+
+// The same from these starts alone, without a search of each point by itself.
+RecordsFit FitRecordsFrom(const std::vector<OperatingPoint>& points,
+                          const PointStructure& structure, const StartRows& starts,
+                          const RecordsFitOptions& options = {});
+
+// Where fits of a structure that contains that of `poorer` may begin: a row for each point whose
+// further modes all may have (richer_structure.h), one row where there are none.
+StartRows StartsInRicher(const std::vector<OperatingPoint>& points, const RecordsFit& poorer,
+                         const PointStructure& structure);
+
+// Of each point by the law that all other points give; at least two.
+std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,
+                                       const RecordsFit& fit, int threads);
 
 // ln of the predictive density of each point's record, by the law that all other points give. Of
 // one point alone: the evidence of its record.

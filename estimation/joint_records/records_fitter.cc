@@ -1,0 +1,233 @@
+#include "estimation/joint_records/records_fitter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "estimation/parallel.h"
+#include "estimation/record_fit/point_starts.h"
+#include "estimation/record_fit/richer_structure.h"
+#include "estimation/unit_seed.h"
+#include "model/numerics/dense_algebra.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kMostCandidates = 4;
+constexpr int kIterationsOfCandidate = 30;
+constexpr double kLeastTold = 0.1;  // of what the prior tells
+constexpr double kRounding = 1e-12;
+constexpr double kErrorsConverged = 0.05;  // of ln s
+constexpr double kConverged = 0.02;  // of a parameter's spread, the largest move of the law's mean
+
+double GeometricMean(const std::vector<OperatingPoint>& points, auto value) {
+  double sum = 0.0;
+  for (const OperatingPoint& point : points) sum += std::log(value(point.record));
+  return std::exp(sum / static_cast<double>(points.size()));
+}
+
+// What the record alone tells of the shared parameters, the flame's integrated out.
+ParameterEvidence EvidenceOf(const PointFit& fit, const PointPrior& prior, const SharedUnits& units,
+                             double z) {
+  const Eigen::Index size = units.size();
+  const Eigen::MatrixXd whole = fit.Covariance();
+  Eigen::MatrixXd covariance(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j) {
+      covariance(i, j) =
+          units.scale()[i] * units.scale()[j] * whole(units.IndexOf(i), units.IndexOf(j));
+    }
+  }
+  const PointPrior common = units.ToCommon(prior);
+  const Eigen::VectorXd deviation = common.deviation;
+  // Without the prior, in its units. A direction of which the record tells next to nothing, or in
+  // which its density has a minimum, tells nothing: a force without a curvature has no limit.
+  Eigen::MatrixXd told = deviation.asDiagonal() *
+                         SolveSymmetric(covariance, Eigen::MatrixXd::Identity(size, size)) *
+                         deviation.asDiagonal();
+  told.diagonal().array() -= 1.0;
+  const SymmetricEigen eigen = EigenOfSymmetric(0.5 * (told + told.transpose()));
+  const Eigen::VectorXd kept = (eigen.values.array() > kLeastTold).select(eigen.values, 0.0);
+  const Eigen::MatrixXd turn =
+      eigen.vectors.transpose() * Eigen::MatrixXd(deviation.cwiseInverse().asDiagonal());
+  ParameterEvidence out;
+  out.z = z;
+  out.precision = turn.transpose() * kept.asDiagonal() * turn;
+  // So that with the prior the most likely parameters are the fit's.
+  const Eigen::VectorXd at = units.ToCommon(fit.parameters);
+  const Eigen::VectorXd pull = (kept.array() > 0.0).select((turn * (at - common.mean)).eval(), 0.0);
+  out.information = out.precision * at + turn.transpose() * pull;
+  return out;
+}
+
+// With these parameters, but for the flame's, which are those that leave least of q.
+Eigen::VectorXd WithFlame(const RecordSpectra& record, const PointStructure& structure,
+                          const Eigen::VectorXd& parameters) {
+  LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  point.flame = FlameStart(record, point.path);
+  return ToParameters(structure, point);
+}
+
+}  // namespace
+
+ReferenceUnits ReferenceOf(const std::vector<OperatingPoint>& points) {
+  return {GeometricMean(points, [](const RecordSpectra& r) { return r.scale.cycle_hz; }),
+          GeometricMean(points, [](const RecordSpectra& r) { return r.scale.pressure; }),
+          GeometricMean(points, [](const RecordSpectra& r) { return r.scale.heat_release; }),
+          GeometricMean(points, [](const RecordSpectra& r) { return r.sampling_hz; })};
+}
+
+std::vector<double> Standardised(const std::vector<OperatingPoint>& points) {
+  const auto count = static_cast<double>(points.size());
+  double mean = 0.0;
+  for (const OperatingPoint& point : points) mean += point.operating_parameter / count;
+  double square = 0.0;
+  for (const OperatingPoint& point : points) {
+    square += std::pow(point.operating_parameter - mean, 2) / count;
+  }
+  std::vector<double> out;
+  for (const OperatingPoint& point : points) {
+    out.push_back(square > 0.0 ? (point.operating_parameter - mean) / std::sqrt(square) : 0.0);
+  }
+  return out;
+}
+
+std::string UnitKey(const RecordsFitOptions& options, const char* what, std::size_t a,
+                    std::size_t b) {
+  return options.key + what + "/" + std::to_string(a) + "/" + std::to_string(b);
+}
+
+PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
+                  const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior) {
+  PointFit best = FitPoint(record, structure, prior, at);
+  if (from_prior) {
+    PointFit other = FitPoint(record, structure, prior, WithFlame(record, structure, prior.mean));
+    if (other.log_posterior > best.log_posterior) best = std::move(other);
+  }
+  return best;
+}
+
+bool RecordsFitter::Stands(const ParameterLaw& before, const ParameterLaw& after) const {
+  const auto stands = [&](const ErrorGroup& group) {
+    return std::abs(std::log(after.spread[group.first] / before.spread[group.first])) <
+           kErrorsConverged;
+  };
+  if (!std::ranges::all_of(units_[0].errors(), stands)) return false;
+  const Eigen::ArrayXd moved = (after.mean - before.mean).array().abs();
+  return size() == 1 || (moved < kConverged * after.spread.array() + kRounding).all();
+}
+PointPrior RecordsFitter::PriorOfErrors(const ParameterLaw& law) const {
+  PointPrior common = units_[0].ToCommon(base_[0]);
+  for (const ErrorGroup& group : units_[0].errors()) {
+    common.deviation.segment(group.first, group.count) =
+        law.spread.segment(group.first, group.count);
+  }
+  return Prior(0, common);
+}
+
+PointPrior RecordsFitter::MeanBase() const {
+  const Eigen::Index size = units_[0].size();
+  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}};
+  const auto count = static_cast<double>(this->size());
+  for (std::size_t e = 0; e < this->size(); ++e) {
+    const PointPrior common = units_[e].ToCommon(base_[e]);
+    out.mean += common.mean / count;
+    out.deviation += common.deviation.cwiseAbs2() / count;
+  }
+  out.deviation = out.deviation.cwiseSqrt();
+  return out;
+}
+
+std::vector<PointFit> RecordsFitter::Alone(const RecordsFitOptions& options) const {
+  std::vector<PointFit> out(size());
+  RunUnits(size(), threads_, [&](std::size_t e) {
+    const RecordSpectra& record = points_[e].record;
+    out[e] = KeptFit(options.units, UnitKey(options, "alone", 0, e), [&] {
+      return FitPoint(record, structure_, base_[e],
+                      StartsOf(record, structure_, base_[e], options.starts,
+                               UnitSeed(options.seed, "starts of a point", e)));
+    });
+  });
+  return out;
+}
+
+Eigen::VectorXd RecordsFitter::StartFrom(std::size_t e, const Eigen::VectorXd& common) const {
+  return WithFlame(points_[e].record, structure_, units_[e].FromCommon(common, base_[e].mean));
+}
+
+std::vector<std::size_t> RecordsFitter::Drawn() const {
+  const std::size_t count = std::min(size(), kMostCandidates);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < count; ++i) out.push_back(i * size() / count);
+  return out;
+}
+
+StartRows RecordsFitter::FromOneAnother(const std::vector<PointFit>& alone) const {
+  StartRows out;
+  for (const std::size_t from : Drawn()) {
+    const Eigen::VectorXd common = units_[from].ToCommon(alone[from].parameters);
+    std::vector<Eigen::VectorXd>& row = out.emplace_back();
+    for (std::size_t e = 0; e < size(); ++e) {
+      row.push_back(e == from ? alone[e].parameters : StartFrom(e, common));
+    }
+  }
+  return out;
+}
+
+StartRows RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
+  StartRows out;
+  for (const std::size_t from : Drawn()) {
+    const std::vector<LoopMode> further = FurtherModes(points_[from].record, poorer.structure,
+                                                       poorer.points[from].parameters, structure_);
+    std::vector<Eigen::VectorXd>& row = out.emplace_back();
+    for (std::size_t e = 0; e < size(); ++e) {
+      const RecordScale& at = points_[e].record.scale;
+      const RecordScale& of = points_[from].record.scale;
+      std::vector<LoopMode> here = further;
+      const double cycle = of.cycle_hz / at.cycle_hz;
+      const double residue = cycle * of.pressure / of.heat_release * at.heat_release / at.pressure;
+      for (LoopMode& mode : here) {
+        mode = {mode.omega * cycle, mode.xi, mode.a * residue, mode.b * residue};
+      }
+      row.push_back(InRicherStructure(points_[e].record, poorer.structure,
+                                      poorer.points[e].parameters, structure_, here));
+    }
+    if (further.empty()) break;
+  }
+  return out;
+}
+
+std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
+                                          const RecordsFitOptions& options) const {
+  PointFitOptions rough;
+  rough.iterations = kIterationsOfCandidate;
+  std::vector<std::vector<PointFit>> all(starts.size(), std::vector<PointFit>(size()));
+  RunUnits(starts.size() * size(), threads_, [&](std::size_t i) {
+    const std::size_t c = i / size();
+    const std::size_t e = i % size();
+    all[c][e] = KeptFit(options.units, UnitKey(options, "candidate", c, e), [&] {
+      return FitPoint(points_[e].record, structure_, base_[e], starts[c][e], rough);
+    });
+  });
+  std::size_t best = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < starts.size(); ++c) {
+    double sum = 0.0;
+    for (const PointFit& fit : all[c]) sum += fit.log_posterior;
+    if (sum > most) best = c;
+    most = std::max(sum, most);
+  }
+  return all[best];
+}
+
+std::vector<ParameterEvidence> RecordsFitter::Evidence(
+    const std::vector<PointFit>& fits, const std::vector<PointPrior>& priors) const {
+  std::vector<ParameterEvidence> out;
+  for (std::size_t e = 0; e < size(); ++e) {
+    out.push_back(EvidenceOf(fits[e], priors[e], units_[e], z_[e]));
+  }
+  return out;
+}
+
+}  // namespace howl
