@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "diagnosis/budget/budget_search.h"
-#include "diagnosis/budget/common_ceiling.h"
 #include "diagnosis/budget/items/item_parameters.h"
-#include "diagnosis/budget/places_left.h"
+#include "diagnosis/held_out/common_ceiling.h"
+#include "diagnosis/held_out/places_left.h"
 
 namespace howl {
 namespace {
@@ -61,7 +61,11 @@ Budget FindBudget(const std::vector<DiagnosisExperiment>& experiments, const Bas
     entry.parameters = ItemParameters(records.whole, found->fit, items, i);
     out.entries.push_back(std::move(entry));
   }
-  if (out.gap_left > 0.0) out.left = PlacesLeft(records.records, ceiling.Against(found->all));
+  if (out.gap_left > 0.0) {
+    std::vector<std::string> names;
+    for (const CutRecord& record : records.records) names.push_back(record.name);
+    out.left = PlacesLeft(names, ceiling.Against(found->all));
+  }
   return out;
 }
 

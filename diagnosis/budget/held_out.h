@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "diagnosis/budget/prediction_gap.h"
+#include "diagnosis/held_out/held_out_score.h"
 #include "diagnosis/structure/structure_fit.h"
 
 namespace howl {
@@ -28,16 +29,6 @@ BudgetRecords MakeBudgetRecords(const std::vector<DiagnosisExperiment>& experime
 
 // The fit's part that is about these operating points.
 StructureFit OfPoints(const StructureFit& fit, const std::vector<std::size_t>& which);
-
-struct HeldOutScore {
-  std::vector<std::array<double, 2>> nats;  // of a point's halves
-  std::vector<std::array<std::vector<BandErrors>, 2>> errors;
-
-  double Nats(std::size_t half) const;
-  double Nats() const { return Nats(0) + Nats(1); }
-  double Gap(std::size_t half) const;
-  double Gap() const;
-};
 
 // `fit`: to all the records, from which the fits to parts of them begin.
 HeldOutScore ScoreHeldOut(const BudgetRecords& records, const StructureFit& fit);

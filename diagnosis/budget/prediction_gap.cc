@@ -1,83 +1,31 @@
 #include "diagnosis/budget/prediction_gap.h"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
+#include <Eigen/Core>
 
 namespace howl {
-namespace {
-
-// The reach of the neighbourhood and the width of a band: those of a mode of damping 0.05 at the
-// cycle.
-constexpr double kReach = 0.1;  // of the cycle's frequency
-constexpr double kWidth = 0.2;
-constexpr Eigen::Index kLeastReach = 6;  // bins
-constexpr Eigen::Index kLeftOut = 1;     // neighbours that the taper correlates with a bin
-
-Eigen::Index Bins(const JointBand& band, double share_of_cycle) {
-  return std::max(static_cast<Eigen::Index>(share_of_cycle * band.record.at.cycle_frequency_hz /
-                                            band.record.bin_hz),
-                  kLeastReach);
-}
-
-// |e - T x|^2 with T from the neighbours. Each has the weight 1 / power, so that a line does not
-// speak for the noise beside it. T's own error adds the leverage of the bin, which is divided out.
-Eigen::VectorXd FreeRemainder(const Eigen::VectorXcd& error, const Eigen::VectorXcd& signal,
-                              const Eigen::VectorXd& power, const Eigen::VectorXd& share,
-                              Eigen::Index reach) {
-  const Eigen::Index n = error.size();
-  Eigen::VectorXd out(n);
-  out.setZero();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (share[i] == 0.0) continue;
-    std::complex<double> cross = 0.0;
-    double square = 0.0;
-    for (Eigen::Index k = std::max<Eigen::Index>(i - reach, 0); k < std::min(i + reach + 1, n);
-         ++k) {
-      if (std::abs(k - i) <= kLeftOut || share[k] == 0.0) continue;
-      cross += std::conj(signal[k]) * error[k] / power[k];
-      square += std::norm(signal[k]) / power[k];
-    }
-    const double leverage = std::norm(signal[i]) / power[i] / square;
-    out[i] = std::norm(error[i] - cross / square * signal[i]) / (1.0 + leverage);
-  }
-  return out;
-}
-
-void AddBands(const JointBand& band, const Eigen::VectorXcd& error,
-              const Eigen::VectorXd& own_power, const Eigen::VectorXcd& other,
-              const Eigen::VectorXd& other_power, std::vector<BandErrors>* out) {
-  const Eigen::VectorXd square =
-      (band.share.array() > 0.0).select(error.cwiseAbs2().cwiseQuotient(own_power), 0.0);
-  const Eigen::VectorXd free =
-      FreeRemainder(error, other, other_power, band.share, Bins(band, kReach))
-          .cwiseQuotient(own_power);
-  const Eigen::Index width = Bins(band, kWidth);
-  for (Eigen::Index from = 0; from + width <= band.count; from += width) {
-    out->push_back({band.frequency_hz[from], band.frequency_hz[from + width - 1],
-                    square.segment(from, width).sum(), free.segment(from, width).sum()});
-  }
-}
-
-}  // namespace
 
 std::vector<BandErrors> PredictionErrors(const JointBand& band, const JointResiduals& residuals,
                                          const JointEvaluation& at) {
   const Eigen::Index n = band.count;
-  Eigen::VectorXcd pressure(n);
-  Eigen::VectorXcd heat_release(n);
+  PredictedSignals signals{.cycle_hz = band.record.at.cycle_frequency_hz,
+                           .bin_hz = band.record.bin_hz,
+                           .frequency_hz = band.frequency_hz,
+                           .share = band.share,
+                           .pressure = band.pressure,
+                           .heat_release = band.heat_release,
+                           .pressure_power = band.pressure_power,
+                           .heat_release_power = band.heat_release_power,
+                           .pressure_error = Eigen::VectorXcd(n),
+                           .heat_release_error = Eigen::VectorXcd(n)};
   const Eigen::VectorXcd left = residuals.flame->target - residuals.flame->columns * at.flame;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Matrix2cd& w = at.inverse[static_cast<std::size_t>(i)];
     const Eigen::Vector2cd we = w * Eigen::Vector2cd(residuals.acoustic->residual[i], left[i]);
     const auto error = [&](const Eigen::Vector2cd& u) { return u.dot(we) / u.dot(w * u).real(); };
-    pressure[i] = error({1.0, -at.f[i]});
-    heat_release[i] = error({-residuals.acoustic->r[i], 1.0});
+    signals.pressure_error[i] = error({1.0, -at.f[i]});
+    signals.heat_release_error[i] = error({-residuals.acoustic->r[i], 1.0});
   }
-  std::vector<BandErrors> out;
-  AddBands(band, pressure, band.pressure_power, band.heat_release, band.heat_release_power, &out);
-  AddBands(band, heat_release, band.heat_release_power, band.pressure, band.pressure_power, &out);
-  return out;
+  return ErrorsOverBands(signals);
 }
 
 }  // namespace howl

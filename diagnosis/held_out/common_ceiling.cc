@@ -1,4 +1,4 @@
-#include "diagnosis/budget/common_ceiling.h"
+#include "diagnosis/held_out/common_ceiling.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,12 +1,12 @@
 // Scores of several structures against one ceiling: in each band of each record's halves the least
 // that any of them gives.
-#ifndef HOWL_DIAGNOSIS_BUDGET_COMMON_CEILING_H_
-#define HOWL_DIAGNOSIS_BUDGET_COMMON_CEILING_H_
+#ifndef HOWL_DIAGNOSIS_HELD_OUT_COMMON_CEILING_H_
+#define HOWL_DIAGNOSIS_HELD_OUT_COMMON_CEILING_H_
 
 #include <array>
 #include <vector>
 
-#include "diagnosis/budget/held_out.h"
+#include "diagnosis/held_out/held_out_score.h"
 
 namespace howl {
 
@@ -23,4 +23,4 @@ class CommonCeiling {
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_BUDGET_COMMON_CEILING_H_
+#endif  // HOWL_DIAGNOSIS_HELD_OUT_COMMON_CEILING_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/budget/places_left.h"
+#include "diagnosis/held_out/places_left.h"
 
 #include <algorithm>
 #include <functional>
@@ -60,10 +60,10 @@ Run ShortestRun(const std::vector<double>& of_bands) {
 
 }  // namespace
 
-std::vector<Place> PlacesLeft(const std::vector<CutRecord>& records, const HeldOutScore& score) {
+std::vector<Place> PlacesLeft(const std::vector<std::string>& names, const HeldOutScore& score) {
   std::vector<Place> out;
   double total = 0.0;
-  const auto points = static_cast<double>(records.size());
+  const auto points = static_cast<double>(names.size());
   for (const bool heat_release : {false, true}) {
     const Excess excess = ExcessOf(score, heat_release);
     Place place;
@@ -73,7 +73,7 @@ std::vector<Place> PlacesLeft(const std::vector<CutRecord>& records, const HeldO
     if (place.share <= 0.0) continue;
     const Run run = ShortestRun(excess.sum);
     std::vector<double> within;
-    for (std::size_t e = 0; e < records.size(); ++e) {
+    for (std::size_t e = 0; e < names.size(); ++e) {
       const std::vector<BandErrors>& bands = score.errors[e][0];
       place.low_hz += bands[run.first].low_hz / points;
       place.high_hz += bands[run.second - 1].high_hz / points;
@@ -82,8 +82,8 @@ std::vector<Place> PlacesLeft(const std::vector<CutRecord>& records, const HeldO
                                        first + static_cast<std::ptrdiff_t>(run.second), 0.0));
     }
     const double mean = std::accumulate(within.begin(), within.end(), 0.0) / points;
-    for (std::size_t e = 0; e < records.size(); ++e) {
-      if (within[e] >= mean) place.experiments.push_back(records[e].name);
+    for (std::size_t e = 0; e < names.size(); ++e) {
+      if (within[e] >= mean) place.experiments.push_back(names[e]);
     }
     out.push_back(std::move(place));
   }

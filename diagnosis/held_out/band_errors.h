@@ -1,0 +1,41 @@
+// How far predictions of p and q fall short of what is possible, band by band.
+//
+// What a free smooth transfer from the other signal takes off a prediction's error could have been
+// predicted. It is estimated in the neighbourhood of each bin, the bin itself left out, and what
+// then remains is the ceiling: of several structures' the least counts for all (common_ceiling.h).
+#ifndef HOWL_DIAGNOSIS_HELD_OUT_BAND_ERRORS_H_
+#define HOWL_DIAGNOSIS_HELD_OUT_BAND_ERRORS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace howl {
+
+// In a band of a record and one signal: sums of |e|^2 / S, S being the signal's own smoothed power.
+struct BandErrors {
+  double low_hz = 0.0;
+  double high_hz = 0.0;
+  double error = 0.0;
+  double ceiling = 0.0;
+};
+
+// One record's bins, a row each.
+struct PredictedSignals {
+  double cycle_hz = 0.0;
+  double bin_hz = 0.0;
+  Eigen::VectorXd frequency_hz;
+  Eigen::VectorXd share;  // what a bin counts for; nothing where it is masked
+  Eigen::VectorXcd pressure;
+  Eigen::VectorXcd heat_release;
+  Eigen::VectorXd pressure_power;  // smoothed
+  Eigen::VectorXd heat_release_power;
+  Eigen::VectorXcd pressure_error;  // of the prediction from the other signal
+  Eigen::VectorXcd heat_release_error;
+};
+
+// The bands of p, then those of q.
+std::vector<BandErrors> ErrorsOverBands(const PredictedSignals& signals);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_HELD_OUT_BAND_ERRORS_H_
