@@ -98,7 +98,7 @@ class Finder {
 
   void RequirePapersLoop() const {
     if (config_.record_loop)
-      Fail("the config's model states a loop that howl fit, simulate and predict take");
+      Fail("the config's model states a loop that howl fit, simulate, predict and diagnose take");
   }
 
   void DescribeResiduals(const JointProblem& problem, Ability& ability) const {
@@ -238,7 +238,7 @@ class Finder {
   }
 
   void Diagnose(Ability& ability) const {
-    RequirePapersLoop();
+    if (config_.record_loop) return FitRecords(ability);
     ability.text = WhatDiagnoseCanDo(config_, input_);
     ability.details = {{"records", input_.records.size()}};
   }

@@ -12,6 +12,7 @@
 #include "app/diagnose/diagnose_plan.h"
 #include "app/diagnose/diagnose_state.h"
 #include "app/diagnose/diagnose_table.h"
+#include "app/diagnose/loop_diagnosis_run.h"
 #include "app/diagnose/planned_records.h"
 #include "app/files/digest.h"
 #include "app/input/diagnose_input.h"
@@ -85,8 +86,9 @@ void Adopt(const Options& options, const Units& units) {
 }
 
 int Run(const Options& options) {
+  const Config config = LoadConfig(options.config, LoopsTaken::kAny);
+  if (config.record_loop) return RunLoopDiagnosis(config, options);
   const std::optional<Shard> shard = ShardOfReplicates(options);
-  const Config config = LoadConfig(options.config);
   if (options.Has("--plan")) return RunPlan(config, options, Withheld(options));
   if (!HasRecords(config)) return RunTable(config, options);
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);

@@ -9,24 +9,32 @@ namespace {
 constexpr int kFormat = 1;
 constexpr const char* kComplete = "complete";
 
-std::string Header(const Config& config, const Options& options) {
-  return "howl.fit.state/" + std::to_string(kFormat) + " " + ProgramIdentity() + " " +
-         std::to_string(options.seed) + " " + ConfigInputsSha256(config);
+std::string Header(const Config& config, const Options& options, const std::string& file,
+                   const std::string& choices) {
+  return "howl." + file + "/" + std::to_string(kFormat) + " " + ProgramIdentity() + " " +
+         std::to_string(options.seed) + " " + ConfigInputsSha256(config) +
+         (choices.empty() ? "" : " " + choices);
 }
 
 }  // namespace
 
-FitState::FitState(const Config& config, const Options& options, bool anew)
-    : path_(options.out / "fit.state") {
+FitState::FitState(const Config& config, const Options& options, const std::string& file,
+                   const std::string& choices)
+    : path_(options.out / file), header_(Header(config, options, file, choices)) {
   WatchForInterruption();
-  const std::string header = Header(config, options);
-  store_ = std::make_unique<UnitStore>(path_, header);
-  const bool complete = store_->found().contains(kComplete);
-  if (anew && complete) {
-    store_->Forget();
-    store_ = std::make_unique<UnitStore>(path_, header);
-  }
-  if (!options.quiet && !complete) SayWhereItGoesOn(*store_, path_);
+  store_ = std::make_unique<UnitStore>(path_, header_);
+}
+
+bool FitState::IsComplete() const { return store_->found().contains(kComplete); }
+
+void FitState::BeginAnewIfComplete() {
+  if (!IsComplete()) return;
+  store_->Forget();
+  store_ = std::make_unique<UnitStore>(path_, header_);
+}
+
+void FitState::SayWhereItStands() const {
+  if (!IsComplete()) SayWhereItGoesOn(*store_, path_);
 }
 
 std::optional<std::string> FitState::Recall(const std::string& key) {
@@ -44,7 +52,7 @@ void FitState::Keep(const std::string& key, const std::string& bytes) {
 }
 
 void FitState::Complete() {
-  if (!store_->found().contains(kComplete)) store_->Append(kComplete, "");
+  if (!IsComplete()) store_->Append(kComplete, "");
 }
 
 }  // namespace howl

@@ -1,7 +1,8 @@
-// The fits of points that a fit of records has finished, in DIR/fit.state (app/jobs/unit_store.h):
-// a fit that was interrupted, or killed, goes on where it stopped, and what comes after a fit
-// (simulate, predict) takes its loops from there. The header names the format, the build of the
-// program (another may fit otherwise), the seed, and the inputs.
+// The fits of points that a fit of records has finished, in DIR/fit.state, or those of a diagnosis,
+// in DIR/diagnosis.state (app/jobs/unit_store.h): work that was interrupted, or killed, goes on
+// where it stopped, and what comes after a fit (simulate, predict) takes its loops from there. The
+// header names the format, the build of the program (another may fit otherwise), the seed, and the
+// inputs.
 #ifndef HOWL_APP_INPUT_FIT_STATE_H_
 #define HOWL_APP_INPUT_FIT_STATE_H_
 
@@ -20,17 +21,27 @@ namespace howl {
 
 class FitState final : public FitUnits {
  public:
-  // anew: what a fit that came to its end has left is removed first, so that howl fit fits.
-  FitState(const Config& config, const Options& options, bool anew);
+  // `choices`: what else than config, records and random seed the fits depend on; no line's end.
+  FitState(const Config& config, const Options& options, const std::string& file,
+           const std::string& choices = "");
+
+  // What a fit that came to its end has left is removed, so that howl fit fits.
+  void BeginAnewIfComplete();
+  // On standard error, where there is work to go on from.
+  void SayWhereItStands() const;
 
   // Throws Interrupted where the user has asked for a stop: what is finished is kept.
   std::optional<std::string> Recall(const std::string& key) override;
   void Keep(const std::string& key, const std::string& bytes) override;
   // The whole fit is there.
   void Complete();
+  void Forget() { store_->Forget(); }
 
  private:
+  bool IsComplete() const;
+
   std::filesystem::path path_;
+  std::string header_;
   std::unique_ptr<UnitStore> store_;
 };
 

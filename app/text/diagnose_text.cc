@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 
+#include "app/text/budget_text.h"
 #include "app/text/text_table.h"
 #include "io/results/verdict_remarks.h"
 
@@ -15,17 +16,6 @@ constexpr double kPerCent = 100.0;
 constexpr std::size_t kShownCandidates = 5;
 constexpr std::size_t kShownMoved = 4;
 constexpr double kMovedShare = 0.03;
-
-std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
-  std::string text;
-  for (const EstimatedParameter& parameter : parameters) {
-    if (!text.empty()) text += ", ";
-    text += parameter.name + " " + Significant(parameter.value, 4);
-    if (!parameter.unit.empty()) text += " " + parameter.unit;
-    if (parameter.at_bound) text += " (at bound)";
-  }
-  return text;
-}
 
 // Base parameters that had absorbed the effect; empty if none had.
 std::string MovedText(const Diagnosis& diagnosis) {
@@ -86,36 +76,6 @@ std::string BaseText(const Diagnosis& diagnosis) {
   return Wrapped(text, 2) + "\n";
 }
 
-// The budget as a waterfall: a bar as long as the gap before each item, of which the item takes off
-// the light part.
-void PrintBudget(const Budget& budget) {
-  constexpr double kWidth = 40.0;
-  std::printf("budget, left out: several causes take the gap from %.3f to %.3f\n",
-              budget.gap_before, budget.gap_left);
-  TextTable table({"item", "gap after", "", "lost without: nats", "gap", "points", "estimate"});
-  for (const BudgetEntry& entry : budget.entries) {
-    const auto cells = [&](double gap) {
-      return static_cast<std::size_t>(
-          std::lround(kWidth * std::clamp(gap / std::max(budget.gap_before, 1e-12), 0.0, 1.0)));
-    };
-    const std::size_t stays = cells(entry.gap_after);
-    const std::size_t was = std::max(cells(entry.gap_before), stays);
-    std::string names = entry.item;
-    for (const std::string& other : entry.equals) names += " = " + other;
-    table.AddRow(
-        {names, Fixed(entry.gap_after, 3), std::string(stays, '#') + std::string(was - stays, '.'),
-         Fixed(entry.lost_nats, 1), Fixed(entry.lost_gap, 3),
-         std::to_string(entry.experiments_better) + "/" + std::to_string(budget.experiments),
-         ParameterText(entry.parameters)});
-  }
-  std::printf("%s", table.Text().c_str());
-  for (const Place& place : budget.left) {
-    std::printf("left: %s, %.0f to %.0f Hz, %zu experiments (share %.2f)\n",
-                place.block == LoopBlock::kAcoustics ? "p from q" : "q from p", place.low_hz,
-                place.high_hz, place.experiments.size(), place.share);
-  }
-}
-
 }  // namespace
 
 void PrintDiagnosis(const Diagnosis& diagnosis) {
@@ -174,7 +134,7 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
   std::printf("%s", table.Text().c_str());
   std::printf("%s", BoundText(diagnosis).c_str());
   std::printf("%s", MovedText(diagnosis).c_str());
-  if (diagnosis.budget) PrintBudget(*diagnosis.budget);
+  if (diagnosis.budget) std::printf("%s", BudgetText(*diagnosis.budget).c_str());
   std::printf("next: %s\n", diagnosis.advice.c_str());
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kFirstDamping = 0.1;
 constexpr double kMostDamping = 1e12;
-// Of a parameter, in its prior's deviations: from a start far from any maximum a quadratic may point
-// to where no rig is, and the likelihood be flat.
+// Of a parameter, in deviations of what it may be on any rig (point_prior.h): from a start far from
+// any maximum a quadratic may point to where no rig is, and the likelihood be flat.
 constexpr double kLongestStep = 3.0;
 constexpr double kNear = 20.0;  // nats foretold, from which on steps correct the information
 constexpr int kMostCorrections = 12;
@@ -184,6 +184,8 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   PointFit out;
   out.parameters = Possible(record, structure, std::move(start));
   out.log_posterior = Value(record, structure, prior, out.parameters);
+  const Eigen::VectorXd narrower =
+      prior.deviation.cwiseQuotient(PriorOf(structure, record).deviation);
   double damping = kFirstDamping;
   double raise = 2.0;
   int corrections = 0;
@@ -195,7 +197,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     Eigen::MatrixXd damped = information;
     damped.diagonal().array() *= 1.0 + damping;
     Eigen::VectorXd step = SolveSymmetric(damped, here.gradient);
-    step *= std::min(1.0, kLongestStep / step.cwiseAbs().maxCoeff());
+    step *= std::min(1.0, kLongestStep / step.cwiseProduct(narrower).cwiseAbs().maxCoeff());
     const double foretold = here.gradient.dot(step) - 0.5 * step.dot(information * step);
     if (damping < 1.0 && foretold < options.converged) {
       if (source == Source::kCurvature || options.converged >= kNear) {

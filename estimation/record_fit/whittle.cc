@@ -298,6 +298,14 @@ LoopScore Gather(const std::vector<NoiseTerm>& noise, const Bins& bins, const Lo
 
 }  // namespace
 
+Eigen::Matrix2cd NoiseCovariance(const std::vector<NoiseTerm>& noise, const LoopResiduals& at,
+                                 Eigen::Index bin) {
+  const Hermitian sigma = Sigma(DirectionsOf(noise, at, bin), at, bin);
+  Eigen::Matrix2cd out;
+  out << sigma.aa, sigma.ab, std::conj(sigma.ab), sigma.bb;
+  return out;
+}
+
 double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                             const LoopResiduals& at) {
   double sum = 0.0;

@@ -56,6 +56,10 @@ struct LoopScore {
   Eigen::MatrixXd information;
 };
 
+// Sigma at one bin.
+Eigen::Matrix2cd NoiseCovariance(const std::vector<NoiseTerm>& noise, const LoopResiduals& at,
+                                 Eigen::Index bin);
+
 // Without the determinant. share: what each bin counts for. -infinity where Sigma is singular.
 double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                             const LoopResiduals& at);

@@ -71,7 +71,7 @@ TEST(ConfigRecordLoop, SaysWhatIsWrong) {
   EXPECT_THAT(Mistake("residue: imaginary"), HasSubstr("model.residue"));
   EXPECT_THAT(Mistake("modes: 2.5"), HasSubstr("model.modes"));
   EXPECT_THAT(Mistake("modes: 3", LoopsTaken::kPapers),
-              HasSubstr(":3: model: states a loop that howl fit, simulate and predict take"));
+              HasSubstr(":3: model: states a loop that howl fit, simulate, predict and diagnose take"));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ Config LoadConfig(const std::filesystem::path& path, LoopsTaken loops) {
   if (config.record_loop && loops == LoopsTaken::kPapers) {
     throw UserError(
         file, config.model_line, "model",
-        "states a loop that howl fit, simulate and predict take, expected modes: 1 or 2, "
+        "states a loop that howl fit, simulate, predict and diagnose take, expected modes: 1 or 2, "
         "ratio: a number, damping: shared, residue: real, flame_input: pressure_rate, "
         "delay_spread: none");
   }

@@ -1,0 +1,101 @@
+#include "app/diagnose/loop_diagnosis_run.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/command_line/command.h"
+#include "app/input/fit_state.h"
+#include "app/input/usable_records.h"
+#include "app/process/progress_line.h"
+#include "app/text/loop_diagnosis_text.h"
+#include "diagnosis/loop_budget/loop_budget.h"
+#include "estimation/joint_records/record_loop_spec.h"
+#include "io/config/schema/nearest_key.h"
+#include "io/results/loop_diagnosis_json.h"
+#include "io/user_error.h"
+#include "io/whole_file.h"
+
+namespace howl {
+namespace {
+
+// Options that another base takes alone.
+void RefuseOthers(const Options& options) {
+  for (const char* option : {"--reference", "--bootstrap", "--plan", "--shard"}) {
+    if (!options.Has(option)) continue;
+    throw UsageError(std::string(option) +
+                     ": the config's model states a loop that is fitted to records, expected the "
+                     "paper's loop for it");
+  }
+}
+
+std::vector<std::string> WithheldItems(const std::string& text) {
+  const std::vector<std::string> known = LoopItemIds();
+  std::vector<std::string> out;
+  std::istringstream list(text);
+  for (std::string id; std::getline(list, id, ',');) {
+    if (std::ranges::find(known, id) == known.end()) {
+      const std::optional<std::string> nearest = NearestKey(id, known);
+      throw UsageError("--without: " + id + " is nothing that a loop of records may lack" +
+                       (nearest ? ", did you mean " + *nearest + "?" : ""));
+    }
+    out.push_back(id);
+  }
+  return out;
+}
+
+// The config's loop with the least noise that a rig has, and no errors: what more there is, is
+// found.
+LoopForm BaseOf(const Config& config) {
+  const RecordLoopSpec& spec = *config.record_loop;
+  if (spec.choose_modes) {
+    throw UserError(config.source.string(), config.tree.Find("model")->value.line, "model: modes",
+                    "is auto, expected a number: diagnose adds modes to it");
+  }
+  LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
+  out.structure.noise = LeastNoise();
+  out.structure.acoustic_lines = out.structure.flame_lines = 0;
+  return out;
+}
+
+}  // namespace
+
+int RunLoopDiagnosis(const Config& config, const Options& options) {
+  RefuseOthers(options);
+  const std::string without = options.Text("--without").value_or("");
+  LoopBudgetOptions how;
+  how.withheld = WithheldItems(without);
+  const LoopForm base = BaseOf(config);
+  std::vector<LoopRecord> records;
+  for (const UsableRecord& each : LoadUsableRecords(config, options)) {
+    records.push_back({each.record.name, each.record.phi, each.cycle_hz, each.record.record});
+  }
+  FitState state(config, options, "diagnosis.state", without);
+  if (!options.quiet) state.SayWhereItStands();
+  how.starts = StatedStarts(config).value_or(how.starts);
+  how.seed = options.seed;
+  how.threads = options.threads;
+  how.units = &state;
+  if (!options.quiet && isatty(STDERR_FILENO) != 0) {
+    how.progress = [](std::size_t done, std::size_t total) {
+      static ProgressLine line("fits of a step of the budget", false);
+      line.Show(done, total);
+    };
+  }
+  const LoopDiagnosis found = DiagnoseLoops(records, base, how);
+  const std::filesystem::path path = options.out / "diagnosis.json";
+  WriteWholeFile(path, LoopDiagnosisJson(found).dump(2) + "\n");
+  state.Forget();
+  if (!options.quiet) {
+    std::printf("%s", LoopDiagnosisText(found).c_str());
+    std::printf("written: %s\n", path.c_str());
+  }
+  return kDone;
+}
+
+}  // namespace howl

@@ -1,0 +1,32 @@
+// The records to which a loop is fitted (Config::record_loop): both signals, long enough, each with
+// the frequency about which its band lies.
+#ifndef HOWL_APP_INPUT_USABLE_RECORDS_H_
+#define HOWL_APP_INPUT_USABLE_RECORDS_H_
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "app/command_line/options.h"
+#include "app/input/record_input.h"
+#include "io/config/config.h"
+
+namespace howl {
+
+struct UsableRecord {
+  NamedRecord record;
+  // Of the cycle, or of the strongest peak where there is none.
+  double cycle_hz = 0.0;
+  // Of the fundamental of p; zero where the record shows no cycle.
+  double cycle_amplitude = 0.0;
+};
+
+// Throws UserError where an experiment has no record of both signals that is long enough.
+std::vector<UsableRecord> LoadUsableRecords(const Config& config, const Options& options);
+
+// The starts of a fit, where the config states them: a record needs more of them than a table does.
+std::optional<std::size_t> StatedStarts(const Config& config);
+
+}  // namespace howl
+
+#endif  // HOWL_APP_INPUT_USABLE_RECORDS_H_

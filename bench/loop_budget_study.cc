@@ -1,0 +1,79 @@
+// The budget of measured records by the likelihood of loops (diagnosis/loop_budget):
+//
+//   loop_budget_study CONFIG [EXPERIMENT ...]
+//
+// From the paper's loop on, or from that of the config's model where it states another. With
+// GLOG_v=1 and GLOG_logtostderr=1 it says what each step tried.
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "bench/load_rig.h"
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/loop_budget/loop_budget.h"
+#include "estimation/joint_records/record_loop_spec.h"
+#include "io/config/reading/config_reading.h"
+
+namespace howl {
+namespace {
+
+LoopForm BaseOf(const Config& config) {
+  RecordLoopSpec spec;
+  spec.ratio = 3.0;
+  spec.own_damping = false;
+  spec.complex_residues = false;
+  if (config.record_loop) spec = *config.record_loop;
+  LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
+  out.structure.noise = LeastNoise();
+  out.structure.acoustic_lines = out.structure.flame_lines = 0;
+  return out;
+}
+
+void PrintPlaces(const Budget& budget) {
+  for (const Place& place : budget.left) {
+    std::printf("left: %s, %.0f to %.0f Hz, share %.2f at", LoopBlockName(place.block).data(),
+                place.low_hz, place.high_hz, place.share);
+    for (const std::string& name : place.experiments) std::printf(" %s", name.c_str());
+    std::printf("\n");
+  }
+}
+
+int Run(int argc, char** argv) {
+  const auto begun = std::chrono::steady_clock::now();
+  const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
+  const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
+  const std::vector<CutRecord> cuts = MakeCutRecords(rig);
+  std::vector<LoopRecord> records;
+  for (std::size_t e = 0; e < rig.size(); ++e) {
+    records.push_back({rig[e].name, rig[e].phi, cuts[e].at.cycle_frequency_hz, rig[e].record});
+  }
+  const LoopDiagnosis found = DiagnoseLoops(records, BaseOf(config), {});
+  const Budget& budget = *found.diagnosis.budget;
+  std::printf("gap %.3f, left %.3f: %.2f of it\n", budget.gap_before, budget.gap_left,
+              budget.gap_left / budget.gap_before);
+  for (const BudgetEntry& entry : budget.entries) {
+    std::printf(
+        "%-24s gap %.3f to %.3f  lost without: %8.1f nats, gap %.3f, halves %.0f %.0f, "
+        "%zu of %zu ",
+        entry.item.c_str(), entry.gap_before, entry.gap_after, entry.lost_nats, entry.lost_gap,
+        entry.lost_on_halves[0], entry.lost_on_halves[1], entry.experiments_better,
+        budget.experiments);
+    for (const EstimatedParameter& p : entry.parameters) {
+      std::printf(" %s %.4g (%.4g .. %.4g)", p.name.c_str(), p.value, p.low, p.high);
+    }
+    for (const std::string& other : entry.equals) std::printf(" = %s", other.c_str());
+    std::printf("\n");
+  }
+  PrintPlaces(budget);
+  std::printf("lines: acoustics %.1f nats, size %.3f; flame %.1f nats, size %.3f\n",
+              found.acoustics.nats, found.acoustics.size, found.flame.nats, found.flame.size);
+  std::printf("%.0f s\n",
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+  return 0;
+}
+
+}  // namespace
+}  // namespace howl
+
+int main(int argc, char** argv) { return howl::Run(argc, argv); }

@@ -1,0 +1,142 @@
+#include "diagnosis/loop_budget/loop_budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "diagnosis/held_out/common_ceiling.h"
+#include "diagnosis/held_out/places_left.h"
+#include "diagnosis/loop_budget/loop_held_out.h"
+#include "diagnosis/loop_budget/loop_item_parameters.h"
+#include "diagnosis/loop_budget/loop_search.h"
+#include "estimation/joint_records/shared_units.h"
+
+namespace howl {
+namespace {
+
+constexpr double kOddsOfUnknown = 20.0;
+
+std::size_t Better(const LoopFit& with, const LoopFit& without) {
+  std::size_t out = 0;
+  for (std::size_t e = 0; e < with.log_density.size(); ++e) {
+    if (with.log_density[e] > without.log_density[e]) ++out;
+  }
+  return out;
+}
+
+LinesLeft LinesOf(const LoopRecords& records, const LoopFit& best, const LoopFit& with) {
+  const SharedUnits units(with.model.structure, records.Whole(with.model.flame_input, 0),
+                          with.fit.reference);
+  return {with.Density() - best.Density(), with.fit.law.spread[units.errors().front().first],
+          Better(with, best)};
+}
+
+Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
+                const LoopBudgetOptions& options) {
+  const HeldOutScore base = ScoreHeldOut(records, found.base, "base/", options);
+  const HeldOutScore best = ScoreHeldOut(records, found.best, "best/", options);
+  std::vector<HeldOutScore> after;
+  std::vector<HeldOutScore> without;
+  CommonCeiling ceiling;
+  ceiling.Lower(base);
+  ceiling.Lower(best);
+  for (std::size_t i = 0; i < found.steps.size(); ++i) {
+    const std::string number = std::to_string(i) + "/";
+    after.push_back(ScoreHeldOut(records, found.steps[i].after, "after/" + number, options));
+    without.push_back(ScoreHeldOut(records, found.without[i], "lost/" + number, options));
+    ceiling.Lower(after.back());
+    ceiling.Lower(without.back());
+  }
+  Budget out;
+  out.experiments = records.size();
+  out.gap_before = ceiling.Gap(base);
+  out.gap_left = ceiling.Gap(best);
+  double before = out.gap_before;
+  auto mode = static_cast<std::size_t>(found.base.model.structure.modes);
+  for (std::size_t i = 0; i < found.steps.size(); ++i) {
+    const LoopStep& step = found.steps[i];
+    BudgetEntry entry;
+    entry.item = step.item.id;
+    entry.gap_before = before;
+    entry.gap_after = ceiling.Gap(after[i]);
+    before = entry.gap_after;
+    entry.lost_nats = found.best.Density() - found.without[i].Density();
+    entry.lost_gap = ceiling.Gap(without[i]) - out.gap_left;
+    for (std::size_t half = 0; half < 2; ++half) {
+      entry.lost_on_halves[half] = best.Nats(half) - without[i].Nats(half);
+    }
+    entry.experiments_better = Better(found.best, found.without[i]);
+    entry.equals = step.equals;
+    entry.parameters = LoopItemParameters(records, found.best, step.item, mode);
+    if (step.item.kind == LoopItemKind::kMode) ++mode;
+    out.entries.push_back(std::move(entry));
+  }
+  if (out.gap_left > 0.0) out.left = PlacesLeft(records.names(), ceiling.Against(best));
+  return out;
+}
+
+std::string Joined(const Budget& budget) {
+  std::string out;
+  for (const BudgetEntry& entry : budget.entries) out += (out.empty() ? "" : "+") + entry.item;
+  return out;
+}
+
+void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
+  Diagnosis& diagnosis = out->diagnosis;
+  const double lines = std::max(out->acoustics.nats, out->flame.nats);
+  const bool unknown = lines > std::log(kOddsOfUnknown);
+  const bool any = !found.steps.empty();
+  diagnosis.kind = unknown ? VerdictKind::kUnknown
+                   : any   ? VerdictKind::kEffect
+                           : VerdictKind::kNone;
+  if (diagnosis.kind == VerdictKind::kEffect) diagnosis.effect = Joined(*diagnosis.budget);
+  const double best = found.best.Density();
+  const double with_lines = best + lines;
+  const double base = found.base.Density();
+  const double most = std::max({with_lines, best, base});
+  const std::array<double, 3> odds = {std::exp(with_lines - most),
+                                      any ? std::exp(best - most) : 0.0, std::exp(base - most)};
+  const double sum = odds[0] + odds[1] + odds[2];
+  diagnosis.probability_unknown = odds[0] / sum;
+  diagnosis.probability_none = odds[2] / sum;
+  if (any) {
+    Candidate candidate;
+    candidate.effect = Joined(*diagnosis.budget);
+    candidate.probability = odds[1] / sum;
+    candidate.gain = found.best.Density() - found.base.Density();
+    candidate.gap_after = diagnosis.budget->gap_left;
+    candidate.shrinkage = diagnosis.budget->gap_before > 0.0
+                              ? 1.0 - diagnosis.budget->gap_left / diagnosis.budget->gap_before
+                              : 0.0;
+    candidate.shrinkage_low = candidate.shrinkage_high = std::numeric_limits<double>::quiet_NaN();
+    candidate.p_value = std::numeric_limits<double>::quiet_NaN();
+    diagnosis.candidates.push_back(std::move(candidate));
+  }
+}
+
+}  // namespace
+
+LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& base,
+                            const LoopBudgetOptions& options) {
+  const LoopRecords records(all, options.threads);
+  const LoopFound found = SearchLoopBudget(records, base, options);
+  LoopDiagnosis out;
+  out.base = base;
+  out.best = found.best.model;
+  out.acoustics = LinesOf(records, found.best, found.with_acoustic_lines);
+  out.flame = LinesOf(records, found.best, found.with_flame_lines);
+  Diagnosis& diagnosis = out.diagnosis;
+  diagnosis.budget = BudgetOf(records, found, options);
+  diagnosis.where = diagnosis.budget->left;
+  diagnosis.gap_before = diagnosis.budget->gap_before;
+  diagnosis.gap_after = diagnosis.budget->gap_left;
+  diagnosis.gap_floor = std::numeric_limits<double>::quiet_NaN();
+  diagnosis.budget->acoustic_error = out.acoustics.size;
+  diagnosis.budget->flame_error = out.flame.size;
+  TakeVerdict(found, &out);
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,40 @@
+// The diagnosis of loops that records show (record_loop_spec.h): which sources of noise and which
+// freedoms the config's loop lacks, one after the other, how much each explains, and what is left.
+//
+// The verdict names all that was added, in that order; `none` where nothing pays. It is `unknown`
+// where free errors at the cycle's lines (loop_point.h), of the acoustics or of the flame, foretell
+// records better still, by more than chance: the best loop then is not the rig's. The probabilities
+// are those of the base, of the best loop, and of that with such errors, by the densities of what
+// was left out.
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/verdict/diagnosis_result.h"
+
+namespace howl {
+
+// Free errors of a cut of the best loop at the cycle's lines.
+struct LinesLeft {
+  double nats = 0.0;  // gained with them, of what was left out
+  double size = 0.0;  // relative: what the law of the points has (parameter_law.h)
+  std::size_t experiments_better = 0;
+};
+
+struct LoopDiagnosis {
+  Diagnosis diagnosis;  // with its budget; candidates and map are empty
+  LoopForm base;
+  LoopForm best;
+  LinesLeft acoustics;
+  LinesLeft flame;
+};
+
+LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& records, const LoopForm& base,
+                            const LoopBudgetOptions& options);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_

@@ -1,0 +1,83 @@
+#include "diagnosis/loop_budget/loop_held_out.h"
+
+#include <Eigen/LU>
+
+#include "estimation/parallel.h"
+#include "model/numerics/dense_algebra.h"
+
+namespace howl {
+namespace {
+
+constexpr Eigen::Index kPowerReach = 4;  // bins to either side, of smoothed powers
+
+// With what the modes hold at this record's ends: E_A is linear in it, so that one step is exact.
+Eigen::VectorXd WithTransientsOf(const RecordSpectra& record, const PointStructure& structure,
+                                 const PointPrior& prior, Eigen::VectorXd parameters) {
+  const Eigen::Index first = structure.Transfer();
+  const Eigen::Index count = structure.Transients();
+  parameters.segment(first, count).setZero();
+  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  const LoopScore score =
+      WhittleScore(structure.noise, record.share, ResidualsOf(record, structure, point),
+                   DerivativesOf(record, structure, point));
+  Eigen::MatrixXd information = score.information.block(first, first, count, count);
+  information.diagonal() += prior.deviation.segment(first, count).cwiseAbs2().cwiseInverse();
+  parameters.segment(first, count) =
+      SolveSymmetric(information, score.gradient.segment(first, count));
+  return parameters;
+}
+
+std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructure& structure,
+                                 const Eigen::VectorXd& parameters) {
+  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  const LoopResiduals residuals = ResidualsOf(record, structure, point);
+  PredictedSignals signals;
+  signals.cycle_hz = record.scale.cycle_hz;
+  signals.bin_hz = record.bin_hz;
+  signals.frequency_hz = record.s.imag() * record.scale.cycle_hz;
+  signals.share = record.share;
+  signals.pressure = Tapered(record.pressure);
+  signals.heat_release = Tapered(record.heat_release);
+  signals.pressure_power = SmoothPower(signals.pressure, kPowerReach);
+  signals.heat_release_power = SmoothPower(signals.heat_release, kPowerReach);
+  signals.pressure_error.resize(record.bins());
+  signals.heat_release_error.resize(record.bins());
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const Eigen::Matrix2cd w = NoiseCovariance(structure.noise, residuals, i).inverse();
+    const Eigen::Vector2cd we = w * Eigen::Vector2cd(residuals.acoustic[i], residuals.flame[i]);
+    const auto error = [&](const Eigen::Vector2cd& u) { return u.dot(we) / u.dot(w * u).real(); };
+    signals.pressure_error[i] = error({1.0, -residuals.f[i]});
+    signals.heat_release_error[i] = error({-residuals.r[i], 1.0});
+  }
+  return ErrorsOverBands(signals);
+}
+
+}  // namespace
+
+HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const std::string& key,
+                          const LoopBudgetOptions& options) {
+  const FlameInput input = fit.model.flame_input;
+  const PointStructure& structure = fit.model.structure;
+  const std::vector<PointPrior> prior =
+      records.size() == 1 ? fit.fit.prior
+                          : PriorsOfOthers(records.Points(input), fit.fit, options.threads);
+  HeldOutScore out;
+  out.nats.resize(records.size());
+  out.errors.resize(records.size());
+  RunUnits(2 * records.size(), options.threads, [&](std::size_t i) {
+    const std::size_t e = i / 2;
+    const std::size_t half = i % 2;
+    const PointFit of_other = KeptFit(
+        options.units, key + "half/" + std::to_string(1 - half) + "/" + std::to_string(e), [&] {
+          return FitPoint(records.Half(input, e, 1 - half), structure, prior[e],
+                          fit.fit.points[e].parameters);
+        });
+    const RecordSpectra& here = records.Half(input, e, half);
+    const Eigen::VectorXd at = WithTransientsOf(here, structure, prior[e], of_other.parameters);
+    out.nats[e][half] = LogLikelihood(here, structure, at);
+    out.errors[e][half] = ErrorsOf(here, structure, at);
+  });
+  return out;
+}
+
+}  // namespace howl

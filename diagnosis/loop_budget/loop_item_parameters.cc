@@ -1,0 +1,89 @@
+#include "diagnosis/loop_budget/loop_item_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace howl {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+// The root mean square of what a source adds to its signal, over that of the signal: each bin of a
+// tapered spectrum stands for both signs of its frequency, and the taper doubles the power.
+double RelativeAmplitude(const RecordSpectra& record, const PointStructure& structure,
+                         const LoopPoint& point, LoopNoise source) {
+  const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
+  const auto j = static_cast<std::size_t>(at - structure.noise.begin());
+  const double power = LoopNoiseSpectrum(record.position, point.noise[j]).sum();
+  return std::sqrt(power * record.bin_hz / record.sampling_hz);
+}
+
+}  // namespace
+
+std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, const LoopFit& fit,
+                                                   const LoopItem& item, std::size_t mode) {
+  std::vector<EstimatedParameter> out;
+  using ValueOf = std::function<double(const RecordSpectra&, const LoopPoint&)>;
+  const auto add = [&](const std::string& name, const std::string& unit, const ValueOf& value_of) {
+    EstimatedParameter parameter{name, 0.0, 0.0, 0.0, unit};
+    for (std::size_t e = 0; e < records.size(); ++e) {
+      const RecordSpectra& record = records.Whole(fit.model.flame_input, e);
+      const double value = value_of(
+          record, ToPoint(fit.model.structure, record.flame.cols(), fit.fit.points[e].parameters));
+      parameter.low = e == 0 ? value : std::min(parameter.low, value);
+      parameter.high = e == 0 ? value : std::max(parameter.high, value);
+      parameter.value += value / static_cast<double>(records.size());
+    }
+    out.push_back(std::move(parameter));
+  };
+  const auto mode_hz = [&](std::size_t k) {
+    return [k](const RecordSpectra& record, const LoopPoint& point) {
+      return point.modes[k].omega * record.scale.cycle_hz;
+    };
+  };
+  const auto xi_of = [](std::size_t k) {
+    return [k](const RecordSpectra&, const LoopPoint& point) { return point.modes[k].xi; };
+  };
+  switch (item.kind) {
+    case LoopItemKind::kNoise:
+      add("amplitude", "", [&](const RecordSpectra& record, const LoopPoint& point) {
+        return RelativeAmplitude(record, fit.model.structure, point, item.noise.source);
+      });
+      break;
+    case LoopItemKind::kDetuning:
+      add("ratio", "", [](const RecordSpectra&, const LoopPoint& point) {
+        return point.modes[1].omega / point.modes[0].omega;
+      });
+      break;
+    case LoopItemKind::kOwnDamping:
+      add("xi_1", "", xi_of(0));
+      add("xi_2", "", xi_of(1));
+      break;
+    case LoopItemKind::kComplexResidues:
+      add("angle_1", "deg", [](const RecordSpectra&, const LoopPoint& point) {
+        return kDegrees * std::atan2(point.modes[0].b, point.modes[0].a);
+      });
+      break;
+    case LoopItemKind::kMode:
+      add("omega_hz", "Hz", mode_hz(mode));
+      add("xi", "", xi_of(mode));
+      break;
+    case LoopItemKind::kDelaySpread:
+      add("sigma_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
+        return point.path.rho * point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz);
+      });
+      break;
+    case LoopItemKind::kFlameInput:
+      add("tau_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
+        return point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz);
+      });
+      break;
+  }
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,19 @@
+// What an item of a budget is in numbers: the mean over the operating points of the best loop,
+// between the least and the largest.
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
+
+#include <vector>
+
+#include "diagnosis/fit/estimated_parameter.h"
+#include "diagnosis/loop_budget/loop_starts.h"
+
+namespace howl {
+
+// `mode`: where an item is a mode, its place among the loop's.
+std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, const LoopFit& fit,
+                                                   const LoopItem& item, std::size_t mode);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_

@@ -1,0 +1,51 @@
+// The records of a rig's operating points, whole and in halves, made ready for the likelihood
+// (record_spectra.h) with each of the flame's inputs.
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "estimation/joint_records/records_fit.h"
+
+namespace howl {
+
+// One operating point: a record of both signals, and the frequency of its cycle.
+struct LoopRecord {
+  std::string name;
+  double operating_parameter = 0.0;
+  double cycle_hz = 0.0;
+  Record record;
+};
+
+class LoopRecords {
+ public:
+  LoopRecords(const std::vector<LoopRecord>& records, int threads);
+
+  std::size_t size() const { return names_.size(); }
+  const std::vector<std::string>& names() const { return names_; }
+  const std::vector<OperatingPoint>& Points(FlameInput input) const { return Of(input).points; }
+  const RecordSpectra& Whole(FlameInput input, std::size_t e) const {
+    return Of(input).points[e].record;
+  }
+  // In the units of the whole.
+  const RecordSpectra& Half(FlameInput input, std::size_t e, std::size_t half) const {
+    return Of(input).halves[e][half];
+  }
+
+ private:
+  struct Spectra {
+    std::vector<OperatingPoint> points;
+    std::vector<std::array<RecordSpectra, 2>> halves;
+  };
+  const Spectra& Of(FlameInput input) const { return spectra_[static_cast<std::size_t>(input)]; }
+
+  std::vector<std::string> names_;
+  std::array<Spectra, 3> spectra_;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_

@@ -1,0 +1,147 @@
+#include "diagnosis/loop_budget/loop_search.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace howl {
+namespace {
+
+constexpr double kOdds = 20.0;  // that an item comes in by chance, to one
+constexpr double kOddsOfClass = 50.0;
+constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain most
+constexpr std::size_t kMostItems = 16;
+
+class Search {
+ public:
+  Search(const LoopRecords& records, const LoopForm& base, const LoopBudgetOptions& options)
+      : records_(records), base_(base), options_(options) {}
+
+  LoopFound Run() const;
+
+ private:
+  LoopFit FitBase() const;
+  // No value where nothing pays any more.
+  std::optional<LoopStep> Next(const LoopFit& from, std::size_t step) const;
+  LoopFit Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
+                  const std::string& key) const;
+  LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
+
+  const LoopRecords& records_;
+  const LoopForm& base_;
+  const LoopBudgetOptions& options_;
+};
+
+LoopFit Search::FitBase() const {
+  RecordsFitOptions fit_options;
+  fit_options.starts = options_.starts;
+  fit_options.seed = options_.seed;
+  fit_options.threads = options_.threads;
+  fit_options.units = options_.units;
+  fit_options.key = "base/";
+  const std::vector<OperatingPoint>& points = records_.Points(base_.flame_input);
+  LoopFit out{base_, FitRecords(points, base_.structure, fit_options), {}};
+  out.log_density = LeftOutDensities(points, out.fit, fit_options);
+  return out;
+}
+
+std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) const {
+  std::vector<LoopItem> items = LoopItems(from.model, base_);
+  std::erase_if(items, [&](const LoopItem& item) {
+    return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
+  });
+  if (items.empty()) return std::nullopt;
+  const std::string key = "step/" + std::to_string(step) + "/";
+  std::vector<LoopTrial> trials = TryItems(records_, from, items, key, options_);
+  for (const LoopTrial& trial : trials) {
+    VLOG(1) << "step " << step << ": " << trial.item.id << " " << trial.gain << " nats";
+  }
+  const double least = std::log(kOdds * static_cast<double>(items.size()));
+  std::optional<LoopFit> best;
+  std::size_t best_trial = 0;
+  for (std::size_t i = 0; i < std::min(trials.size(), kMostFitted); ++i) {
+    if (!(trials[i].gain > 0.0)) break;
+    LoopFit fit = FitLoopFrom(records_, trials[i].model, trials[i].starts,
+                              key + "fit/" + trials[i].item.id + "/", options_);
+    VLOG(1) << "step " << step << ": " << trials[i].item.id << " foretells "
+            << fit.Density() - from.Density() << " nats better";
+    if (!(fit.Density() > from.Density() + least)) continue;
+    if (best && fit.Density() <= best->Density()) continue;
+    best = std::move(fit);
+    best_trial = i;
+  }
+  if (!best) return std::nullopt;
+  LoopStep out{trials[best_trial].item, {}, std::move(*best)};
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const double behind = trials[best_trial].gain - trials[i].gain;
+    if (i != best_trial && std::abs(behind) < std::log(kOddsOfClass)) {
+      out.equals.push_back(trials[i].item.id);
+    }
+  }
+  return out;
+}
+
+// The modes that were added stand behind the base's in the order of their steps.
+std::size_t ModeOf(const std::vector<LoopStep>& steps, std::size_t which, const LoopForm& base) {
+  auto mode = static_cast<std::size_t>(base.structure.modes);
+  for (std::size_t i = 0; i < which; ++i) {
+    if (steps[which].item.kind == LoopItemKind::kMode && steps[i].item.kind == LoopItemKind::kMode)
+      ++mode;
+  }
+  return mode;
+}
+
+LoopFit Search::Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
+                        const std::string& key) const {
+  const LoopForm model = howl::Without(from.model, steps[which].item, base_);
+  const LoopStarts starts = StartsWithout(records_, from, model, ModeOf(steps, which, base_));
+  return FitLoopFrom(records_, model, starts.rows, key + "without/" + std::to_string(which) + "/",
+                     options_);
+}
+
+LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const {
+  LoopForm model = from.model;
+  model.structure.*lines = kCycleLines;
+  return FitLoopFrom(records_, model, StartsWith(records_, from, model).rows, key, options_);
+}
+
+LoopFound Search::Run() const {
+  LoopFound out;
+  out.base = FitBase();
+  out.best = out.base;
+  for (std::size_t step = 0; step < kMostItems; ++step) {
+    std::optional<LoopStep> next = Next(out.best, step);
+    if (!next) break;
+    out.best = next->after;
+    out.steps.push_back(std::move(*next));
+  }
+  // Backward: what pays least goes first, as long as something does not pay.
+  for (std::size_t round = 0; !out.steps.empty(); ++round) {
+    const std::string key = "back/" + std::to_string(round) + "/";
+    out.without.clear();
+    std::size_t least = 0;
+    for (std::size_t i = 0; i < out.steps.size(); ++i) {
+      out.without.push_back(Without(out.best, out.steps, i, key));
+      if (out.without[i].Density() > out.without[least].Density()) least = i;
+    }
+    if (out.without[least].Density() < out.best.Density()) break;
+    out.best = out.without[least];
+    out.steps.erase(out.steps.begin() + static_cast<std::ptrdiff_t>(least));
+    if (out.steps.empty()) out.without.clear();
+  }
+  out.with_acoustic_lines = WithLines(out.best, &PointStructure::acoustic_lines, "acoustic_lines/");
+  out.with_flame_lines = WithLines(out.best, &PointStructure::flame_lines, "flame_lines/");
+  return out;
+}
+
+}  // namespace
+
+LoopFound SearchLoopBudget(const LoopRecords& records, const LoopForm& base,
+                           const LoopBudgetOptions& options) {
+  return Search(records, base, options).Run();
+}
+
+}  // namespace howl

@@ -1,0 +1,40 @@
+// The search for a budget of records: forward, one item at a time, then backward.
+//
+// The score of a model is the density of each operating point's record by the law that the other
+// points give, summed (records_fit.h); of one point alone its evidence. An item comes in where it
+// raises the score by more than the odds against any of so many, and goes where the score without
+// it is no lower. Errors at the cycle's lines come last: were they there from the beginning, they
+// would hide what the lines tell of the flame.
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_trial.h"
+
+namespace howl {
+
+struct LoopStep {
+  LoopItem item;
+  std::vector<std::string> equals;  // items that would have gained as much, within odds of 50 to 1
+  LoopFit after;
+};
+
+struct LoopFound {
+  LoopFit base;
+  std::vector<LoopStep> steps;  // of the items that stayed
+  LoopFit best;
+  // Of each step, `best` without its item, all else fitted anew.
+  std::vector<LoopFit> without;
+  // `best` with errors at the cycle's lines (loop_point.h), of acoustics or of flame.
+  LoopFit with_acoustic_lines;
+  LoopFit with_flame_lines;
+};
+
+LoopFound SearchLoopBudget(const LoopRecords& records, const LoopForm& base,
+                           const LoopBudgetOptions& options);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_

@@ -1,0 +1,95 @@
+#include "diagnosis/loop_budget/loop_starts.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "estimation/record_fit/point_starts.h"
+
+namespace howl {
+namespace {
+
+constexpr std::size_t kDelaysTried = 3;
+
+// The noise of `from` in the sources of `to`, which has no source that `from` has not.
+std::vector<Eigen::VectorXd> NoiseIn(const PointStructure& from,
+                                     const std::vector<Eigen::VectorXd>& noise,
+                                     const PointStructure& to) {
+  std::vector<Eigen::VectorXd> out;
+  for (const NoiseTerm& term : to.noise) {
+    const auto at = std::ranges::find(from.noise, term.source, &NoiseTerm::source);
+    const auto j = static_cast<std::size_t>(at - from.noise.begin());
+    out.emplace_back(noise[j].head(term.coefficients));
+  }
+  return out;
+}
+
+// One row for each of the delays with which the flame, driven by another signal, leaves least of q.
+LoopStarts WithOtherInput(const LoopRecords& records, const FlameInput input,
+                          const PointStructure& structure, std::vector<LoopPoint> points) {
+  LoopStarts out;
+  out.apart = true;
+  out.rows.resize(kDelaysTried);
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const RecordSpectra& record = records.Whole(input, e);
+    const std::vector<double> delays = DelayStarts(record, kDelaysTried);
+    for (std::size_t i = 0; i < kDelaysTried; ++i) {
+      LoopPoint& point = points[e];
+      point.path.tau = delays[std::min(i, delays.size() - 1)];
+      point.flame = FlameStart(record, point.path);
+      out.rows[i].push_back(ToParameters(structure, point));
+    }
+  }
+  return out;
+}
+
+std::vector<LoopPoint> PointsOf(const LoopRecords& records, const LoopFit& fit) {
+  std::vector<LoopPoint> out;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const Eigen::Index flame = records.Whole(fit.model.flame_input, e).flame.cols();
+    out.push_back(ToPoint(fit.model.structure, flame, fit.fit.points[e].parameters));
+  }
+  return out;
+}
+
+}  // namespace
+
+double LoopFit::Density() const {
+  return std::accumulate(log_density.begin(), log_density.end(), 0.0);
+}
+
+LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with) {
+  if (with.flame_input != from.model.flame_input) {
+    return WithOtherInput(records, with.flame_input, with.structure, PointsOf(records, from));
+  }
+  return {StartsInRicher(records.Points(with.flame_input), from.fit, with.structure)};
+}
+
+LoopStarts StartsWithout(const LoopRecords& records, const LoopFit& from, const LoopForm& without,
+                         std::size_t mode) {
+  std::vector<LoopPoint> points = PointsOf(records, from);
+  const auto kept = static_cast<std::size_t>(without.structure.modes);
+  for (LoopPoint& point : points) {
+    if (point.modes.size() > kept) {
+      const auto first = point.modes.begin() + static_cast<std::ptrdiff_t>(mode);
+      point.modes.erase(first, first + static_cast<std::ptrdiff_t>(point.modes.size() - kept));
+    }
+    point.noise = NoiseIn(from.model.structure, point.noise, without.structure);
+    if (without.structure.delay_spread == DelaySpread::kNone) {
+      point.path = {DelaySpread::kNone, point.path.tau};
+    }
+    point.acoustic_lines.conservativeResize(without.structure.acoustic_lines);
+    point.flame_lines.conservativeResize(without.structure.flame_lines);
+  }
+  if (without.flame_input != from.model.flame_input) {
+    return WithOtherInput(records, without.flame_input, without.structure, std::move(points));
+  }
+  LoopStarts out;
+  for (const LoopPoint& point : points) {
+    if (out.rows.empty()) out.rows.emplace_back();
+    out.rows[0].push_back(ToParameters(without.structure, point));
+  }
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,36 @@
+// Where fits of a loop with one item more, or one less, begin (loop_item.h).
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_STARTS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_STARTS_H_
+
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_item.h"
+#include "diagnosis/loop_budget/loop_records.h"
+
+namespace howl {
+
+// A model fitted to all records, and how well each point's record is foretold by the others'.
+struct LoopFit {
+  LoopForm model;
+  RecordsFit fit;
+  std::vector<double> log_density;  // LeftOutDensities
+
+  double Density() const;
+};
+
+struct LoopStarts {
+  StartRows rows;
+  // Whether each point may begin at another row: rows of a further mode have that of one point for
+  // all, as it must be the same mode.
+  bool apart = false;
+};
+
+LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with);
+
+// `mode`: of those that `without` has not, the first; of other items the number of modes.
+LoopStarts StartsWithout(const LoopRecords& records, const LoopFit& from, const LoopForm& without,
+                         std::size_t mode);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_STARTS_H_

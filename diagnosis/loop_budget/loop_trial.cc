@@ -1,0 +1,105 @@
+#include "diagnosis/loop_budget/loop_trial.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <utility>
+
+#include "diagnosis/loop_budget/parameter_labels.h"
+#include "estimation/parallel.h"
+
+namespace howl {
+namespace {
+
+struct Unit {
+  std::size_t trial, row, point;
+};
+
+PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
+                        std::size_t e) {
+  const RecordSpectra& record = records.Whole(with.flame_input, e);
+  const RecordSpectra& before = records.Whole(from.model.flame_input, e);
+  std::vector<std::string> known = ParameterLabels(from.model.structure, before.flame.cols());
+  const Eigen::Index flame = from.model.structure.Flame();
+  for (Eigen::Index k = 0; k < before.flame.cols(); ++k) {
+    // Whatever another input makes the flame's functions, their prior is that of the record.
+    known[static_cast<std::size_t>(flame + k)].clear();
+  }
+  if (with.flame_input != from.model.flame_input) {
+    known[static_cast<std::size_t>(from.model.structure.Delay())].clear();
+  }
+  return WithKnown(PriorOf(with.structure, record),
+                   ParameterLabels(with.structure, record.flame.cols()), from.fit.prior[e], known);
+}
+
+}  // namespace
+
+std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
+                                const std::vector<LoopItem>& items, const std::string& key,
+                                const LoopBudgetOptions& options) {
+  std::vector<LoopTrial> out;
+  std::vector<LoopStarts> starts;
+  std::vector<Unit> units;
+  for (const LoopItem& item : items) {
+    out.push_back({item, With(from.model, item)});
+    starts.push_back(StartsWith(records, from, out.back().model));
+    for (std::size_t row = 0; row < starts.back().rows.size(); ++row) {
+      for (std::size_t e = 0; e < records.size(); ++e) units.push_back({out.size() - 1, row, e});
+    }
+  }
+  std::vector<PointFit> fits(units.size());
+  std::atomic<std::size_t> done = 0;
+  RunUnits(units.size(), options.threads, [&](std::size_t i) {
+    const Unit& unit = units[i];
+    const LoopForm& model = out[unit.trial].model;
+    const std::string of = key + "trial/" + items[unit.trial].id + "/" + std::to_string(unit.row) +
+                           "/" + std::to_string(unit.point);
+    fits[i] = KeptFit(options.units, of, [&] {
+      return FitPoint(records.Whole(model.flame_input, unit.point), model.structure,
+                      PriorOfTrial(records, from, model, unit.point),
+                      starts[unit.trial].rows[unit.row][unit.point]);
+    });
+    if (options.progress) options.progress(++done, units.size());
+  });
+  for (std::size_t t = 0, first = 0; t < out.size(); ++t) {
+    const std::size_t rows = starts[t].rows.size();
+    const auto fit = [&](std::size_t row, std::size_t e) -> const PointFit& {
+      return fits[first + row * records.size() + e];
+    };
+    const auto sum = [&](std::size_t row) {
+      double nats = 0.0;
+      for (std::size_t e = 0; e < records.size(); ++e) nats += fit(row, e).log_evidence;
+      return nats;
+    };
+    std::size_t best = 0;
+    for (std::size_t row = 1; row < rows; ++row) {
+      if (sum(row) > sum(best)) best = row;
+    }
+    out[t].starts.resize(1);
+    for (std::size_t e = 0; e < records.size(); ++e) {
+      std::size_t of = best;
+      for (std::size_t row = 0; starts[t].apart && row < rows; ++row) {
+        if (fit(row, e).log_evidence > fit(of, e).log_evidence) of = row;
+      }
+      out[t].gain += fit(of, e).log_evidence - from.fit.points[e].log_evidence;
+      out[t].starts[0].push_back(fit(of, e).parameters);
+    }
+    first += rows * records.size();
+  }
+  std::ranges::stable_sort(out, std::ranges::greater(), &LoopTrial::gain);
+  return out;
+}
+
+LoopFit FitLoopFrom(const LoopRecords& records, const LoopForm& model, const StartRows& starts,
+                    const std::string& key, const LoopBudgetOptions& options) {
+  RecordsFitOptions fit_options;
+  fit_options.threads = options.threads;
+  fit_options.units = options.units;
+  fit_options.key = key;
+  const std::vector<OperatingPoint>& points = records.Points(model.flame_input);
+  LoopFit out{model, FitRecordsFrom(points, model.structure, starts, fit_options), {}};
+  out.log_density = LeftOutDensities(points, out.fit, fit_options);
+  return out;
+}
+
+}  // namespace howl

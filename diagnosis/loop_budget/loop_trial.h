@@ -1,0 +1,43 @@
+// What a further item would gain, each operating point by itself: nats of its record's evidence,
+// under the priors that the law of the points gives, and wide ones of what the item brings. A fit
+// of all points together takes ten times as long, and is for those that gain most (loop_search.h).
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_TRIAL_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_TRIAL_H_
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_starts.h"
+#include "estimation/joint_records/fit_units.h"
+
+namespace howl {
+
+struct LoopBudgetOptions {
+  std::size_t starts = 12;  // of the base's fit, of each point by itself
+  std::uint64_t seed = 1;
+  int threads = 0;
+  FitUnits* units = nullptr;
+  std::vector<std::string> withheld = {};                             // items that are not tried
+  std::function<void(std::size_t done, std::size_t total)> progress;  // in trials of a step
+};
+
+struct LoopTrial {
+  LoopItem item;
+  LoopForm model;
+  double gain = 0.0;  // nats
+  StartRows starts;   // one row: where each point's fit came to
+};
+
+// The most promising first.
+std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
+                                const std::vector<LoopItem>& items, const std::string& key,
+                                const LoopBudgetOptions& options);
+
+// All points together.
+LoopFit FitLoopFrom(const LoopRecords& records, const LoopForm& model, const StartRows& starts,
+                    const std::string& key, const LoopBudgetOptions& options);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_TRIAL_H_

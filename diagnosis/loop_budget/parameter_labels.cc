@@ -1,0 +1,51 @@
+#include "diagnosis/loop_budget/parameter_labels.h"
+
+#include <glog/logging.h>
+
+#include <cstddef>
+#include <map>
+
+namespace howl {
+
+std::vector<std::string> ParameterLabels(const PointStructure& structure, Eigen::Index flame) {
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& name, Eigen::Index count) {
+    for (Eigen::Index i = 0; i < count; ++i) out.push_back(name + std::to_string(i));
+  };
+  add("omega", structure.Frequencies());
+  add("xi", structure.Dampings());
+  add("a", structure.modes);
+  if (structure.complex_residues) add("b", structure.modes);
+  add("g", structure.modes);
+  add("h", structure.modes);
+  add("d_real", structure.acoustic_lines);
+  add("d_imaginary", structure.acoustic_lines);
+  add("tau", 1);
+  add("rho", structure.Delays() - 1);
+  add("c", flame);
+  add("e_real", structure.flame_lines);
+  add("e_imaginary", structure.flame_lines);
+  for (const NoiseTerm& term : structure.noise) {
+    add(std::string(LoopNoiseName(term.source)), term.coefficients);
+  }
+  if (HasBackground(structure.noise)) add("background_ratio", 1);
+  CHECK_EQ(static_cast<Eigen::Index>(out.size()), structure.Parameters(flame));
+  return out;
+}
+
+PointPrior WithKnown(PointPrior prior, const std::vector<std::string>& labels,
+                     const PointPrior& known, const std::vector<std::string>& known_labels) {
+  std::map<std::string, Eigen::Index> at;
+  for (std::size_t i = 0; i < known_labels.size(); ++i) {
+    at[known_labels[i]] = static_cast<Eigen::Index>(i);
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const auto found = at.find(labels[i]);
+    if (found == at.end()) continue;
+    prior.mean[static_cast<Eigen::Index>(i)] = known.mean[found->second];
+    prior.deviation[static_cast<Eigen::Index>(i)] = known.deviation[found->second];
+  }
+  return prior;
+}
+
+}  // namespace howl

@@ -1,0 +1,71 @@
+#include "io/results/loop_diagnosis_json.h"
+
+#include <string_view>
+
+#include "io/results/diagnosis_json.h"
+#include "io/results/solution_json.h"
+
+namespace howl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* InputName(FlameInput input) {
+  switch (input) {
+    case FlameInput::kPressureRate:
+      return "pressure_rate";
+    case FlameInput::kPressure:
+      return "pressure";
+    case FlameInput::kVelocity:
+      break;
+  }
+  return "velocity";
+}
+
+const char* SpreadName(DelaySpread spread) {
+  switch (spread) {
+    case DelaySpread::kNone:
+      return "none";
+    case DelaySpread::kNormal:
+      return "normal";
+    case DelaySpread::kGamma:
+      break;
+  }
+  return "gamma";
+}
+
+// As in a config's `model`; and the sources of noise, with how many coefficients each has.
+Json FormJson(const LoopForm& form) {
+  const PointStructure& structure = form.structure;
+  Json noise = Json::object();
+  for (const NoiseTerm& term : structure.noise) {
+    noise[std::string(LoopNoiseName(term.source))] = term.coefficients;
+  }
+  return {{"modes", structure.modes},
+          {"ratio", structure.ratio ? Json(*structure.ratio) : Json("free")},
+          {"damping", structure.own_damping ? "own" : "shared"},
+          {"residue", structure.complex_residues ? "complex" : "real"},
+          {"flame_input", InputName(form.flame_input)},
+          {"delay_spread", SpreadName(structure.delay_spread)},
+          {"noise", noise}};
+}
+
+Json LinesJson(const LinesLeft& lines) {
+  return {{"size", NumberOrNull(lines.size)},
+          {"nats", NumberOrNull(lines.nats)},
+          {"experiments_better", lines.experiments_better}};
+}
+
+}  // namespace
+
+Json LoopDiagnosisJson(const LoopDiagnosis& found) {
+  Json json = DiagnosisJson(found.diagnosis);
+  for (const char* key : {"free_slack", "bootstrap", "base_parameters"}) json.erase(key);
+  json["base"] = FormJson(found.base);
+  json["best"] = FormJson(found.best);
+  json["line_errors"] = {{"p_from_q", LinesJson(found.acoustics)},
+                         {"q_from_p", LinesJson(found.flame)}};
+  return json;
+}
+
+}  // namespace howl

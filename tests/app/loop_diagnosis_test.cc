@@ -1,0 +1,71 @@
+// howl diagnose of a loop that records alone can show.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/app/program.h"
+
+namespace howl {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+// A copy of first_rig.yaml beside its records, with this model, without its last point.
+class LoopDiagnosis : public testing::Test {
+ protected:
+  ProgramResult Diagnose(const std::string& model, const std::string& options) {
+    std::filesystem::copy(std::string(HOWL_SOURCE_DIR) + "/configs/first_rig",
+                          folder_.path() / "first_rig",
+                          std::filesystem::copy_options::recursive |
+                              std::filesystem::copy_options::overwrite_existing);
+    std::string rig = ReadFile(Config("first_rig"));
+    rig.erase(rig.find("  - {name: rich"));
+    const std::string config = folder_.Write("rig.yaml", rig + "model: " + model + "\n").string();
+    return RunHowl("diagnose " + config + " " + options + " --out " +
+                   (folder_.path() / "out").string());
+  }
+  bool IsWritten() const { return std::filesystem::exists(folder_.path() / "out/diagnosis.json"); }
+
+  TemporaryFolder folder_;
+};
+
+// The records are of a loop of one mode whose flame answers to dp/dt.
+TEST_F(LoopDiagnosis, SaysWhatTheConfigsLoopLacks) {
+  const ProgramResult run =
+      Diagnose("{modes: 1, flame_input: velocity}",
+               "--without p_sensor_noise,q_sensor_noise,duct_noise,background_noise,acoustic_mode,"
+               "complex_residues,delay_dispersion,gamma_delays");
+  ASSERT_EQ(run.status, 0) << run.err << run.out;
+  EXPECT_THAT(run.out, HasSubstr("flame_input_pressure_rate"));
+  const Json json = Json::parse(ReadFile(folder_.path() / "out/diagnosis.json"));
+  EXPECT_EQ(json["schema"], "howl.diagnosis/1");
+  ASSERT_EQ(json["budget"].size(), 1u);
+  EXPECT_EQ(json["budget"][0]["item"], "flame_input_pressure_rate");
+  EXPECT_GT(json["budget"][0]["lost_without"]["nats"].get<double>(), 20.0);
+  EXPECT_EQ(json["base"]["flame_input"], "velocity");
+  EXPECT_EQ(json["best"]["flame_input"], "pressure_rate");
+  EXPECT_LT(json["gap"]["after"].get<double>(), json["gap"]["before"].get<double>());
+  EXPECT_TRUE(json["line_errors"]["q_from_p"]["nats"].is_number());
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/diagnosis.state"));
+}
+
+TEST_F(LoopDiagnosis, RefusesWhatItDoesNotTake) {
+  const std::string loop = "{modes: 1, residue: complex}";
+  const auto refuses = [&](const std::string& model, const std::string& options,
+                           const std::string& what) {
+    const ProgramResult run = Diagnose(model, options);
+    EXPECT_EQ(run.status, 2) << options;
+    EXPECT_THAT(run.err, HasSubstr(what));
+    EXPECT_FALSE(IsWritten());
+  };
+  refuses(loop, "--plan", "--plan: the config's model states a loop");
+  refuses(loop, "--bootstrap 19", "--bootstrap: the config's model states a loop");
+  refuses(loop, "--without duct_nois", "did you mean duct_noise?");
+  refuses("{modes: auto}", "", "is auto, expected a number");
+}
+
+}  // namespace
+}  // namespace howl

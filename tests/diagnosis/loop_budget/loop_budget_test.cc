@@ -1,0 +1,125 @@
+// What a diagnosis of records finds that a loop lacks, on simulated rigs whose loop is known.
+#include "diagnosis/loop_budget/loop_budget.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_item.h"
+#include "tests/estimation/record_fit/modal_loop.h"
+
+namespace howl {
+namespace {
+
+// Three operating points; their parameter is the loop's gain.
+std::vector<LoopRecord> DuctsRecords() {
+  std::vector<LoopRecord> out;
+  for (const double gain : {1.2, 1.5, 1.8}) {
+    ModalLoop loop = DuctOfModes(2);
+    loop.tau_s *= 1.0 + 0.03 * (gain - 1.3);
+    loop.slope = gain / loop.Open(CycleFrequency(loop, 150.0, 300.0)).real();
+    const auto seed = static_cast<std::uint64_t>(100.0 * gain);
+    out.push_back({"gain " + std::to_string(gain), gain, CycleFrequency(loop, 150.0, 300.0),
+                   SimulateModalLoop(loop, 0.8, seed)});
+  }
+  return out;
+}
+
+// The duct's own: two free modes with complex residues, driven by dp/dt.
+LoopForm DuctsForm() {
+  LoopForm out;
+  out.structure.modes = 2;
+  out.structure.noise = LeastNoise();
+  return out;
+}
+
+LoopBudgetOptions Among(const std::vector<std::string>& kept) {
+  LoopBudgetOptions out;
+  out.starts = 4;
+  out.withheld = LoopItemIds();
+  std::erase_if(out.withheld,
+                [&](const std::string& id) { return std::ranges::find(kept, id) != kept.end(); });
+  return out;
+}
+
+TEST(LoopBudget, OfTheRightLoopHasNothing) {
+  const LoopDiagnosis found =
+      DiagnoseLoops(DuctsRecords(), DuctsForm(),
+                    Among({"acoustic_mode", "delay_dispersion", "duct_noise", "p_sensor_noise"}));
+  EXPECT_EQ(found.diagnosis.kind, VerdictKind::kNone);
+  EXPECT_TRUE(found.diagnosis.budget->entries.empty());
+  EXPECT_GT(found.diagnosis.probability_none, 0.5);
+  EXPECT_LT(found.diagnosis.budget->gap_left, 0.2);
+}
+
+// The paper's acoustics for those of the duct: real residues, and the second mode at three times
+// the first, where the duct has it at 2.3 times.
+TEST(LoopBudget, FindsWhatTheAcousticsLack) {
+  LoopForm base = DuctsForm();
+  base.structure.ratio = 3.0;
+  base.structure.complex_residues = false;
+  const LoopDiagnosis found =
+      DiagnoseLoops(DuctsRecords(), base, Among({"mode_detuning", "complex_residues"}));
+  const Budget& budget = *found.diagnosis.budget;
+  EXPECT_EQ(found.diagnosis.kind, VerdictKind::kEffect);
+  ASSERT_EQ(budget.entries.size(), 2u);
+  for (const BudgetEntry& entry : budget.entries) {
+    EXPECT_GT(entry.lost_nats, 20.0) << entry.item;
+    EXPECT_EQ(entry.experiments_better, 3u) << entry.item;
+    EXPECT_GT(entry.lost_on_halves[0], 0.0) << entry.item;
+    EXPECT_GT(entry.lost_on_halves[1], 0.0) << entry.item;
+    EXPECT_LT(entry.gap_after, entry.gap_before) << entry.item;
+    if (entry.item != "mode_detuning") continue;
+    EXPECT_NEAR(entry.parameters[0].value, 455.0 / 200.0, 0.03);
+  }
+  EXPECT_LT(budget.gap_left, 0.45 * budget.gap_before);
+}
+
+// A flame that answers to another signal than the base's.
+TEST(LoopBudget, FindsWhatDrivesTheFlame) {
+  LoopForm base = DuctsForm();
+  base.flame_input = FlameInput::kVelocity;
+  const LoopDiagnosis found = DiagnoseLoops(
+      DuctsRecords(), base, Among({"flame_input_pressure", "flame_input_pressure_rate"}));
+  ASSERT_EQ(found.diagnosis.effect, "flame_input_pressure_rate");
+  EXPECT_EQ(found.best.flame_input, FlameInput::kPressureRate);
+  const EstimatedParameter& tau = found.diagnosis.budget->entries[0].parameters[0];
+  EXPECT_NEAR(tau.value, 0.0033, 0.00005);
+}
+
+bool Offered(const std::vector<LoopItem>& items, const std::string& id) {
+  return std::ranges::find(items, id, &LoopItem::id) != items.end();
+}
+
+TEST(LoopItem, ComesAndGoes) {
+  LoopForm base;
+  base.structure.modes = 2;
+  base.structure.ratio = 3.0;
+  base.structure.own_damping = false;
+  base.structure.complex_residues = false;
+  base.structure.noise = LeastNoise();
+  for (const LoopItem& item : LoopItems(base, base)) {
+    const LoopForm with = With(base, item);
+    EXPECT_FALSE(Offered(LoopItems(with, base), item.id)) << item.id;
+    const LoopForm back = Without(with, item, base);
+    EXPECT_EQ(back.flame_input, base.flame_input);
+    EXPECT_EQ(back.structure.modes, base.structure.modes);
+    EXPECT_EQ(back.structure.ratio, base.structure.ratio);
+    EXPECT_EQ(back.structure.own_damping, base.structure.own_damping);
+    EXPECT_EQ(back.structure.complex_residues, base.structure.complex_residues);
+    EXPECT_EQ(back.structure.delay_spread, base.structure.delay_spread);
+    EXPECT_EQ(back.structure.NoiseParameters(), base.structure.NoiseParameters());
+  }
+  // Modes come where they have frequencies and dampings of their own, and go with either.
+  LoopForm free = With(base, {"mode_detuning", LoopItemKind::kDetuning});
+  EXPECT_FALSE(Offered(LoopItems(free, base), "acoustic_mode"));
+  free = With(free, {"own_damping", LoopItemKind::kOwnDamping});
+  EXPECT_TRUE(Offered(LoopItems(free, base), "acoustic_mode"));
+  free = With(free, {"acoustic_mode", LoopItemKind::kMode});
+  EXPECT_EQ(Without(free, {"own_damping", LoopItemKind::kOwnDamping}, base).structure.modes, 2);
+}
+
+}  // namespace
+}  // namespace howl
