@@ -14,8 +14,8 @@ set(howl_fit_parts
     app/command_line/command_line.cc app/command_line/flag_words.cc app/command_line/options.cc
     app/commands/fit_command.cc app/files app/fit app/help app/input/config_fit.cc
     app/input/fit_state.cc app/input/problem_input.cc app/input/record_input.cc
-    app/input/record_solution.cc app/input/usable_records.cc app/jobs/config_inputs.cc app/jobs/output_claim.cc app/jobs/shard.cc
-    app/jobs/unit_store.cc app/process app/text/delay_text.cc app/text/health_text.cc
+    app/input/record_solution.cc app/input/usable_records.cc app/jobs/config_inputs.cc
+    app/jobs/output_claim.cc app/jobs/shard.cc app/jobs/unit_store.cc app/process app/text/delay_text.cc app/text/health_text.cc
     app/text/record_fit_text.cc app/text/second_mode_text.cc app/text/text_table.cc
     app/text/vanishing_text.cc app/trial/trial_rig.cc)
 

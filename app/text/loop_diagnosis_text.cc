@@ -38,6 +38,7 @@ std::string LoopDiagnosisText(const LoopDiagnosis& found) {
                                 : BudgetText(budget);
   out += LinesText("p from q", found.acoustics, budget.experiments);
   out += LinesText("q from p", found.flame, budget.experiments);
+  out += Wrapped("next: " + found.diagnosis.advice, 2) + "\n";
   return out;
 }
 

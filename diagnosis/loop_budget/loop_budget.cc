@@ -11,6 +11,7 @@
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "diagnosis/loop_budget/loop_item_parameters.h"
 #include "diagnosis/loop_budget/loop_search.h"
+#include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/shared_units.h"
 
 namespace howl {
@@ -116,6 +117,20 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   }
 }
 
+std::string AdviceOf(const LoopDiagnosis& found) {
+  const std::string model = ModelLine(found.best.structure, found.best.flame_input);
+  switch (found.diagnosis.kind) {
+    case VerdictKind::kNone:
+      return "the config's loop stands";
+    case VerdictKind::kEffect:
+      return "howl fit with " + model;
+    case VerdictKind::kUnknown:
+      break;
+  }
+  return "howl fit with " + model +
+         ", which is the best loop found, but not the rig's: distrust what it says of the cycle";
+}
+
 }  // namespace
 
 LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& base,
@@ -136,6 +151,7 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   diagnosis.budget->acoustic_error = out.acoustics.size;
   diagnosis.budget->flame_error = out.flame.size;
   TakeVerdict(found, &out);
+  diagnosis.advice = AdviceOf(out);
   return out;
 }
 

@@ -10,6 +10,8 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kDelaysTried = 3;
+// With the right input a flame's delays need not be spread to make up for a wrong one.
+constexpr double kLittleSpread = 0.1;
 
 // The noise of `from` in the sources of `to`, which has no source that `from` has not.
 std::vector<Eigen::VectorXd> NoiseIn(const PointStructure& from,
@@ -36,6 +38,7 @@ LoopStarts WithOtherInput(const LoopRecords& records, const FlameInput input,
     for (std::size_t i = 0; i < kDelaysTried; ++i) {
       LoopPoint& point = points[e];
       point.path.tau = delays[std::min(i, delays.size() - 1)];
+      if (structure.Delays() > 1) point.path.rho = kLittleSpread;
       point.flame = FlameStart(record, point.path);
       out.rows[i].push_back(ToParameters(structure, point));
     }

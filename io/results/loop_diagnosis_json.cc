@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "estimation/joint_records/loop_names.h"
 #include "io/results/diagnosis_json.h"
 #include "io/results/solution_json.h"
 
@@ -9,30 +10,6 @@ namespace howl {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* InputName(FlameInput input) {
-  switch (input) {
-    case FlameInput::kPressureRate:
-      return "pressure_rate";
-    case FlameInput::kPressure:
-      return "pressure";
-    case FlameInput::kVelocity:
-      break;
-  }
-  return "velocity";
-}
-
-const char* SpreadName(DelaySpread spread) {
-  switch (spread) {
-    case DelaySpread::kNone:
-      return "none";
-    case DelaySpread::kNormal:
-      return "normal";
-    case DelaySpread::kGamma:
-      break;
-  }
-  return "gamma";
-}
 
 // As in a config's `model`; and the sources of noise, with how many coefficients each has.
 Json FormJson(const LoopForm& form) {
@@ -45,8 +22,8 @@ Json FormJson(const LoopForm& form) {
           {"ratio", structure.ratio ? Json(*structure.ratio) : Json("free")},
           {"damping", structure.own_damping ? "own" : "shared"},
           {"residue", structure.complex_residues ? "complex" : "real"},
-          {"flame_input", InputName(form.flame_input)},
-          {"delay_spread", SpreadName(structure.delay_spread)},
+          {"flame_input", FlameInputName(form.flame_input)},
+          {"delay_spread", DelaySpreadName(structure.delay_spread)},
           {"noise", noise}};
 }
 

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "estimation/joint_records/loop_names.h"
 #include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
@@ -27,6 +28,36 @@ std::string Mistake(const std::string& model, LoopsTaken loops = LoopsTaken::kAn
     return error.what();
   }
   return "none";
+}
+
+// What howl diagnose advises can be taken as it stands.
+TEST(ConfigRecordLoop, ReadsTheModelLineOfALoop) {
+  PointStructure structure;
+  structure.modes = 3;
+  structure.delay_spread = DelaySpread::kNormal;
+  for (const FlameInput input :
+       {FlameInput::kPressureRate, FlameInput::kPressure, FlameInput::kVelocity}) {
+    const std::string line = ModelLine(structure, input);
+    ASSERT_EQ(line.rfind("model: {", 0), 0u);
+    const RecordLoopSpec spec = *Read(line.substr(8, line.size() - 9)).record_loop;
+    EXPECT_EQ(spec.flame_input, input);
+    EXPECT_EQ(spec.modes, 3);
+    EXPECT_FALSE(spec.ratio);
+    EXPECT_TRUE(spec.own_damping);
+    EXPECT_TRUE(spec.complex_residues);
+    EXPECT_EQ(spec.delay_spread, DelaySpread::kNormal);
+  }
+  structure = {};
+  structure.modes = 2;
+  structure.ratio = 3.0;
+  structure.own_damping = structure.complex_residues = false;
+  structure.delay_spread = DelaySpread::kGamma;
+  const std::string line = ModelLine(structure, FlameInput::kPressureRate);
+  const RecordLoopSpec spec = *Read(line.substr(8, line.size() - 9)).record_loop;
+  EXPECT_EQ(spec.ratio, 3.0);
+  EXPECT_FALSE(spec.own_damping);
+  EXPECT_FALSE(spec.complex_residues);
+  EXPECT_EQ(spec.delay_spread, DelaySpread::kGamma);
 }
 
 TEST(ConfigRecordLoop, ThePapersLoopIsNoOther) {

@@ -1,0 +1,19 @@
+// What a config calls a loop's flame input and the spread of its delays.
+#ifndef HOWL_ESTIMATION_JOINT_RECORDS_LOOP_NAMES_H_
+#define HOWL_ESTIMATION_JOINT_RECORDS_LOOP_NAMES_H_
+
+#include <string>
+
+#include "estimation/record_fit/loop_point.h"
+
+namespace howl {
+
+const char* FlameInputName(FlameInput input);
+const char* DelaySpreadName(DelaySpread spread);
+
+// The config's `model` that states this loop, in one line.
+std::string ModelLine(const PointStructure& structure, FlameInput input);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_JOINT_RECORDS_LOOP_NAMES_H_
