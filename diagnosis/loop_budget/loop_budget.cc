@@ -28,8 +28,7 @@ std::size_t Better(const LoopFit& with, const LoopFit& without) {
 }
 
 LinesLeft LinesOf(const LoopRecords& records, const LoopFit& best, const LoopFit& with) {
-  const SharedUnits units(with.model.structure, records.Whole(with.model.flame_input, 0),
-                          with.fit.reference);
+  const SharedUnits units(with.model.structure, records.Whole(with.model, 0), with.fit.reference);
   return {with.Density() - best.Density(), with.fit.law.spread[units.errors().front().first],
           Better(with, best)};
 }
@@ -70,7 +69,7 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     }
     entry.experiments_better = Better(found.best, found.without[i]);
     entry.equals = step.equals;
-    entry.parameters = LoopItemParameters(records, found.best, step.item, mode);
+    entry.parameters = LoopItemParameters(records, found.best, step.item, mode, options);
     if (step.item.kind == LoopItemKind::kMode) ++mode;
     out.entries.push_back(std::move(entry));
   }

@@ -56,11 +56,10 @@ std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructu
 
 HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const std::string& key,
                           const LoopBudgetOptions& options) {
-  const FlameInput input = fit.model.flame_input;
   const PointStructure& structure = fit.model.structure;
   const std::vector<PointPrior> prior =
       records.size() == 1 ? fit.fit.prior
-                          : PriorsOfOthers(records.Points(input), fit.fit, options.threads);
+                          : PriorsOfOthers(records.Points(fit.model), fit.fit, options.threads);
   HeldOutScore out;
   out.nats.resize(records.size());
   out.errors.resize(records.size());
@@ -69,12 +68,13 @@ HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const 
     const std::size_t half = i % 2;
     const PointFit of_other = KeptFit(
         options.units, key + "half/" + std::to_string(1 - half) + "/" + std::to_string(e), [&] {
-          return FitPoint(records.Half(input, e, 1 - half), structure, prior[e],
+          return FitPoint(records.Half(fit.model, e, 1 - half), structure, prior[e],
                           fit.fit.points[e].parameters);
         });
-    const RecordSpectra& here = records.Half(input, e, half);
+    const RecordSpectra here = records.Half(fit.model, e, half);
     const Eigen::VectorXd at = WithTransientsOf(here, structure, prior[e], of_other.parameters);
-    out.nats[e][half] = LogLikelihood(here, structure, at);
+    out.nats[e][half] =
+        LogLikelihood(here, structure, at) + records.LogJacobianOfHalf(fit.model, e, half);
     out.errors[e][half] = ErrorsOf(here, structure, at);
   });
   return out;

@@ -17,8 +17,8 @@ const NoiseTerm* TermOf(const LoopForm& model, LoopNoise source) {
   return at == model.structure.noise.end() ? nullptr : &*at;
 }
 
-const std::vector<LoopItem>& AllItems() {
-  static const std::vector<LoopItem> kItems = {
+std::vector<LoopItem> MakeItems() {
+  std::vector<LoopItem> out = {
       {"p_sensor_noise", LoopItemKind::kNoise, {LoopNoise::kPressureSensor, kOfSensor}},
       {"q_sensor_noise", LoopItemKind::kNoise, {LoopNoise::kHeatReleaseSensor, kOfSensor}},
       {"duct_noise", LoopItemKind::kNoise, {LoopNoise::kDuct, kOfSource}},
@@ -44,6 +44,15 @@ const std::vector<LoopItem>& AllItems() {
        {},
        DelaySpread::kNone,
        FlameInput::kVelocity}};
+  for (const EffectPointer& effect : InstrumentsOfHeatRelease()) {
+    out.push_back(
+        {.id = std::string(effect->id()), .kind = LoopItemKind::kInstrument, .instrument = effect});
+  }
+  return out;
+}
+
+const std::vector<LoopItem>& AllItems() {
+  static const std::vector<LoopItem> kItems = MakeItems();
   return kItems;
 }
 
@@ -67,6 +76,10 @@ bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& bas
       return now.delay_spread == DelaySpread::kNone;
     case LoopItemKind::kFlameInput:
       return model.flame_input == base.flame_input && item.input != base.flame_input;
+    case LoopItemKind::kInstrument:
+      return std::ranges::none_of(model.instruments, [&](const LoopInstrument& each) {
+        return each.effect->id() == item.instrument->id();
+      });
   }
   return false;
 }
@@ -92,7 +105,9 @@ std::vector<NoiseTerm> LeastNoise() {
 
 std::vector<std::string> LoopItemIds() {
   std::vector<std::string> out;
-  for (const LoopItem& item : AllItems()) out.push_back(item.id);
+  for (const LoopItem& item : AllItems()) {
+    if (std::ranges::find(out, item.id) == out.end()) out.push_back(item.id);
+  }
   return out;
 }
 
@@ -128,6 +143,9 @@ LoopForm With(LoopForm model, const LoopItem& item) {
     case LoopItemKind::kFlameInput:
       model.flame_input = item.input;
       break;
+    case LoopItemKind::kInstrument:
+      model.instruments.push_back({item.instrument, item.instrument->parameters()[0].null_value});
+      break;
   }
   return model;
 }
@@ -162,6 +180,11 @@ LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base) {
       break;
     case LoopItemKind::kFlameInput:
       model.flame_input = base.flame_input;
+      break;
+    case LoopItemKind::kInstrument:
+      std::erase_if(model.instruments, [&](const LoopInstrument& each) {
+        return each.effect->id() == item.instrument->id();
+      });
       break;
   }
   return model;

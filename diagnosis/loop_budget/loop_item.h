@@ -10,8 +10,11 @@
 //   delay_dispersion                 delays are spread, normally
 //   gamma_delays                     or as behind a chain of lags
 //   flame_input_pressure, _velocity  the flame answers to another signal than the base's
+//   ID of the catalogue              an instrument of q with one parameter, which all points share
+//                                    (loop_instrument.h)
 //
-// Each operating point has its own values, about a law that all of them tell (parameter_law.h).
+// Of the others each operating point has its own values, about a law that all of them tell
+// (parameter_law.h).
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_H_
 
@@ -19,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/loop_budget/loop_instrument.h"
 #include "estimation/record_fit/loop_point.h"
 
 namespace howl {
@@ -26,6 +30,7 @@ namespace howl {
 struct LoopForm {
   PointStructure structure;
   FlameInput flame_input = FlameInput::kPressureRate;
+  std::vector<LoopInstrument> instruments;
 };
 
 enum class LoopItemKind : std::uint8_t {
@@ -35,7 +40,8 @@ enum class LoopItemKind : std::uint8_t {
   kComplexResidues,
   kMode,
   kDelaySpread,
-  kFlameInput
+  kFlameInput,
+  kInstrument
 };
 
 struct LoopItem {
@@ -44,6 +50,7 @@ struct LoopItem {
   NoiseTerm noise = {};                          // of kNoise
   DelaySpread spread = DelaySpread::kNone;       // of kDelaySpread
   FlameInput input = FlameInput::kPressureRate;  // of kFlameInput
+  EffectPointer instrument = nullptr;            // of kInstrument: one form of the effect
 };
 
 // The least noise that a rig has: combustion's, coloured, and white noise of both sensors.
@@ -54,6 +61,7 @@ std::vector<std::string> LoopItemIds();
 // All that may be added to `model` now, of a search that began at `base`.
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);
 
+// An instrument comes at its null.
 LoopForm With(LoopForm model, const LoopItem& item);
 // `model` has the item, which `base` has not. Modes that were added need frequencies and dampings
 // of their own: without either they go as well.

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "diagnosis/loop_budget/loop_instrument_trial.h"
+
 namespace howl {
 namespace {
 
@@ -25,13 +27,14 @@ double RelativeAmplitude(const RecordSpectra& record, const PointStructure& stru
 }  // namespace
 
 std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, const LoopFit& fit,
-                                                   const LoopItem& item, std::size_t mode) {
+                                                   const LoopItem& item, std::size_t mode,
+                                                   const LoopBudgetOptions& options) {
   std::vector<EstimatedParameter> out;
   using ValueOf = std::function<double(const RecordSpectra&, const LoopPoint&)>;
   const auto add = [&](const std::string& name, const std::string& unit, const ValueOf& value_of) {
     EstimatedParameter parameter{name, 0.0, 0.0, 0.0, unit};
     for (std::size_t e = 0; e < records.size(); ++e) {
-      const RecordSpectra& record = records.Whole(fit.model.flame_input, e);
+      const RecordSpectra record = records.Whole(fit.model, e);
       const double value = value_of(
           record, ToPoint(fit.model.structure, record.flame.cols(), fit.fit.points[e].parameters));
       parameter.low = e == 0 ? value : std::min(parameter.low, value);
@@ -81,6 +84,9 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
       add("tau_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
         return point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz);
       });
+      break;
+    case LoopItemKind::kInstrument:
+      out.push_back(EstimateInstrument(records, fit, item, "best/", options));
       break;
   }
   return out;

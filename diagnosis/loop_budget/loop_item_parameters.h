@@ -1,18 +1,19 @@
 // What an item of a budget is in numbers: the mean over the operating points of the best loop,
-// between the least and the largest.
+// between the least and the largest; of an instrument the value that all share, with its interval.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
 
 #include <vector>
 
 #include "diagnosis/fit/estimated_parameter.h"
-#include "diagnosis/loop_budget/loop_starts.h"
+#include "diagnosis/loop_budget/loop_trial.h"
 
 namespace howl {
 
 // `mode`: where an item is a mode, its place among the loop's.
 std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, const LoopFit& fit,
-                                                   const LoopItem& item, std::size_t mode);
+                                                   const LoopItem& item, std::size_t mode,
+                                                   const LoopBudgetOptions& options);
 
 }  // namespace howl
 

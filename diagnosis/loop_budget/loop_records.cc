@@ -3,6 +3,7 @@
 #include <glog/logging.h>
 
 #include <span>
+#include <utility>
 
 #include "estimation/parallel.h"
 
@@ -19,6 +20,21 @@ Record HalfOf(const Record& record, std::size_t half) {
   out.pressure = part(record.pressure);
   out.heat_release = part(record.heat_release);
   return out;
+}
+
+RecordSpectra Without(const LoopForm& form, RecordSpectra record) {
+  for (const LoopInstrument& instrument : form.instruments) {
+    record = WithoutInstrument(std::move(record), instrument);
+  }
+  return record;
+}
+
+double Jacobian(const LoopForm& form, const RecordSpectra& record) {
+  double sum = 0.0;
+  for (const LoopInstrument& instrument : form.instruments) {
+    sum += LogJacobian(record, instrument);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -42,6 +58,28 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
           MakeRecordSpectra(HalfOf(of.record, half), spectra.points[e].record);
     }
   });
+}
+
+std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
+  std::vector<OperatingPoint> out = Of(form.flame_input).points;
+  for (std::size_t e = 0; e < out.size(); ++e) out[e].record = Whole(form, e);
+  return out;
+}
+
+RecordSpectra LoopRecords::Whole(const LoopForm& form, std::size_t e) const {
+  return Without(form, Of(form.flame_input).points[e].record);
+}
+
+RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t half) const {
+  return Without(form, Of(form.flame_input).halves[e][half]);
+}
+
+double LoopRecords::LogJacobianOfWhole(const LoopForm& form, std::size_t e) const {
+  return Jacobian(form, Of(form.flame_input).points[e].record);
+}
+
+double LoopRecords::LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const {
+  return Jacobian(form, Of(form.flame_input).halves[e][half]);
 }
 
 }  // namespace howl

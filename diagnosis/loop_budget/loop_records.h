@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/loop_budget/loop_item.h"
 #include "estimation/joint_records/records_fit.h"
 
 namespace howl {
@@ -26,14 +27,14 @@ class LoopRecords {
 
   std::size_t size() const { return names_.size(); }
   const std::vector<std::string>& names() const { return names_; }
-  const std::vector<OperatingPoint>& Points(FlameInput input) const { return Of(input).points; }
-  const RecordSpectra& Whole(FlameInput input, std::size_t e) const {
-    return Of(input).points[e].record;
-  }
+  // As `form` has them, without its instruments.
+  std::vector<OperatingPoint> Points(const LoopForm& form) const;
+  RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
   // In the units of the whole.
-  const RecordSpectra& Half(FlameInput input, std::size_t e, std::size_t half) const {
-    return Of(input).halves[e][half];
-  }
+  RecordSpectra Half(const LoopForm& form, std::size_t e, std::size_t half) const;
+  // Of the change from what was recorded to what `form` is fitted to.
+  double LogJacobianOfWhole(const LoopForm& form, std::size_t e) const;
+  double LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const;
 
  private:
   struct Spectra {

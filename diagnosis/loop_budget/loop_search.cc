@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "diagnosis/loop_budget/loop_instrument_trial.h"
+
 namespace howl {
 namespace {
 
@@ -42,10 +44,8 @@ LoopFit Search::FitBase() const {
   fit_options.threads = options_.threads;
   fit_options.units = options_.units;
   fit_options.key = "base/";
-  const std::vector<OperatingPoint>& points = records_.Points(base_.flame_input);
-  LoopFit out{base_, FitRecords(points, base_.structure, fit_options), {}};
-  out.log_density = LeftOutDensities(points, out.fit, fit_options);
-  return out;
+  const std::vector<OperatingPoint> points = records_.Points(base_);
+  return Scored(records_, base_, FitRecords(points, base_.structure, fit_options), fit_options);
 }
 
 std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) const {
@@ -55,7 +55,15 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
   });
   if (items.empty()) return std::nullopt;
   const std::string key = "step/" + std::to_string(step) + "/";
-  std::vector<LoopTrial> trials = TryItems(records_, from, items, key, options_);
+  const auto last = std::ranges::stable_partition(
+      items, [](const LoopItem& item) { return item.kind != LoopItemKind::kInstrument; });
+  const std::vector<LoopItem> instruments(last.begin(), last.end());
+  std::vector<LoopTrial> trials =
+      TryItems(records_, from, {items.begin(), last.begin()}, key, options_);
+  for (const LoopItem& item : instruments) {
+    trials.push_back(TryInstrument(records_, from, item, key, options_));
+  }
+  std::ranges::stable_sort(trials, std::ranges::greater(), &LoopTrial::gain);
   for (const LoopTrial& trial : trials) {
     VLOG(1) << "step " << step << ": " << trial.item.id << " " << trial.gain << " nats";
   }
@@ -66,6 +74,9 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
     if (!(trials[i].gain > 0.0)) break;
     LoopFit fit = FitLoopFrom(records_, trials[i].model, trials[i].starts,
                               key + "fit/" + trials[i].item.id + "/", options_);
+    if (trials[i].item.kind == LoopItemKind::kInstrument) {
+      fit = Refined(records_, std::move(fit), trials[i].item, key, options_);
+    }
     VLOG(1) << "step " << step << ": " << trials[i].item.id << " foretells "
             << fit.Density() - from.Density() << " nats better";
     if (!(fit.Density() > from.Density() + least)) continue;
@@ -77,7 +88,8 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
   LoopStep out{trials[best_trial].item, {}, std::move(*best)};
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const double behind = trials[best_trial].gain - trials[i].gain;
-    if (i != best_trial && std::abs(behind) < std::log(kOddsOfClass)) {
+    const bool same = trials[i].item.id == trials[best_trial].item.id;
+    if (!same && std::abs(behind) < std::log(kOddsOfClass)) {
       out.equals.push_back(trials[i].item.id);
     }
   }
@@ -117,6 +129,10 @@ LoopFound Search::Run() const {
     if (!next) break;
     out.best = next->after;
     out.steps.push_back(std::move(*next));
+  }
+  for (const LoopStep& step : out.steps) {
+    if (step.item.kind != LoopItemKind::kInstrument) continue;
+    out.best = Refined(records_, std::move(out.best), step.item, "best/", options_);
   }
   // Backward: what pays least goes first, as long as something does not pay.
   for (std::size_t round = 0; !out.steps.empty(); ++round) {

@@ -27,13 +27,14 @@ std::vector<Eigen::VectorXd> NoiseIn(const PointStructure& from,
 }
 
 // One row for each of the delays with which the flame, driven by another signal, leaves least of q.
-LoopStarts WithOtherInput(const LoopRecords& records, const FlameInput input,
-                          const PointStructure& structure, std::vector<LoopPoint> points) {
+LoopStarts WithOtherInput(const LoopRecords& records, const LoopForm& form,
+                          std::vector<LoopPoint> points) {
+  const PointStructure& structure = form.structure;
   LoopStarts out;
   out.apart = true;
   out.rows.resize(kDelaysTried);
   for (std::size_t e = 0; e < records.size(); ++e) {
-    const RecordSpectra& record = records.Whole(input, e);
+    const RecordSpectra record = records.Whole(form, e);
     const std::vector<double> delays = DelayStarts(record, kDelaysTried);
     for (std::size_t i = 0; i < kDelaysTried; ++i) {
       LoopPoint& point = points[e];
@@ -49,7 +50,7 @@ LoopStarts WithOtherInput(const LoopRecords& records, const FlameInput input,
 std::vector<LoopPoint> PointsOf(const LoopRecords& records, const LoopFit& fit) {
   std::vector<LoopPoint> out;
   for (std::size_t e = 0; e < records.size(); ++e) {
-    const Eigen::Index flame = records.Whole(fit.model.flame_input, e).flame.cols();
+    const Eigen::Index flame = records.Whole(fit.model, e).flame.cols();
     out.push_back(ToPoint(fit.model.structure, flame, fit.fit.points[e].parameters));
   }
   return out;
@@ -63,9 +64,9 @@ double LoopFit::Density() const {
 
 LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with) {
   if (with.flame_input != from.model.flame_input) {
-    return WithOtherInput(records, with.flame_input, with.structure, PointsOf(records, from));
+    return WithOtherInput(records, with, PointsOf(records, from));
   }
-  return {StartsInRicher(records.Points(with.flame_input), from.fit, with.structure)};
+  return {StartsInRicher(records.Points(with), from.fit, with.structure)};
 }
 
 LoopStarts StartsWithout(const LoopRecords& records, const LoopFit& from, const LoopForm& without,
@@ -85,7 +86,7 @@ LoopStarts StartsWithout(const LoopRecords& records, const LoopFit& from, const 
     point.flame_lines.conservativeResize(without.structure.flame_lines);
   }
   if (without.flame_input != from.model.flame_input) {
-    return WithOtherInput(records, without.flame_input, without.structure, std::move(points));
+    return WithOtherInput(records, without, std::move(points));
   }
   LoopStarts out;
   for (const LoopPoint& point : points) {

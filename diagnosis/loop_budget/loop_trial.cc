@@ -15,10 +15,12 @@ struct Unit {
   std::size_t trial, row, point;
 };
 
+}  // namespace
+
 PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
                         std::size_t e) {
-  const RecordSpectra& record = records.Whole(with.flame_input, e);
-  const RecordSpectra& before = records.Whole(from.model.flame_input, e);
+  const RecordSpectra record = records.Whole(with, e);
+  const RecordSpectra before = records.Whole(from.model, e);
   std::vector<std::string> known = ParameterLabels(from.model.structure, before.flame.cols());
   const Eigen::Index flame = from.model.structure.Flame();
   for (Eigen::Index k = 0; k < before.flame.cols(); ++k) {
@@ -31,8 +33,6 @@ PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const L
   return WithKnown(PriorOf(with.structure, record),
                    ParameterLabels(with.structure, record.flame.cols()), from.fit.prior[e], known);
 }
-
-}  // namespace
 
 std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
                                 const std::vector<LoopItem>& items, const std::string& key,
@@ -55,7 +55,7 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     const std::string of = key + "trial/" + items[unit.trial].id + "/" + std::to_string(unit.row) +
                            "/" + std::to_string(unit.point);
     fits[i] = KeptFit(options.units, of, [&] {
-      return FitPoint(records.Whole(model.flame_input, unit.point), model.structure,
+      return FitPoint(records.Whole(model, unit.point), model.structure,
                       PriorOfTrial(records, from, model, unit.point),
                       starts[unit.trial].rows[unit.row][unit.point]);
     });
@@ -90,16 +90,25 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
   return out;
 }
 
+LoopFit Scored(const LoopRecords& records, const LoopForm& model, RecordsFit fit,
+               const RecordsFitOptions& options) {
+  LoopFit out{model, std::move(fit), {}};
+  out.log_density = LeftOutDensities(records.Points(model), out.fit, options);
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    out.log_density[e] += records.LogJacobianOfWhole(model, e);
+  }
+  return out;
+}
+
 LoopFit FitLoopFrom(const LoopRecords& records, const LoopForm& model, const StartRows& starts,
                     const std::string& key, const LoopBudgetOptions& options) {
   RecordsFitOptions fit_options;
   fit_options.threads = options.threads;
   fit_options.units = options.units;
   fit_options.key = key;
-  const std::vector<OperatingPoint>& points = records.Points(model.flame_input);
-  LoopFit out{model, FitRecordsFrom(points, model.structure, starts, fit_options), {}};
-  out.log_density = LeftOutDensities(points, out.fit, fit_options);
-  return out;
+  const std::vector<OperatingPoint> points = records.Points(model);
+  return Scored(records, model, FitRecordsFrom(points, model.structure, starts, fit_options),
+                fit_options);
 }
 
 }  // namespace howl

@@ -34,6 +34,14 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
                                 const std::vector<LoopItem>& items, const std::string& key,
                                 const LoopBudgetOptions& options);
 
+// The priors of a trial: those of the law for what `from` has, wide ones for what is new.
+PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
+                        std::size_t e);
+
+// With what each point's record is foretold, as it was recorded.
+LoopFit Scored(const LoopRecords& records, const LoopForm& model, RecordsFit fit,
+               const RecordsFitOptions& options);
+
 // All points together.
 LoopFit FitLoopFrom(const LoopRecords& records, const LoopForm& model, const StartRows& starts,
                     const std::string& key, const LoopBudgetOptions& options);

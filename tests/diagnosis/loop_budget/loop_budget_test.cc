@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <complex>
 #include <string>
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_item.h"
+#include "model/numerics/fft.h"
 #include "tests/estimation/record_fit/modal_loop.h"
 
 namespace howl {
@@ -87,6 +89,32 @@ TEST(LoopBudget, FindsWhatDrivesTheFlame) {
   EXPECT_EQ(found.best.flame_input, FlameInput::kPressureRate);
   const EstimatedParameter& tau = found.diagnosis.budget->entries[0].parameters[0];
   EXPECT_NEAR(tau.value, 0.0033, 0.00005);
+}
+
+// Recorded q is q through a low-pass of first order.
+TEST(LoopBudget, FindsInstrumentsOfQ) {
+  constexpr double kCutoff_hz = 500.0;
+  std::vector<LoopRecord> records = DuctsRecords();
+  for (LoopRecord& each : records) {
+    std::vector<double>& q = each.record.heat_release;
+    std::vector<std::complex<double>> spectrum(q.size() / 2 + 1);
+    Fft fft;
+    fft.Forward(q, spectrum);
+    const double bin_hz = each.record.sampling_hz / static_cast<double>(q.size());
+    for (std::size_t k = 0; k < spectrum.size(); ++k) {
+      spectrum[k] /= std::complex<double>(1.0, static_cast<double>(k) * bin_hz / kCutoff_hz);
+    }
+    fft.Inverse(spectrum, q);
+  }
+  const LoopDiagnosis found = DiagnoseLoops(
+      records, DuctsForm(), Among({"q_sensor_lowpass", "channel_skew", "crosstalk_p_to_q"}));
+  ASSERT_FALSE(found.diagnosis.budget->entries.empty());
+  const BudgetEntry& entry = found.diagnosis.budget->entries[0];
+  EXPECT_EQ(entry.item, "q_sensor_lowpass");
+  EXPECT_EQ(found.diagnosis.budget->entries.size(), 1u);
+  EXPECT_NEAR(entry.parameters[0].value, kCutoff_hz, 0.03 * kCutoff_hz);
+  EXPECT_LT(entry.parameters[0].high / entry.parameters[0].low, 1.1);
+  EXPECT_GT(entry.lost_nats, 20.0);
 }
 
 bool Offered(const std::vector<LoopItem>& items, const std::string& id) {

@@ -1,0 +1,62 @@
+#include "diagnosis/loop_budget/loop_instrument.h"
+
+#include <cmath>
+#include <complex>
+#include <span>
+
+#include "model/effects/catalogue.h"
+
+namespace howl {
+namespace {
+
+std::complex<double> ResponseOf(const LoopInstrument& instrument, double frequency_hz) {
+  return instrument.effect->HeatReleaseInstrument(frequency_hz, std::span(&instrument.value, 1));
+}
+
+// In units of the record: a leak is relative to the record's own q over p.
+std::complex<double> LeakOf(const LoopInstrument& instrument, double frequency_hz) {
+  EffectContext at;
+  at.heat_release_over_pressure = at.own_heat_release_over_pressure = 1.0;
+  return instrument.effect->PressureLeak(frequency_hz, at, std::span(&instrument.value, 1));
+}
+
+bool IsAtNull(const LoopInstrument& instrument) {
+  return instrument.value == instrument.effect->parameters()[0].null_value;
+}
+
+}  // namespace
+
+std::vector<EffectPointer> InstrumentsOfHeatRelease() {
+  std::vector<EffectPointer> out;
+  for (const EffectPointer& effect : Catalogue()) {
+    const bool of_q = effect->kind() == EffectKind::kTransfer &&
+                      effect->block() == LoopBlock::kHeatReleaseInstrument;
+    // Relative to the mean of all points a leak is the same thing in other units.
+    const bool again = effect->form().key == "range" && effect->form().value != "own";
+    if (of_q && effect->parameters().size() == 1 && !again) out.push_back(effect);
+  }
+  return out;
+}
+
+RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& instrument) {
+  if (IsAtNull(instrument)) return record;
+  for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
+    const double hz = record.edge_s[i].imag() * record.scale.cycle_hz;
+    record.heat_release[i] =
+        (record.heat_release[i] - LeakOf(instrument, hz) * record.pressure[i]) /
+        ResponseOf(instrument, hz);
+  }
+  return record;
+}
+
+double LogJacobian(const RecordSpectra& record, const LoopInstrument& instrument) {
+  if (IsAtNull(instrument)) return 0.0;
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const double hz = record.s[i].imag() * record.scale.cycle_hz;
+    sum -= record.share[i] * std::log(std::norm(ResponseOf(instrument, hz)));
+  }
+  return sum;
+}
+
+}  // namespace howl

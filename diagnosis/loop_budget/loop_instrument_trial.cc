@@ -1,0 +1,189 @@
+#include "diagnosis/loop_budget/loop_instrument_trial.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "estimation/parallel.h"
+
+namespace howl {
+namespace {
+
+constexpr int kMostSteps = 10;
+constexpr int kMostRounds = 3;
+constexpr double kStands = 0.1;      // of the value's own deviation
+constexpr double kFirstStep = 0.05;  // of the search's range
+
+double ToSearch(const EffectParameter& parameter, double x) {
+  return parameter.scale == ParameterScale::kLogarithmic ? std::log(x) : x;
+}
+double FromSearch(const EffectParameter& parameter, double u) {
+  return parameter.scale == ParameterScale::kLogarithmic ? std::exp(u) : u;
+}
+
+// A value in the coordinate of the search, what it is worth, and each point's parameters there.
+struct ProfilePoint {
+  double u = 0.0;
+  double nats = -std::numeric_limits<double>::infinity();
+  std::vector<Eigen::VectorXd> parameters;
+};
+
+struct Maximum {
+  ProfilePoint at;
+  double std = 0.0;  // of u; infinite where the profile has no maximum
+};
+
+class Profile {
+ public:
+  Profile(const LoopRecords& records, const LoopFit& from, const LoopItem& item, std::string key,
+          const LoopBudgetOptions& options)
+      : records_(records),
+        from_(from),
+        parameter_(item.instrument->parameters()[0]),
+        form_(With(Without(from.model, item, from.model), item)),
+        key_(std::move(key)),
+        options_(options) {}
+
+  const EffectParameter& parameter() const { return parameter_; }
+  double Low() const { return ToSearch(parameter_, parameter_.low); }
+  double High() const { return ToSearch(parameter_, parameter_.high); }
+  LoopForm FormAt(double u) const {
+    LoopForm form = form_;
+    form.instruments.back().value = FromSearch(parameter_, u);
+    return form;
+  }
+  ProfilePoint At(double u, const std::vector<Eigen::VectorXd>& starts) const;
+  Maximum From(ProfilePoint best) const;
+
+ private:
+  const LoopRecords& records_;
+  const LoopFit& from_;
+  const EffectParameter& parameter_;
+  LoopForm form_;
+  std::string key_;
+  const LoopBudgetOptions& options_;
+};
+
+ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) const {
+  const LoopForm form = FormAt(u);
+  std::vector<PointFit> fits(records_.size());
+  RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
+    fits[e] = KeptFit(options_.units, key_ + std::to_string(u) + "/" + std::to_string(e), [&] {
+      return FitPoint(records_.Whole(form, e), form.structure,
+                      PriorOfTrial(records_, from_, form, e), starts[e]);
+    });
+  });
+  ProfilePoint out{u, 0.0, {}};
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    out.nats += fits[e].log_evidence + records_.LogJacobianOfWhole(form, e);
+    out.parameters.push_back(fits[e].parameters);
+  }
+  return out;
+}
+
+// Up, by parabolas through three values each, until they stand closer than the profile's own width.
+Maximum Profile::From(ProfilePoint best) const {
+  double step = kFirstStep * (High() - Low());
+  double std = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double u = best.u;
+    ProfilePoint below = At(std::max(u - step, Low()), best.parameters);
+    ProfilePoint above = At(std::min(u + step, High()), best.parameters);
+    const double curvature =
+        2.0 *
+        ((above.nats - best.nats) / (above.u - u) - (best.nats - below.nats) / (u - below.u)) /
+        (above.u - below.u);
+    if (below.nats > best.nats || above.nats > best.nats || !(curvature < 0.0)) {
+      best = below.nats > above.nats ? std::move(below) : std::move(above);
+      if (best.u <= Low() || best.u >= High()) break;
+      continue;
+    }
+    std = 1.0 / std::sqrt(-curvature);
+    if (step <= std) break;
+    const double slope = (above.nats - below.nats) / (above.u - below.u);
+    ProfilePoint vertex = At(u - slope / curvature, best.parameters);
+    if (vertex.nats > best.nats) best = std::move(vertex);
+    step = std::max(step / 4.0, std);
+  }
+  return {std::move(best), std};
+}
+
+std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit) {
+  std::vector<Eigen::VectorXd> out;
+  for (const PointFit& point : fit.fit.points) out.push_back(point.parameters);
+  return out;
+}
+
+const LoopInstrument& InstrumentOf(const LoopFit& fit, const LoopItem& item) {
+  const auto at = std::ranges::find_if(fit.model.instruments, [&](const LoopInstrument& each) {
+    return each.effect->id() == item.id;
+  });
+  CHECK(at != fit.model.instruments.end());
+  return *at;
+}
+
+// In the form that the fit has.
+LoopItem AsFitted(const LoopFit& fit, LoopItem item) {
+  item.instrument = InstrumentOf(fit, item).effect;
+  return item;
+}
+
+double ValueOf(const LoopFit& fit, const LoopItem& item) { return InstrumentOf(fit, item).value; }
+
+}  // namespace
+
+LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
+                        const std::string& key, const LoopBudgetOptions& options) {
+  const Profile profile(records, from, item,
+                        key + "trial/" + item.id + item.instrument->form().value + "/", options);
+  ProfilePoint best;
+  for (const double start : profile.parameter().starts) {
+    ProfilePoint point = profile.At(ToSearch(profile.parameter(), start), ParametersOf(from));
+    if (point.nats > best.nats) best = std::move(point);
+  }
+  const Maximum maximum = profile.From(std::move(best));
+  LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {maximum.at.parameters}};
+  const double span = profile.High() - profile.Low();
+  const double width = std::sqrt(2.0 * std::numbers::pi) * maximum.std;
+  out.gain = maximum.at.nats + std::log(std::min(width, span) / span);
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    out.gain -= from.fit.points[e].log_evidence + records.LogJacobianOfWhole(from.model, e);
+  }
+  return out;
+}
+
+LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
+                const std::string& key, const LoopBudgetOptions& options) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::string of_round = key + "refined/" + item.id + "/" + std::to_string(round) + "/";
+    const LoopItem same = AsFitted(fit, item);
+    const Profile profile(records, fit, same, of_round, options);
+    const double before = ToSearch(profile.parameter(), ValueOf(fit, item));
+    const Maximum maximum = profile.From(profile.At(before, ParametersOf(fit)));
+    if (std::abs(maximum.at.u - before) < kStands * maximum.std) break;
+    LoopFit next = FitLoopFrom(records, profile.FormAt(maximum.at.u), {maximum.at.parameters},
+                               of_round, options);
+    if (!(next.Density() > fit.Density())) break;
+    fit = std::move(next);
+  }
+  return fit;
+}
+
+EstimatedParameter EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
+                                      const LoopItem& item, const std::string& key,
+                                      const LoopBudgetOptions& options) {
+  const Profile profile(records, fit, AsFitted(fit, item), key + "estimate/" + item.id + "/",
+                        options);
+  const EffectParameter& parameter = profile.parameter();
+  const Maximum maximum =
+      profile.From(profile.At(ToSearch(parameter, ValueOf(fit, item)), ParametersOf(fit)));
+  const double value = FromSearch(parameter, maximum.at.u);
+  const bool logarithmic = parameter.scale == ParameterScale::kLogarithmic;
+  return WithError(parameter, value, logarithmic ? value * maximum.std : maximum.std);
+}
+
+}  // namespace howl
