@@ -2,9 +2,21 @@
 
 #include <cmath>
 
+#include "model/numerics/complex_products.h"
+
 namespace howl {
+namespace {
 
 using C = std::complex<double>;
+
+// ln(1 + w), to rounding where w is small.
+C LogOfOneAnd(C w) {
+  return {0.5 * std::log1p(2.0 * w.real() + std::norm(w)), std::atan2(w.imag(), 1.0 + w.real())};
+}
+
+C Exponential(C x) { return std::polar(std::exp(x.real()), x.imag()); }
+
+}  // namespace
 
 C FlamePath::At(C s) const {
   const C delayed = tau * s;
@@ -12,11 +24,30 @@ C FlamePath::At(C s) const {
     case DelaySpread::kNone:
       break;
     case DelaySpread::kNormal:
-      return std::exp(-delayed + 0.5 * rho * rho * delayed * delayed);
+      return Exponential(-delayed + 0.5 * rho * rho * Times(delayed, delayed));
     case DelaySpread::kGamma:
-      return std::exp(-std::log(1.0 + rho * rho * delayed) / (rho * rho));
+      return Exponential(-LogOfOneAnd(rho * rho * delayed) / (rho * rho));
   }
-  return std::polar(std::exp(-delayed.real()), -delayed.imag());
+  return Exponential(-delayed);
+}
+
+PathSlopes FlamePath::WithSlopes(C s) const {
+  const C delayed = tau * s;
+  const double square = rho * rho;
+  switch (spread) {
+    case DelaySpread::kNone:
+      break;
+    case DelaySpread::kNormal: {
+      const C wide = square * Times(delayed, delayed);
+      return {Exponential(-delayed + 0.5 * wide), -delayed + wide, wide};
+    }
+    case DelaySpread::kGamma: {
+      const C mean = LogOfOneAnd(square * delayed) / square;
+      const C late = Times(delayed, Reciprocal(1.0 + square * delayed));
+      return {Exponential(-mean), -late, 2.0 * (mean - late)};
+    }
+  }
+  return {Exponential(-delayed), -delayed, 0.0};
 }
 
 Eigen::VectorXcd FlamePath::At(const Eigen::VectorXcd& s) const {
@@ -24,7 +55,7 @@ Eigen::VectorXcd FlamePath::At(const Eigen::VectorXcd& s) const {
 }
 
 // All three depend on tau s alone.
-C FlamePath::ByLogTau(C s) const { return s * BySlope(s); }
+C FlamePath::ByLogTau(C s) const { return Times(s, BySlope(s)); }
 
 C FlamePath::ByLogRho(C s) const {
   const C delayed = tau * s;
@@ -32,10 +63,10 @@ C FlamePath::ByLogRho(C s) const {
     case DelaySpread::kNone:
       break;
     case DelaySpread::kNormal:
-      return rho * rho * delayed * delayed;
+      return rho * rho * Times(delayed, delayed);
     case DelaySpread::kGamma:
-      return 2.0 * (std::log(1.0 + rho * rho * delayed) / (rho * rho) -
-                    delayed / (1.0 + rho * rho * delayed));
+      return 2.0 * (LogOfOneAnd(rho * rho * delayed) / (rho * rho) -
+                    Times(delayed, Reciprocal(1.0 + rho * rho * delayed)));
   }
   return 0.0;
 }
@@ -47,7 +78,7 @@ C FlamePath::BySlope(C s) const {
     case DelaySpread::kNormal:
       return -tau + rho * rho * tau * tau * s;
     case DelaySpread::kGamma:
-      return -tau / (1.0 + rho * rho * tau * s);
+      return -tau * Reciprocal(1.0 + rho * rho * tau * s);
   }
   return -tau;
 }

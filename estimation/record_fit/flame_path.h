@@ -19,6 +19,13 @@ namespace howl {
 
 enum class DelaySpread : std::uint8_t { kNone, kNormal, kGamma };
 
+// A path's answer at one frequency, with d ln At by ln tau and by ln rho.
+struct PathSlopes {
+  std::complex<double> at;
+  std::complex<double> by_log_tau;
+  std::complex<double> by_log_rho;
+};
+
 struct FlamePath {
   DelaySpread spread = DelaySpread::kNone;
   double tau = 0.0;
@@ -26,6 +33,8 @@ struct FlamePath {
 
   std::complex<double> At(std::complex<double> s) const;
   Eigen::VectorXcd At(const Eigen::VectorXcd& s) const;
+  // All three in one, at little more than the cost of the first.
+  PathSlopes WithSlopes(std::complex<double> s) const;
   // d ln At by ln tau and by ln rho.
   std::complex<double> ByLogTau(std::complex<double> s) const;
   std::complex<double> ByLogRho(std::complex<double> s) const;

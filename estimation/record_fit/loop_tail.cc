@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/numerics/complex_products.h"
 #include "model/numerics/dilogarithm.h"
 
 namespace howl {
@@ -10,15 +11,17 @@ using C = std::complex<double>;
 
 LoopAt::LoopAt(const RecordSpectra& record, const LoopPoint& point, C at)
     : s(at),
-      path(point.path.At(s) * FlameInputResponse(record.flame_input, s)),
-      u(AcousticTransfer(point, s) * path) {}
+      slopes(point.path.WithSlopes(s)),
+      path(Times(slopes.at, FlameInputResponse(record.flame_input, s))),
+      u(Times(AcousticTransfer(point, s), path)) {}
 
 void LoopAt::AddSlopes(const PointStructure& structure, const LoopPoint& point, C by,
                        Eigen::VectorXd* out) const {
-  AddAcousticSlopes(structure, point, s, by * path, out);
-  (*out)[structure.Delay()] += (by * u * point.path.ByLogTau(s)).real();
+  AddAcousticSlopes(structure, point, s, Times(by, path), out);
+  const C by_log = Times(by, u);
+  (*out)[structure.Delay()] += Times(by_log, slopes.by_log_tau).real();
   if (structure.Delays() < 2) return;
-  (*out)[structure.Delay() + 1] += (by * u * point.path.ByLogRho(s)).real();
+  (*out)[structure.Delay() + 1] += Times(by_log, slopes.by_log_rho).real();
 }
 
 double SumOfResidues(const LoopPoint& point) {

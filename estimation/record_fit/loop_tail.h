@@ -22,6 +22,7 @@ struct LoopAt {
                  Eigen::VectorXd* out) const;
 
   std::complex<double> s;
+  PathSlopes slopes;
   std::complex<double> path;
   std::complex<double> u;
 };

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "estimation/record_fit/point_likelihood.h"
 #include "estimation/record_fit/return_difference.h"
 #include "model/numerics/dense_algebra.h"
 
@@ -32,78 +33,56 @@ constexpr std::size_t kMostDelays = 3;
 constexpr double kDifference = 1e-5;  // of the prior's deviation
 constexpr int kMostHalvings = 20;     // of a start's flame
 
-double Value(const RecordSpectra& record, const PointStructure& structure, const PointPrior& prior,
-             const Eigen::VectorXd& parameters) {
-  constexpr double kImpossible = -std::numeric_limits<double>::infinity();
-  if (!parameters.allFinite()) return kImpossible;
-  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  return WhittleLogLikelihood(structure.noise, record.share,
-                              ResidualsOf(record, structure, point)) +
-         LogDeterminant(record, point) + prior.LogDensity(parameters);
-}
-
 struct Quadratic {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
 };
 
-// In units of the prior's deviations.
-Eigen::VectorXd Gradient(const RecordSpectra& record, const PointStructure& structure,
-                         const PointPrior& prior, const Eigen::VectorXd& parameters) {
-  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  const Eigen::VectorXd gradient =
-      WhittleGradient(structure.noise, record.share, ResidualsOf(record, structure, point),
-                      DerivativesOf(record, structure, point)) +
-      LogDeterminantGradient(record, structure, point);
-  return prior.deviation.cwiseProduct(gradient) + prior.Slope(parameters);
-}
+// The log posterior in units of the prior's deviations.
+class Posterior {
+ public:
+  Posterior(const RecordSpectra& record, const PointStructure& structure, const PointPrior& prior)
+      : likelihood_(record, structure), prior_(prior) {}
 
-Quadratic Expand(const RecordSpectra& record, const PointStructure& structure,
-                 const PointPrior& prior, const Eigen::VectorXd& parameters) {
-  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  const LoopScore score =
-      WhittleScore(structure.noise, record.share, ResidualsOf(record, structure, point),
-                   DerivativesOf(record, structure, point));
-  Quadratic out;
-  const auto scale = prior.deviation.asDiagonal();
-  out.gradient = scale * (score.gradient + LogDeterminantGradient(record, structure, point)) +
-                 prior.Slope(parameters);
-  out.information = scale * score.information * scale;
-  out.information.diagonal() += prior.Precision(parameters);
-  return out;
-}
-
-// The curvature itself, by differences of the gradient. Where the model misses what the record
-// shows it differs from the information, and steps on the latter come near the maximum slowly.
-Eigen::MatrixXd Curvature(const RecordSpectra& record, const PointStructure& structure,
-                          const PointPrior& prior, const Eigen::VectorXd& parameters) {
-  const Eigen::Index size = parameters.size();
-  const auto gradient = [&](Eigen::Index i, double step) {
-    Eigen::VectorXd moved = parameters;
-    moved[i] += step * prior.deviation[i];
-    return Gradient(record, structure, prior, moved);
-  };
-  // What moves the noise alone leaves the loop and what the record leaves of it where they are.
-  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  LoopResiduals residuals = ResidualsOf(record, structure, point);
-  const LoopDerivatives derivatives = DerivativesOf(record, structure, point);
-  const auto by_noise = [&](Eigen::Index i, double step) -> Eigen::VectorXd {
-    Eigen::VectorXd moved = parameters;
-    moved[i] += step * prior.deviation[i];
-    SetNoise(record, structure, ToPoint(structure, record.flame.cols(), moved), &residuals);
-    return prior.deviation.cwiseProduct(
-               WhittleGradient(structure.noise, record.share, residuals, derivatives)) +
-           prior.Slope(moved);
-  };
-  const Eigen::Index loop = size - structure.NoiseParameters();
-  Eigen::MatrixXd out(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const Eigen::VectorXd fall = i < loop ? gradient(i, -kDifference) - gradient(i, kDifference)
-                                          : by_noise(i, -kDifference) - by_noise(i, kDifference);
-    out.col(i) = fall / (2.0 * kDifference);
+  double Value(const Eigen::VectorXd& parameters) {
+    const double value = likelihood_.Value(parameters);
+    return std::isfinite(value) ? value + prior_.LogDensity(parameters) : value;
   }
-  return 0.5 * (out + out.transpose());
-}
+
+  Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters) {
+    return prior_.deviation.cwiseProduct(likelihood_.Gradient(parameters)) +
+           prior_.Slope(parameters);
+  }
+
+  Quadratic Expand(const Eigen::VectorXd& parameters) {
+    Quadratic out;
+    const auto scale = prior_.deviation.asDiagonal();
+    out.gradient = Gradient(parameters);
+    out.information = scale * likelihood_.Information(parameters) * scale;
+    out.information.diagonal() += prior_.Precision(parameters);
+    return out;
+  }
+
+  // The curvature itself, by differences of the gradient. Where the model misses what the record
+  // shows it differs from the information, and steps on the latter come near the maximum slowly.
+  Eigen::MatrixXd Curvature(const Eigen::VectorXd& parameters) {
+    const Eigen::Index size = parameters.size();
+    const auto gradient = [&](Eigen::Index i, double step) {
+      Eigen::VectorXd moved = parameters;
+      moved[i] += step * prior_.deviation[i];
+      return Gradient(moved);
+    };
+    Eigen::MatrixXd out(size, size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      out.col(i) = (gradient(i, -kDifference) - gradient(i, kDifference)) / (2.0 * kDifference);
+    }
+    return 0.5 * (out + out.transpose());
+  }
+
+ private:
+  PointLikelihood likelihood_;
+  const PointPrior& prior_;
+};
 
 // Far from the maximum the record's share may leave the information without a sign: the steps then
 // take the size of its curvature, as Greenstadt's modified Newton steps do. What has less than the
@@ -173,24 +152,22 @@ Eigen::MatrixXd PointFit::Covariance() const {
 
 double LogLikelihood(const RecordSpectra& record, const PointStructure& structure,
                      const Eigen::VectorXd& parameters) {
-  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  return WhittleLogLikelihood(structure.noise, record.share,
-                              ResidualsOf(record, structure, point)) +
-         LogDeterminant(record, point);
+  return PointLikelihood(record, structure).Value(parameters);
 }
 
 PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, Eigen::VectorXd start, const PointFitOptions& options) {
   PointFit out;
+  Posterior posterior(record, structure, prior);
   out.parameters = Possible(record, structure, std::move(start));
-  out.log_posterior = Value(record, structure, prior, out.parameters);
+  out.log_posterior = posterior.Value(out.parameters);
   const Eigen::VectorXd narrower =
       prior.deviation.cwiseQuotient(PriorOf(structure, record).deviation);
   double damping = kFirstDamping;
   double raise = 2.0;
   int corrections = 0;
   Source source = Source::kInformation;
-  Quadratic here = Expand(record, structure, prior, out.parameters);
+  Quadratic here = posterior.Expand(out.parameters);
   while (out.iterations < options.iterations && damping < kMostDamping) {
     ++out.iterations;
     const Eigen::MatrixXd information = Positive(here.information);
@@ -204,25 +181,25 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
         out.converged = true;
         break;
       }
-      here.information = Curvature(record, structure, prior, out.parameters);
+      here.information = posterior.Curvature(out.parameters);
       source = Source::kCurvature;
       continue;
     }
     const Eigen::VectorXd there = out.parameters + step.cwiseProduct(prior.deviation);
-    const double value = Value(record, structure, prior, there);
+    const double value = posterior.Value(there);
     const double gain = value - out.log_posterior;
     const bool taken = gain > 0.0;
     Quadratic next;
     if (source == Source::kInformation && foretold >= kNear) {
-      if (taken) next = Expand(record, structure, prior, there);
+      if (taken) next = posterior.Expand(there);
     } else if (std::isfinite(value)) {
-      next.gradient = Gradient(record, structure, prior, there);
+      next.gradient = posterior.Gradient(there);
       next.information = here.information;
       CorrectAlong(step, here.gradient - next.gradient, &next.information);
       here.information = next.information;
       source = Source::kCorrected;
       if (++corrections > kMostCorrections) {
-        next.information = Curvature(record, structure, prior, taken ? there : out.parameters);
+        next.information = posterior.Curvature(taken ? there : out.parameters);
         here.information = next.information;
         source = Source::kCurvature;
         corrections = 0;

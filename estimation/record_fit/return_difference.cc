@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "estimation/record_fit/beside_band.h"
+#include "estimation/record_fit/log_of_product.h"
 #include "estimation/record_fit/loop_tail.h"
 #include "model/numerics/complex_products.h"
 
@@ -14,89 +16,20 @@ namespace {
 
 using C = std::complex<double>;
 
-constexpr int kBelow = 16;   // points from zero to the band
-constexpr int kAbove = 160;  // of the octave above it
-
-double BinsEach(const RecordSpectra& record) {
-  return 2.0 * record.share[0] * record.scale.cycle_hz / record.bin_hz;
-}
-
-// Calls `take` with each frequency beside the band and what it counts for: twice the weight of the
-// bins that it stands for.
-template <typename Take>
-void ForEachBeside(const RecordSpectra& record, const Take& take) {
-  const double lowest = std::abs(record.s[0]);
-  const double below = lowest / kBelow;
-  const double weight = BinsEach(record);
-  for (int i = 0; i < kBelow; ++i) take(C(0.0, (i + 0.5) * below), weight * below);
-  const double highest = std::abs(record.s[record.bins() - 1]);
-  const double above = highest / kAbove;
-  for (int i = 0; i < kAbove; ++i) take(C(0.0, highest + (i + 0.5) * above), weight * above);
-}
-
-// -sum of 2 w ln |D| beside the band.
-double Beside(const RecordSpectra& record, const LoopPoint& point, const LoopTail& tail) {
-  const double slope = record.slopes.dot(point.flame);
-  double sum = BinsEach(record) * tail.Value().real();
-  ForEachBeside(record, [&](C s, double weight) {
-    sum -= weight * std::log(std::abs(1.0 - slope * LoopAt(record, point, s).u));
-  });
-  return sum;
-}
-
-// The sum of 2 w ln |D| over the band.
-double Within(const RecordSpectra& record, const LoopPoint& point) {
-  const double slope = record.slopes.dot(point.flame);
-  double sum = 0.0;
+// The sum of 2 w ln |D| over the band. slope_u: slope U at each bin.
+template <typename SlopeU>
+double Within(const RecordSpectra& record, const SlopeU& slope_u) {
+  LogOfProduct squares;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
-    const C u = LoopAt(record, point, record.s[i]).u;
-    sum += 2.0 * record.share[i] * std::log(std::abs(1.0 - slope * u));
+    squares.Multiply(std::norm(1.0 - slope_u(i)), record.share[i]);
   }
-  return sum;
+  return squares.Sum();
 }
 
-// A sum with its slopes by the loop's parameters and by the flame's slope.
-struct LoopGradient {
-  Eigen::VectorXd loop;
-  double slope = 0.0;
-  double value = 0.0;
-
-  // `over`: of d (slope U).
-  void Add(const PointStructure& structure, const LoopPoint& point, double slope_now,
-           const LoopAt& at, C over) {
-    at.AddSlopes(structure, point, slope_now * over, &loop);
-    slope += (over * at.u).real();
-  }
-};
-
-LoopGradient BesideGradient(const RecordSpectra& record, const PointStructure& structure,
-                            const LoopPoint& point, const LoopTail& tail) {
-  const double slope = record.slopes.dot(point.flame);
-  LoopGradient out{Eigen::VectorXd::Zero(structure.Flame())};
-  out.value = BinsEach(record) * tail.Value().real();
-  ForEachBeside(record, [&](C s, double weight) {
-    const LoopAt loop(record, point, s);
-    out.value -= weight * std::log(std::abs(1.0 - slope * loop.u));
-    out.Add(structure, point, slope, loop, weight * Reciprocal(1.0 - slope * loop.u));
-  });
-  const double bins = BinsEach(record);
-  if (tail.u != 0.0) out.Add(structure, point, slope, tail.loop, bins * tail.ByLoop() / tail.u);
-  if (tail.constant != 0.0) {
-    const double by_constant = bins * tail.ByConstant().real();
-    out.slope += by_constant / slope;
-    const Eigen::Index residues = structure.Frequencies() + structure.Dampings();
-    out.loop.segment(residues, structure.modes).array() += by_constant / SumOfResidues(point);
-  }
-  const C s = tail.loop.s;
-  const auto by_path = [&](C by_log, C by_slope_and_log) {
-    return bins * (tail.ByConstant() * by_log + tail.BySlope() * by_slope_and_log).real();
-  };
-  out.loop[structure.Delay()] += by_path(point.path.ByLogTau(s), point.path.BySlopeAndLogTau(s));
-  if (structure.Delays() > 1) {
-    out.loop[structure.Delay() + 1] +=
-        by_path(point.path.ByLogRho(s), point.path.BySlopeAndLogRho(s));
-  }
-  return out;
+// The smaller one, smoothly.
+double Both(double beside, double within) {
+  return std::min(beside, within) - std::log1p(std::exp(-std::abs(beside - within))) +
+         std::numbers::ln2;
 }
 
 LoopGradient WithinGradient(const RecordSpectra& record, const PointStructure& structure,
@@ -106,9 +39,10 @@ LoopGradient WithinGradient(const RecordSpectra& record, const PointStructure& s
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const LoopAt loop(record, point, record.s[i]);
     const C over = -2.0 * record.share[i] * Reciprocal(1.0 - slope * loop.u);
-    out.value += 2.0 * record.share[i] * std::log(std::abs(1.0 - slope * loop.u));
     out.Add(structure, point, slope, loop, over);
   }
+  out.value =
+      Within(record, [&](Eigen::Index i) { return slope * LoopAt(record, point, record.s[i]).u; });
   return out;
 }
 
@@ -124,16 +58,37 @@ C OpenLoop(const RecordSpectra& record, const LoopPoint& point, C s) {
 double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
   const LoopTail tail(record, point);
   if (!tail.Possible(point.path)) return -std::numeric_limits<double>::infinity();
-  const double beside = Beside(record, point, tail);
-  const double within = Within(record, point);
-  return std::min(beside, within) - std::log1p(std::exp(-std::abs(beside - within))) +
-         std::numbers::ln2;
+  const double slope = record.slopes.dot(point.flame);
+  const double within =
+      Within(record, [&](Eigen::Index i) { return slope * LoopAt(record, point, record.s[i]).u; });
+  return Both(BesideBand(record, point, tail), within);
+}
+
+double LogDeterminant(const RecordSpectra& record, const LoopPoint& point,
+                      const LoopResiduals& at) {
+  const LoopTail tail(record, point);
+  if (!tail.Possible(point.path)) return -std::numeric_limits<double>::infinity();
+  const double within = Within(record, [&](Eigen::Index i) { return Times(at.r[i], at.f[i]); });
+  return Both(BesideBand(record, point, tail), within);
+}
+
+double AddBandWeights(const RecordSpectra& record, const LoopResiduals& at, double beside,
+                      WhittleWeights* weights) {
+  const double within = Within(record, [&](Eigen::Index i) { return Times(at.r[i], at.f[i]); });
+  const double of_beside = WeightOfFirst(beside, within);
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const C over =
+        -2.0 * (1.0 - of_beside) * record.share[i] * Reciprocal(1.0 - Times(at.r[i], at.f[i]));
+    weights->r[i] += Times(over, at.f[i]);
+    weights->f[i] += Times(over, at.r[i]);
+  }
+  return of_beside;
 }
 
 Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointStructure& structure,
                                        const LoopPoint& point) {
   const LoopTail tail(record, point);
-  const LoopGradient beside = BesideGradient(record, structure, point, tail);
+  const LoopGradient beside = BesideBandGradient(record, structure, point, tail);
   const LoopGradient within = WithinGradient(record, structure, point);
   const double weight = WeightOfFirst(beside.value, within.value);
   const Eigen::Index flame = point.flame.size();

@@ -35,6 +35,7 @@
 #include <complex>
 
 #include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/whittle_weights.h"
 
 namespace howl {
 
@@ -43,6 +44,12 @@ std::complex<double> OpenLoop(const RecordSpectra& record, const LoopPoint& poin
                               std::complex<double> s);
 
 double LogDeterminant(const RecordSpectra& record, const LoopPoint& point);
+// The same where R and F of the record's bins are known already.
+double LogDeterminant(const RecordSpectra& record, const LoopPoint& point, const LoopResiduals& at);
+// Adds to the bins' weights what they have in the slope of ln |det|, given the value beside the
+// band. Returns the weight of the latter's slope.
+double AddBandWeights(const RecordSpectra& record, const LoopResiduals& at, double beside,
+                      WhittleWeights* weights);
 
 // By the parameters that loop_point.h lists, of which the noise's have none.
 Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointStructure& structure,

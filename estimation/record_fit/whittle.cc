@@ -5,69 +5,15 @@
 #include <complex>
 #include <limits>
 
+#include "estimation/record_fit/log_of_product.h"
+#include "estimation/record_fit/noise_covariance.h"
+#include "estimation/record_fit/whittle_weights.h"
 #include "model/numerics/complex_products.h"
 
 namespace howl {
 namespace {
 
 using C = std::complex<double>;
-
-struct Pair {
-  C a, b;
-};
-// x^T y, without a conjugate.
-inline C Dot(const Pair& x, const Pair& y) { return Times(x.a, y.a) + Times(x.b, y.b); }
-// x^H y.
-inline C Inner(const Pair& x, const Pair& y) {
-  return ConjugateTimes(x.a, y.a) + ConjugateTimes(x.b, y.b);
-}
-inline Pair Conjugate(const Pair& x) { return {std::conj(x.a), std::conj(x.b)}; }
-
-// [aa, ab; conj(ab), bb]
-struct Hermitian {
-  double aa = 0.0;
-  C ab = 0.0;
-  double bb = 0.0;
-
-  double Determinant() const { return aa * bb - std::norm(ab); }
-  Hermitian Inverse() const {
-    const double scale = 1.0 / Determinant();
-    return {bb * scale, -ab * scale, aa * scale};
-  }
-  Pair Apply(const Pair& x) const {
-    return {aa * x.a + Times(ab, x.b), ConjugateTimes(ab, x.a) + bb * x.b};
-  }
-  // x^T times this.
-  Pair Before(const Pair& x) const {
-    return {aa * x.a + ConjugateTimes(ab, x.b), Times(ab, x.a) + bb * x.b};
-  }
-};
-
-// Of one bin, source after source.
-using Directions = std::array<Pair, kMostNoiseTerms>;
-
-Directions DirectionsOf(const std::vector<NoiseTerm>& noise, const LoopResiduals& at,
-                        Eigen::Index i) {
-  Directions out;
-  for (std::size_t j = 0; j < noise.size(); ++j) {
-    const NoiseDirection u = DirectionOf(noise[j].source, at.r[i], at.f[i], at.background_ratio);
-    out[j] = {u.acoustic, u.flame};
-  }
-  return out;
-}
-
-Hermitian Sigma(const Directions& direction, const LoopResiduals& at, Eigen::Index i) {
-  Hermitian out;
-  const auto sources = static_cast<std::size_t>(at.spectra.cols());
-  for (std::size_t j = 0; j < sources; ++j) {
-    const Pair& u = direction[j];
-    const double s = at.spectra(i, static_cast<Eigen::Index>(j));
-    out.aa += s * std::norm(u.a);
-    out.bb += s * std::norm(u.b);
-    out.ab += s * ConjugateTimes(u.b, u.a);
-  }
-  return out;
-}
 
 // Sums over bins of Re(x_k alpha y_l + x_k beta conj(y_l)).
 Eigen::MatrixXd Form(const Eigen::MatrixXcd& x, const Eigen::VectorXcd& alpha,
@@ -84,20 +30,15 @@ struct Coupling {
   Eigen::VectorXcd beta;
 };
 
-// All that the score needs of a bin, with its weight in it.
+// All that the information needs of a bin, with its weight in it.
 struct Bins {
   Bins(Eigen::Index bins, Eigen::Index sources)
-      : by_r(bins),
-        by_f(bins),
-        by_acoustic(bins),
-        by_flame(bins),
-        rr(bins),
+      : rr(bins),
         rf(bins),
         ff(bins),
         aa(bins),
         ab(bins),
         bb(bins),
-        by_spectra(bins, sources),
         r_spectra(bins, sources),
         f_spectra(bins, sources),
         spectra_spectra(bins, sources * sources),
@@ -105,16 +46,12 @@ struct Bins {
         f_ratio(bins),
         spectra_ratio(bins, sources) {}
 
-  // d ln L = Re(by_r dR + by_f dF + by_acoustic dE_A + by_flame dE_B)
-  Eigen::VectorXcd by_r, by_f, by_acoustic, by_flame;
   Coupling rr, rf, ff;
   Eigen::VectorXcd aa, ab, bb;            // of dE_A conj(dE_A), dE_A conj(dE_B), dE_B conj(dE_B)
-  Eigen::MatrixXd by_spectra;             // of d ln S_j
   Eigen::MatrixXcd r_spectra, f_spectra;  // of dR d ln S_j
   Eigen::MatrixXd spectra_spectra;
   // Of the background's ratio, which is the same at all bins: sums where no other parameter's
   // slope depends on the bin.
-  double by_ratio = 0.0;
   double ratio_ratio = 0.0;
   Eigen::VectorXcd r_ratio, f_ratio;
   Eigen::MatrixXd spectra_ratio;
@@ -123,58 +60,40 @@ struct Bins {
 // M of a parameter that moves R is dR e_A x^T and its conjugate transpose, that of one that moves F
 // dF e_B y^T: x and y are the rows. Without the noise's part they are -B Sigma.
 struct Movement {
-  Pair row;     // x
-  Pair b;       // B = dR e_A b^T
-  Pair turned;  // x^T Sigma^-1
+  ComplexPair row;     // x
+  ComplexPair b;       // B = dR e_A b^T
+  ComplexPair turned;  // x^T Sigma^-1
 };
 
-// With `information` the couplings too.
 void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double share,
-          bool information, Eigen::Index i, Bins* out) {
+          Eigen::Index i, Bins* out) {
   const C r = at.r[i];
   const C f = at.f[i];
-  const Directions direction = DirectionsOf(noise, at, i);
-  const Hermitian sigma = Sigma(direction, at, i);
-  const Hermitian w = sigma.Inverse();
-  const Pair we = w.Apply({at.acoustic[i], at.flame[i]});
+  const NoiseDirections direction = DirectionsOf(noise, at, i);
+  const HermitianPair sigma = CovarianceOf(direction, at, i);
+  const HermitianPair w = sigma.Inverse();
   const C closed = Reciprocal(1.0 - Times(r, f));
   Movement by_r{{}, {-Times(closed, f), -closed}, {}};
   Movement by_f{{}, {-closed, -Times(closed, r)}, {}};
   for (Movement* m : {&by_r, &by_f}) {
-    const Pair moved = sigma.Before(m->b);
+    const ComplexPair moved = sigma.Before(m->b);
     m->row = {-moved.a, -moved.b};
   }
-  C gradient_r = 0.0;
-  C gradient_f = 0.0;
-  std::array<Pair, kMostNoiseTerms> wu;
+  std::array<ComplexPair, kMostNoiseTerms> wu;
   const auto sources = static_cast<Eigen::Index>(noise.size());
-  const Pair ratio_turn{1.0, -f};  // du of the background, by its ratio
+  const ComplexPair ratio_turn{1.0, -f};  // du of the background, by its ratio
   for (Eigen::Index j = 0; j < sources; ++j) {
     const auto at_j = static_cast<std::size_t>(j);
     const LoopNoise source = noise[at_j].source;
     const double s = at.spectra(i, j);
-    const Pair& u = direction[at_j];
+    const ComplexPair& u = direction[at_j];
     wu[at_j] = w.Apply(u);
     const NoiseTurn turn = TurnOf(source, at.background_ratio);
-    const C along = Inner(u, we);
-    gradient_r += 2.0 * s * turn.by_r * (ConjugateTimes(we.a, along) - std::conj(wu[at_j].a));
-    gradient_f += 2.0 * s * turn.by_f * (ConjugateTimes(we.b, along) - std::conj(wu[at_j].b));
     by_r.row.a += s * turn.by_r * std::conj(u.a);
     by_r.row.b += s * turn.by_r * std::conj(u.b);
     by_f.row.a += s * turn.by_f * std::conj(u.a);
     by_f.row.b += s * turn.by_f * std::conj(u.b);
-    const double trace = Inner(u, wu[at_j]).real();
-    out->by_spectra(i, j) = share * s * (std::norm(along) - trace);
-    if (source == LoopNoise::kBackground) {
-      out->by_ratio += 2.0 * share * s *
-                       (Times(Inner(we, ratio_turn), along) - Inner(wu[at_j], ratio_turn)).real();
-    }
   }
-  out->by_r[i] = share * gradient_r;
-  out->by_f[i] = share * gradient_f;
-  out->by_acoustic[i] = -2.0 * share * std::conj(we.a);
-  out->by_flame[i] = -2.0 * share * std::conj(we.b);
-  if (!information) return;
   by_r.turned = w.Before(by_r.row);
   by_f.turned = w.Before(by_f.row);
   // tr(W X W Y) and tr(W X W Y^H), of which the second loses what the means would tell.
@@ -197,7 +116,7 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
     out->r_spectra(i, j) = s * ConjugateTimes(wu[at_j].a, Dot(by_r.turned, direction[at_j]));
     out->f_spectra(i, j) = s * ConjugateTimes(wu[at_j].b, Dot(by_f.turned, direction[at_j]));
     for (Eigen::Index k = 0; k < sources; ++k) {
-      const Pair& u = direction[static_cast<std::size_t>(k)];
+      const ComplexPair& u = direction[static_cast<std::size_t>(k)];
       out->spectra_spectra(i, j * sources + k) =
           share * at.spectra(i, j) * at.spectra(i, k) * std::norm(Inner(u, wu[at_j]));
     }
@@ -207,9 +126,9 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
     if (noise[at_j].source != LoopNoise::kBackground) continue;
     // M of the ratio is d (S u)^H and its conjugate transpose, d the background's turn.
     const double s = at.spectra(i, j);
-    const Pair& u = direction[at_j];
-    const Pair wd = w.Apply(ratio_turn);
-    const auto with = [&](const Pair& turned, C wd_left, C wu_left) {
+    const ComplexPair& u = direction[at_j];
+    const ComplexPair wd = w.Apply(ratio_turn);
+    const auto with = [&](const ComplexPair& turned, C wd_left, C wu_left) {
       return two * s *
              (ConjugateTimes(wu_left, Dot(turned, ratio_turn)) +
               ConjugateTimes(wd_left, Dot(turned, u)));
@@ -222,14 +141,14 @@ void Fill(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double s
         (Times(mixed, mixed).real() + Inner(u, wu[at_j]).real() * Inner(ratio_turn, wd).real());
     for (Eigen::Index k = 0; k < sources; ++k) {
       const auto at_k = static_cast<std::size_t>(k);
-      const Pair& of_k = direction[at_k];
+      const ComplexPair& of_k = direction[at_k];
       out->spectra_ratio(i, k) =
           two * at.spectra(i, k) * s * Times(Inner(of_k, wd), Inner(u, wu[at_k])).real();
     }
   }
 }
 
-Eigen::VectorXd GatherGradient(const std::vector<NoiseTerm>& noise, const Bins& bins,
+Eigen::VectorXd GatherGradient(const std::vector<NoiseTerm>& noise, const WhittleWeights& weights,
                                const LoopDerivatives& d) {
   const Eigen::Index acoustic = d.r.cols();
   const Eigen::Index flame = d.f.cols();
@@ -239,33 +158,34 @@ Eigen::VectorXd GatherGradient(const std::vector<NoiseTerm>& noise, const Bins& 
   if (background) ++size;
   Eigen::VectorXd out(size);
   out.head(acoustic) =
-      (d.r.transpose() * bins.by_r + d.acoustic.transpose() * bins.by_acoustic).real();
+      (d.r.transpose() * weights.r + d.acoustic.transpose() * weights.acoustic).real();
   out.segment(acoustic, flame) =
-      (d.f.transpose() * bins.by_f + d.flame.transpose() * bins.by_flame).real();
+      (d.f.transpose() * weights.f + d.flame.transpose() * weights.flame).real();
   Eigen::Index row = acoustic + flame;
   for (std::size_t j = 0; j < d.log_spectra.size(); ++j) {
     const Eigen::MatrixXd& basis = d.log_spectra[j];
     out.segment(row, basis.cols()) =
-        basis.transpose() * bins.by_spectra.col(static_cast<Eigen::Index>(j));
+        basis.transpose() * weights.log_spectra.col(static_cast<Eigen::Index>(j));
     row += basis.cols();
   }
-  if (background) out[row] = bins.by_ratio;
+  if (background) out[row] = weights.ratio;
   return out;
 }
 
-LoopScore Gather(const std::vector<NoiseTerm>& noise, const Bins& bins, const LoopDerivatives& d) {
+LoopScore Gather(const std::vector<NoiseTerm>& noise, const WhittleWeights& weights,
+                 const Bins& bins, const LoopDerivatives& d) {
   const bool background = HasBackground(noise);
   const Eigen::Index acoustic = d.r.cols();
   const Eigen::Index flame = d.f.cols();
   LoopScore out;
-  out.gradient = GatherGradient(noise, bins, d);
+  out.gradient = GatherGradient(noise, weights, d);
   out.information.resize(out.gradient.size(), out.gradient.size());
   const auto put = [&](Eigen::Index row, Eigen::Index column, const Eigen::MatrixXd& block) {
     out.information.block(row, column, block.rows(), block.cols()) = block;
     if (row == column) return;
     out.information.block(column, row, block.cols(), block.rows()) = block.transpose();
   };
-  const Eigen::VectorXcd none = Eigen::VectorXcd::Zero(bins.by_r.size());
+  const Eigen::VectorXcd none = Eigen::VectorXcd::Zero(bins.aa.size());
   put(0, 0,
       Form(d.r, bins.rr.alpha, bins.rr.beta, d.r) + Form(d.acoustic, none, bins.aa, d.acoustic));
   put(0, acoustic,
@@ -300,7 +220,7 @@ LoopScore Gather(const std::vector<NoiseTerm>& noise, const Bins& bins, const Lo
 
 Eigen::Matrix2cd NoiseCovariance(const std::vector<NoiseTerm>& noise, const LoopResiduals& at,
                                  Eigen::Index bin) {
-  const Hermitian sigma = Sigma(DirectionsOf(noise, at, bin), at, bin);
+  const HermitianPair sigma = CovarianceOf(DirectionsOf(noise, at, bin), at, bin);
   Eigen::Matrix2cd out;
   out << sigma.aa, sigma.ab, std::conj(sigma.ab), sigma.bb;
   return out;
@@ -308,35 +228,34 @@ Eigen::Matrix2cd NoiseCovariance(const std::vector<NoiseTerm>& noise, const Loop
 
 double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                             const LoopResiduals& at) {
-  double sum = 0.0;
+  LogOfProduct determinants;
+  double squares = 0.0;
   for (Eigen::Index i = 0; i < share.size(); ++i) {
-    const Hermitian sigma = Sigma(DirectionsOf(noise, at, i), at, i);
+    const HermitianPair sigma = CovarianceOf(DirectionsOf(noise, at, i), at, i);
     const double determinant = sigma.Determinant();
     if (!(determinant > 0.0)) return -std::numeric_limits<double>::infinity();
-    const Pair we = sigma.Inverse().Apply({at.acoustic[i], at.flame[i]});
-    const double square =
-        (ConjugateTimes(at.acoustic[i], we.a) + ConjugateTimes(at.flame[i], we.b)).real();
-    sum -= share[i] * (std::log(determinant) + square);
+    determinants.Multiply(determinant, share[i]);
+    squares += share[i] * sigma.Inverse().Square({at.acoustic[i], at.flame[i]});
   }
+  const double sum = -determinants.Sum() - squares;
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
 
 LoopScore WhittleScore(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                        const LoopResiduals& at, const LoopDerivatives& derivatives) {
   const Eigen::Index bins = share.size();
+  WhittleWeights weights;
+  WeighBins(noise, share, at, &weights);
   Bins all(bins, static_cast<Eigen::Index>(noise.size()));
-  for (Eigen::Index i = 0; i < bins; ++i) Fill(noise, at, share[i], true, i, &all);
-  return Gather(noise, all, derivatives);
+  for (Eigen::Index i = 0; i < bins; ++i) Fill(noise, at, share[i], i, &all);
+  return Gather(noise, weights, all, derivatives);
 }
 
 Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                                 const LoopResiduals& at, const LoopDerivatives& derivatives) {
-  const Eigen::Index bins = share.size();
-  Bins all(bins, static_cast<Eigen::Index>(noise.size()));
-  for (Eigen::Index i = 0; i < bins; ++i) {
-    Fill(noise, at, share[i], false, i, &all);
-  }
-  return GatherGradient(noise, all, derivatives);
+  WhittleWeights weights;
+  WeighBins(noise, share, at, &weights);
+  return GatherGradient(noise, weights, derivatives);
 }
 
 }  // namespace howl

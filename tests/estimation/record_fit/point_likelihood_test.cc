@@ -1,0 +1,78 @@
+// What is kept from one evaluation to the next is what an evaluation by itself has, whichever
+// parameters have moved between them; and the slopes taken back through the loop are those that
+// matrices of derivatives give.
+#include "estimation/record_fit/point_likelihood.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "estimation/record_fit/return_difference.h"
+#include "model/noise/random_stream.h"
+#include "tests/estimation/record_fit/identified.h"
+
+namespace howl {
+namespace {
+
+struct Evaluation {
+  double value = 0.0;
+  Eigen::VectorXd gradient;
+};
+
+Evaluation ByMatrices(const RecordSpectra& record, const PointStructure& structure,
+                      const Eigen::VectorXd& parameters) {
+  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  const LoopResiduals residuals = ResidualsOf(record, structure, point);
+  return {WhittleLogLikelihood(structure.noise, record.share, residuals) +
+              LogDeterminant(record, point),
+          WhittleGradient(structure.noise, record.share, residuals,
+                          DerivativesOf(record, structure, point)) +
+              LogDeterminantGradient(record, structure, point)};
+}
+
+class KeptParts : public testing::TestWithParam<DelaySpread> {};
+
+TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
+  const ModalLoop loop = DuctOfModes(2);
+  const RecordSpectra record =
+      MakeRecordSpectra(SimulateModalLoop(loop, 0.5, 1), 203.0, FlameInput::kPressureRate);
+  for (const bool tied : {false, true}) {
+    PointStructure structure = FreeStructure(2);
+    structure.delay_spread = GetParam();
+    structure.acoustic_lines = tied ? 0 : 3;
+    structure.flame_lines = 4;
+    if (tied) structure.ratio = 2.2;
+    structure.own_damping = !tied;
+    structure.complex_residues = !tied;
+    structure.noise.push_back({LoopNoise::kDuct, 2});
+    structure.noise.push_back({LoopNoise::kBackground, 2});
+    const PointPrior prior = PriorOf(structure, record);
+    Eigen::VectorXd parameters = StartsOf(record, structure, prior, 4, 1).back();
+    const Eigen::Index errors = structure.AcousticLines();
+    parameters.segment(structure.AcousticLine(), errors).setConstant(0.2);
+    parameters.segment(structure.FlameLine(record.flame.cols()), structure.FlameLines())
+        .setConstant(-0.1);
+    PointLikelihood kept(record, structure);
+    RandomStream random(1);
+    // Each parameter alone, and now and then one that has moved already.
+    for (Eigen::Index i = 0; i < parameters.size(); ++i) {
+      for (const Eigen::Index moved : {i, i / 2}) {
+        parameters[moved] += 0.01 * random.Normal();
+        const Evaluation by_itself = ByMatrices(record, structure, parameters);
+        ASSERT_TRUE(std::isfinite(by_itself.value));
+        const Eigen::VectorXd gradient = kept.Gradient(parameters);
+        EXPECT_NEAR(kept.Value(parameters), by_itself.value, 1e-11 * std::abs(by_itself.value));
+        EXPECT_LT((gradient - by_itself.gradient).norm(), 1e-11 * gradient.norm())
+            << "parameter " << moved << " of " << parameters.size() << "\n"
+            << (gradient - by_itself.gradient).transpose();
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllSpreads, KeptParts,
+                         testing::Values(DelaySpread::kNone, DelaySpread::kNormal,
+                                         DelaySpread::kGamma));
+
+}  // namespace
+}  // namespace howl
