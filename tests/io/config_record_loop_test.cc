@@ -101,8 +101,9 @@ TEST(ConfigRecordLoop, SaysWhatIsWrong) {
   EXPECT_THAT(Mistake("ratio: 3, harmonic_ratio: 3"), HasSubstr("only one of the two"));
   EXPECT_THAT(Mistake("residue: imaginary"), HasSubstr("model.residue"));
   EXPECT_THAT(Mistake("modes: 2.5"), HasSubstr("model.modes"));
-  EXPECT_THAT(Mistake("modes: 3", LoopsTaken::kPapers),
-              HasSubstr(":3: model: states a loop that howl fit, simulate, predict and diagnose take"));
+  EXPECT_THAT(
+      Mistake("modes: 3", LoopsTaken::kPapers),
+      HasSubstr(":3: model: states a loop that howl fit, simulate, predict and diagnose take"));
 }
 
 }  // namespace
