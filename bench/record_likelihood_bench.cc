@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "bench/record_structures.h"
+#include "estimation/record_fit/loop/point_likelihood.h"
+#include "estimation/record_fit/loop/return_difference.h"
 #include "estimation/record_fit/point_fit.h"
-#include "estimation/record_fit/point_likelihood.h"
-#include "estimation/record_fit/point_starts.h"
-#include "estimation/record_fit/return_difference.h"
+#include "estimation/record_fit/starts/point_starts.h"
 #include "model/noise/random_stream.h"
 
 namespace howl {

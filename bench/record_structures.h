@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/loop/loop_point.h"
 
 namespace howl {
 

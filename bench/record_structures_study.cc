@@ -18,7 +18,7 @@
 #include "bench/record_structures.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "estimation/record_fit/point_fit.h"
-#include "estimation/record_fit/point_starts.h"
+#include "estimation/record_fit/starts/point_starts.h"
 #include "io/config/reading/config_reading.h"
 
 namespace howl {

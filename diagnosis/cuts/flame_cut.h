@@ -14,7 +14,7 @@
 #include <Eigen/Core>
 
 #include "diagnosis/records/cut_record.h"
-#include "estimation/record_fit/flame_basis.h"
+#include "estimation/record_fit/spectra/flame_basis.h"
 
 namespace howl {
 

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include "diagnosis/records/cut_record.h"
-#include "estimation/record_fit/record_spectra.h"
+#include "estimation/record_fit/spectra/record_spectra.h"
 
 namespace howl {
 

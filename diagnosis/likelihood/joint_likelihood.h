@@ -23,7 +23,7 @@
 
 #include "diagnosis/likelihood/joint_band.h"
 #include "diagnosis/likelihood/joint_residuals.h"
-#include "estimation/record_fit/noise_sources.h"
+#include "estimation/record_fit/whittle/noise_sources.h"
 
 namespace howl {
 

@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "diagnosis/cuts/acoustic_modulation.h"
-#include "estimation/record_fit/flame_basis.h"
+#include "estimation/record_fit/spectra/flame_basis.h"
 #include "model/numerics/complex_products.h"
 
 namespace howl {

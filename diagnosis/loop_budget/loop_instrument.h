@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "estimation/record_fit/record_spectra.h"
+#include "estimation/record_fit/spectra/record_spectra.h"
 #include "model/effects/effect.h"
 
 namespace howl {

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_instrument.h"
-#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/loop/loop_point.h"
 
 namespace howl {
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "estimation/record_fit/point_starts.h"
+#include "estimation/record_fit/starts/point_starts.h"
 
 namespace howl {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "estimation/record_fit/loop_point.h"
-#include "estimation/record_fit/point_prior.h"
+#include "estimation/record_fit/loop/loop_point.h"
+#include "estimation/record_fit/loop/point_prior.h"
 
 namespace howl {
 

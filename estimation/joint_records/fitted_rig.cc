@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "estimation/record_fit/flame_basis.h"
+#include "estimation/record_fit/spectra/flame_basis.h"
 #include "model/numerics/units.h"
 
 namespace howl {

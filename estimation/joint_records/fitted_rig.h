@@ -15,7 +15,7 @@
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_FITTED_RIG_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_FITTED_RIG_H_
 
-#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/loop/loop_point.h"
 #include "model/simulation/simulate_modal.h"
 
 namespace howl {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/loop/loop_point.h"
 
 namespace howl {
 

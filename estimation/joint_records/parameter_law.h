@@ -19,7 +19,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "estimation/record_fit/point_prior.h"
+#include "estimation/record_fit/loop/point_prior.h"
 
 namespace howl {
 

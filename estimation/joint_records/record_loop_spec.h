@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "estimation/record_fit/loop_point.h"
-#include "estimation/record_fit/record_spectra.h"
+#include "estimation/record_fit/loop/loop_point.h"
+#include "estimation/record_fit/spectra/record_spectra.h"
 
 namespace howl {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "estimation/parallel.h"
-#include "estimation/record_fit/point_starts.h"
-#include "estimation/record_fit/richer_structure.h"
+#include "estimation/record_fit/starts/point_starts.h"
+#include "estimation/record_fit/starts/richer_structure.h"
 #include "estimation/unit_seed.h"
 #include "model/numerics/dense_algebra.h"
 

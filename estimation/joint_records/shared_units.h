@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "estimation/joint_records/parameter_law.h"
-#include "estimation/record_fit/loop_point.h"
-#include "estimation/record_fit/point_prior.h"
+#include "estimation/record_fit/loop/loop_point.h"
+#include "estimation/record_fit/loop/point_prior.h"
 
 namespace howl {
 

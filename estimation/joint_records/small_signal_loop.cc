@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "estimation/record_fit/return_difference.h"
+#include "estimation/record_fit/loop/return_difference.h"
 
 namespace howl {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "estimation/record_fit/point_starts.h"
+#include "estimation/record_fit/starts/point_starts.h"
 
 namespace howl {
 namespace {

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "estimation/record_fit/loop_point.h"
+#include "estimation/record_fit/loop/loop_point.h"
 #include "estimation/record_fit/point_fit.h"
 
 namespace howl {

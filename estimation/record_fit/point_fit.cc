@@ -10,8 +10,8 @@
 #include <numbers>
 #include <utility>
 
-#include "estimation/record_fit/point_likelihood.h"
-#include "estimation/record_fit/return_difference.h"
+#include "estimation/record_fit/loop/point_likelihood.h"
+#include "estimation/record_fit/loop/return_difference.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {

@@ -13,7 +13,7 @@
 #include "diagnosis/noise/noise_fit.h"
 #include "diagnosis/numerics/real_fft.h"
 #include "diagnosis/records/cut_record.h"
-#include "estimation/record_fit/flame_basis.h"
+#include "estimation/record_fit/spectra/flame_basis.h"
 
 namespace howl {
 namespace {

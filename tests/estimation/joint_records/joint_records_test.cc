@@ -9,8 +9,8 @@
 #include "estimation/joint_records/fitted_loop.h"
 #include "estimation/joint_records/onset.h"
 #include "estimation/record_fit/delay_maxima.h"
-#include "estimation/record_fit/point_starts.h"
-#include "estimation/record_fit/richer_structure.h"
+#include "estimation/record_fit/starts/point_starts.h"
+#include "estimation/record_fit/starts/richer_structure.h"
 #include "tests/estimation/record_fit/identified.h"
 
 namespace howl {

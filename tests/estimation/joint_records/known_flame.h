@@ -8,8 +8,8 @@
 #include <functional>
 #include <numbers>
 
-#include "estimation/record_fit/flame_basis.h"
-#include "estimation/record_fit/record_spectra.h"
+#include "estimation/record_fit/spectra/flame_basis.h"
+#include "estimation/record_fit/spectra/record_spectra.h"
 
 namespace howl {
 

@@ -1,5 +1,5 @@
 // Spread delays, against the integrals of their densities, and found again in drawn records.
-#include "estimation/record_fit/flame_path.h"
+#include "estimation/record_fit/loop/flame_path.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "estimation/record_fit/point_fit.h"
-#include "estimation/record_fit/point_starts.h"
+#include "estimation/record_fit/starts/point_starts.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 

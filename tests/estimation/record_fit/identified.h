@@ -12,7 +12,7 @@
 
 #include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/point_fit.h"
-#include "estimation/record_fit/point_starts.h"
+#include "estimation/record_fit/starts/point_starts.h"
 #include "tests/estimation/record_fit/modal_loop.h"
 
 namespace howl {

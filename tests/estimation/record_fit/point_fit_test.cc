@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "estimation/record_fit/flame_basis.h"
-#include "estimation/record_fit/return_difference.h"
+#include "estimation/record_fit/loop/return_difference.h"
+#include "estimation/record_fit/spectra/flame_basis.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 

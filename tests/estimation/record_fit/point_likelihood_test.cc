@@ -1,13 +1,13 @@
 // What is kept from one evaluation to the next is what an evaluation by itself has, whichever
 // parameters have moved between them; and the slopes taken back through the loop are those that
 // matrices of derivatives give.
-#include "estimation/record_fit/point_likelihood.h"
+#include "estimation/record_fit/loop/point_likelihood.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "estimation/record_fit/return_difference.h"
+#include "estimation/record_fit/loop/return_difference.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 

@@ -1,5 +1,5 @@
 // What the Jacobian leaves in the band, against the sum of ln |D| over the band itself.
-#include "estimation/record_fit/return_difference.h"
+#include "estimation/record_fit/loop/return_difference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Score and information of the likelihood of a loop's record, against differences, and against the
 // covariance of the score over drawn records.
-#include "estimation/record_fit/whittle.h"
+#include "estimation/record_fit/whittle/whittle.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <complex>
 
-#include "estimation/record_fit/return_difference.h"
+#include "estimation/record_fit/loop/return_difference.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 

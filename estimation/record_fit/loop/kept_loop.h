@@ -1,0 +1,71 @@
+// A point's loop on a record's bins (loop_point.h), of which each part is kept until one of its own
+// parameters moves: the differences of a fit's curvature move one at a time, and its line searches
+// leave no part worse off.
+//
+// The slopes of a likelihood come by its bins' weights (whittle_weights.h), taken back through the
+// loop from the residuals to the parameters, so that no matrix of derivatives is filled.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_KEPT_LOOP_H_
+#define HOWL_ESTIMATION_RECORD_FIT_LOOP_KEPT_LOOP_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "estimation/record_fit/loop/line_shapes.h"
+#include "estimation/record_fit/loop/loop_point.h"
+#include "estimation/record_fit/whittle/whittle_weights.h"
+
+namespace howl {
+
+class KeptLoop {
+ public:
+  // Both must outlive it.
+  KeptLoop(const RecordSpectra& record, const PointStructure& structure);
+
+  // Returns whether a parameter has moved that R or F depends on.
+  bool MoveTo(const Eigen::VectorXd& parameters);
+
+  const LoopPoint& point() const { return point_; }
+  const LoopResiduals& residuals() const { return residuals_; }
+  // By all parameters.
+  Eigen::VectorXd Slope(const WhittleWeights& weights);
+
+ private:
+  // Of one grid of frequencies: the record's bins, or the transform's.
+  struct Path {
+    void Set(const FlamePath& path, const Eigen::VectorXcd& s);
+    Eigen::VectorXcd at, by_log_tau, by_log_rho;
+  };
+  // 1 / (s^2 + 2 xi omega s + omega^2) on both grids.
+  struct ModeGrids {
+    Eigen::VectorXcd over, edge_over;
+  };
+
+  // Whether these parameters are others than the present ones.
+  bool Moved(const Eigen::VectorXd& parameters, Eigen::Index begin, Eigen::Index count) const;
+  void MoveModes();
+  void MoveAnswer();
+  void MovePath();
+  void SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* out);
+  void SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out);
+
+  const RecordSpectra& record_;
+  const PointStructure& structure_;
+  LineShapes lines_;
+  Eigen::MatrixXd flame_real_, flame_imag_;     // b_k
+  std::vector<Eigen::MatrixXd> noise_columns_;  // one a source
+  Eigen::VectorXd parameters_;
+  LoopPoint point_;
+  LoopResiduals residuals_;
+  std::vector<ModeGrids> modes_;
+  Path path_;  // with V in it
+  Path edge_path_;
+  Eigen::VectorXcd burning_;  // sum of c_k b_k
+  // Of the two cuts before the taper: without the lines' errors, and 1 + those.
+  Eigen::VectorXcd answer_, acoustic_factors_;
+  Eigen::VectorXcd arriving_, flame_factors_;
+  Eigen::VectorXcd edge_weights_, weighted_;  // room for the slopes
+};
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_LOOP_KEPT_LOOP_H_

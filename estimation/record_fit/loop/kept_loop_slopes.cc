@@ -1,0 +1,116 @@
+// From the weights of a record's bins to the slopes by a loop's parameters.
+#include <complex>
+
+#include "estimation/record_fit/loop/kept_loop.h"
+#include "estimation/record_fit/loop/mode_sums.h"
+#include "model/numerics/complex_products.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+// What the answers before the taper weigh, of which the residuals lose the differences.
+void BeforeTaper(const Eigen::VectorXcd& of_residuals, Eigen::VectorXcd* out) {
+  const Eigen::Index bins = of_residuals.size();
+  out->resize(bins + 1);
+  (*out)[0] = -of_residuals[0];
+  for (Eigen::Index i = 1; i < bins; ++i) (*out)[i] = of_residuals[i - 1] - of_residuals[i];
+  (*out)[bins] = of_residuals[bins - 1];
+}
+
+// The real part of the sum of x y z.
+double Sum(const Eigen::VectorXcd& x, const Eigen::VectorXcd& y, const Eigen::VectorXcd& z) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) sum += Times(Times(x[i], y[i]), z[i]).real();
+  return sum;
+}
+
+}  // namespace
+
+Eigen::VectorXd KeptLoop::Slope(const WhittleWeights& weights) {
+  const Eigen::Index flame = record_.flame.cols();
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(structure_.Parameters(flame));
+  SlopeByAcoustics(weights, &out);
+  SlopeByFlame(weights, &out);
+  Eigen::Index next = structure_.Noise(flame);
+  for (std::size_t j = 0; j < noise_columns_.size(); ++j) {
+    const Eigen::MatrixXd& columns = noise_columns_[j];
+    out.segment(next, columns.cols()) =
+        columns.transpose() * weights.log_spectra.col(static_cast<Eigen::Index>(j));
+    next += columns.cols();
+  }
+  if (HasBackground(structure_.noise)) out[next] = weights.ratio;
+  return out;
+}
+
+void KeptLoop::SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* out) {
+  BeforeTaper(weights.acoustic, &edge_weights_);
+  weighted_.resize(edge_weights_.size());
+  if (structure_.acoustic_lines > 0) {
+    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
+      weighted_[i] = Times(edge_weights_[i], answer_[i]);
+    }
+    out->segment(structure_.AcousticLine(), structure_.AcousticLines()) =
+        lines_.Slope(weighted_, structure_.acoustic_lines);
+  }
+  for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
+    weighted_[i] = Times(edge_weights_[i], acoustic_factors_[i]);
+  }
+  const Eigen::Index dampings = structure_.Frequencies();
+  const Eigen::Index residues = dampings + structure_.Dampings();
+  const Eigen::Index transients = structure_.Transfer();
+  for (Eigen::Index k = 0; k < structure_.modes; ++k) {
+    const ModeGrids& grids = modes_[static_cast<std::size_t>(k)];
+    const LoopMode& mode = point_.modes[static_cast<std::size_t>(k)];
+    ModeSums transfer;
+    ModeSums transient;
+    for (Eigen::Index i = 0; i < record_.bins(); ++i) {
+      transfer.Add(weights.r[i], record_.s[i].imag(), grids.over[i]);
+    }
+    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
+      const double x = record_.edge_s[i].imag();
+      transfer.Add(Times(weighted_[i], record_.heat_release[i]), x, grids.edge_over[i]);
+      transient.Add(weighted_[i], x, grids.edge_over[i]);
+    }
+    (*out)[structure_.ratio ? 0 : k] +=
+        transfer.ByLogOmega(mode, mode.a, mode.b) + transient.ByLogOmega(mode, mode.g, mode.h);
+    (*out)[dampings + (structure_.own_damping ? k : 0)] +=
+        transfer.ByLogDamping(mode, mode.a, mode.b) + transient.ByLogDamping(mode, mode.g, mode.h);
+    (*out)[residues + k] = transfer.ByRate();
+    if (structure_.complex_residues) {
+      (*out)[residues + structure_.modes + k] = transfer.ByLevel(mode);
+    }
+    (*out)[transients + k] = transient.ByRate();
+    (*out)[transients + structure_.modes + k] = transient.ByLevel(mode);
+  }
+}
+
+void KeptLoop::SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out) {
+  BeforeTaper(weights.flame, &edge_weights_);
+  const Eigen::Index flame = record_.flame.cols();
+  weighted_.resize(edge_weights_.size());
+  if (structure_.flame_lines > 0) {
+    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
+      weighted_[i] = Times(edge_weights_[i], arriving_[i]);
+    }
+    out->segment(structure_.FlameLine(flame), structure_.FlameLines()) =
+        lines_.Slope(weighted_, structure_.flame_lines);
+  }
+  for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
+    edge_weights_[i] = Times(edge_weights_[i], flame_factors_[i]);
+    weighted_[i] = Times(edge_weights_[i], edge_path_.at[i]);
+  }
+  out->segment(structure_.Flame(), flame) =
+      flame_real_.transpose() * weighted_.real() - flame_imag_.transpose() * weighted_.imag();
+  C of_slope = 0.0;
+  for (Eigen::Index i = 0; i < record_.bins(); ++i) of_slope += Times(weights.f[i], path_.at[i]);
+  out->segment(structure_.Flame(), flame) += of_slope.real() * record_.slopes;
+  (*out)[structure_.Delay()] = Sum(weights.f, residuals_.f, path_.by_log_tau) +
+                               Sum(edge_weights_, arriving_, edge_path_.by_log_tau);
+  if (structure_.Delays() < 2) return;
+  (*out)[structure_.Delay() + 1] = Sum(weights.f, residuals_.f, path_.by_log_rho) +
+                                   Sum(edge_weights_, arriving_, edge_path_.by_log_rho);
+}
+
+}  // namespace howl

@@ -1,0 +1,126 @@
+// One operating point's loop, as the likelihood of its record has it (whittle.h):
+//
+//   R = sum_k (a_k s + b_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
+//   F = D(s) V(s) sum_k c_k slope_k,   E_B = Q - D(s) sum_k c_k b_k      record_spectra.h
+//   D = e^(-tau s), or that of spread delays                                    flame_path.h
+//   ln S_j = sum_k n_jk T_k                                                       noise_sources.h
+//   E_A = P - R Q - sum_k (g_k s + h_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
+//
+// with s over the cycle's angular frequency. The paper's acoustics (5a) have b = 0, one damping and
+// frequencies at 1, r, 2 r - 1, ...: those of a half-open duct for r = 3. g and h are what each
+// mode held at the record's ends (Pintelon & Schoukens 2012, section 6.3.2): near a sharp resonance
+// the taper does not hide it.
+//
+// The cycle's own lines hold thousands of times the power of the noise beside them: what a loop
+// misses of them by a few per cent would outweigh all else that the record tells. So what a cut
+// foretells at the cycle's multiples h may have relative errors d_h and e_h, complex, normal about
+// zero (point_prior.h):
+//
+//   E_A: R Q becomes (1 + sum_h W_h) R Q,   E_B: the flame's answer becomes (1 + sum_h W_h) of it
+//   W_h = 2 r (s Re d_h - h Im d_h) / (s^2 + 2 r s + h^2),   which is d_h at s = j h
+//
+// r, kLineReach, is half its width. W_h is a filter that looks back only, as the loop itself does:
+// the Jacobian stays what it was (return_difference.h). It is an error of the mean alone: R and F,
+// which small signals see, and with them the noise's directions, are without it.
+//
+// All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
+// and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared), real and
+// imaginary parts of d; ln tau, where delays are spread ln rho; c; those of e; n; where there is a
+// background its ratio.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
+#define HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
+
+#include <Eigen/Core>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "estimation/record_fit/loop/flame_path.h"
+#include "estimation/record_fit/spectra/record_spectra.h"
+#include "estimation/record_fit/whittle/whittle.h"
+
+namespace howl {
+
+// Relative to the cycle's frequency.
+inline constexpr double kLineReach = 0.06;
+// The cycle's multiples that the band of a record holds.
+inline constexpr int kCycleLines = 6;
+
+struct PointStructure {
+  int modes = 1;
+  std::optional<double> ratio;  // of the second mode's frequency to the first's; none: all are free
+  bool own_damping = true;
+  bool complex_residues = true;
+  DelaySpread delay_spread = DelaySpread::kNone;
+  std::vector<NoiseTerm> noise;
+  // Multiples of the cycle's frequency at which acoustics and flame may err.
+  int acoustic_lines = 0;
+  int flame_lines = 0;
+
+  Eigen::Index Frequencies() const { return ratio ? 1 : modes; }
+  Eigen::Index Dampings() const { return own_damping ? modes : 1; }
+  Eigen::Index Residues() const { return complex_residues ? Eigen::Index{2} * modes : modes; }
+  // Of R alone; then those of what the record's ends leave follow, and the lines' errors.
+  Eigen::Index Transfer() const { return Frequencies() + Dampings() + Residues(); }
+  Eigen::Index Transients() const { return Eigen::Index{2} * modes; }
+  Eigen::Index AcousticLines() const { return Eigen::Index{2} * acoustic_lines; }
+  Eigen::Index FlameLines() const { return Eigen::Index{2} * flame_lines; }
+  // The index of the first of them.
+  Eigen::Index AcousticLine() const { return Transfer() + Transients(); }
+  Eigen::Index Acoustics() const { return AcousticLine() + AcousticLines(); }
+  // With the background's ratio.
+  Eigen::Index NoiseParameters() const;
+  // The index of ln tau; where delays are spread ln rho follows.
+  Eigen::Index Delay() const { return Acoustics(); }
+  Eigen::Index Delays() const { return delay_spread == DelaySpread::kNone ? 1 : 2; }
+  // The index of the flame's first coefficient.
+  Eigen::Index Flame() const { return Delay() + Delays(); }
+  // Those of the flame's first line and of the first source of noise, and how many parameters there
+  // are, given the number of the flame's coefficients.
+  Eigen::Index FlameLine(Eigen::Index flame) const { return Flame() + flame; }
+  Eigen::Index Noise(Eigen::Index flame) const { return FlameLine(flame) + FlameLines(); }
+  Eigen::Index Parameters(Eigen::Index flame) const { return Noise(flame) + NoiseParameters(); }
+};
+
+// One mode, without units.
+struct LoopMode {
+  double omega = 1.0;
+  double xi = 0.1;
+  double a = 0.0;
+  double b = 0.0;
+  double g = 0.0;
+  double h = 0.0;
+};
+
+struct LoopPoint {
+  std::vector<LoopMode> modes;
+  FlamePath path;
+  Eigen::VectorXd flame;               // c
+  std::vector<Eigen::VectorXd> noise;  // one a source
+  double background_ratio = 0.0;       // noise_sources.h
+  Eigen::VectorXcd acoustic_lines;     // d_h, from h = 1 on
+  Eigen::VectorXcd flame_lines;        // e_h
+};
+
+LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
+                  const Eigen::VectorXd& parameters);
+// The tied frequencies and dampings are those of the first mode.
+Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& point);
+
+// R at s.
+std::complex<double> AcousticTransfer(const LoopPoint& point, std::complex<double> s);
+// Adds the real part of `by` times dR at s, for each of the acoustics' parameters.
+void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point,
+                       std::complex<double> s, std::complex<double> by, Eigen::VectorXd* out);
+
+LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
+                          const LoopPoint& point);
+// The noise of `point` in the place of what the residuals have.
+void SetNoise(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
+              LoopResiduals* residuals);
+LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
+                              const LoopPoint& point);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_

@@ -1,0 +1,98 @@
+#include "estimation/record_fit/loop/point_prior.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace howl {
+namespace {
+
+// The band is four wide in ln f, and its middle is near the cycle.
+constexpr double kMeanLogOmega = 0.0;
+constexpr double kLogOmega = 1.1;
+// Ducts' modes have dampings of 0.01 to 0.2.
+constexpr double kMeanLogXi = -3.0;
+constexpr double kLogXi = 1.5;
+// A mode of damping 0.05 and residue 1 makes a peak of ten times the ratio of p to q.
+constexpr double kResidue = 1.0;
+// At the record's ends a mode holds as much as p shows, and up to a few times as much.
+constexpr double kHeld = 3.0;
+// Half a period of the cycle, within a factor of three.
+constexpr double kMeanTau = std::numbers::pi;
+constexpr double kLogTau = 1.1;
+// From a tenth of the delay to as much as the delay.
+constexpr double kMeanLogRho = -1.2;
+constexpr double kLogRho = 0.8;
+constexpr double kFlame = 3.0;  // of recorded q's mean square
+// Where a search begins: its size is estimated (parameter_law.h).
+constexpr double kLineError = 0.3;
+constexpr double kLevel = 3.0;  // of ln S_j, about the signal's mean
+constexpr double kShape = 1.5;  // of its higher coefficients
+// Amplifiers are set so that p and q fill their ranges alike.
+constexpr double kBackgroundRatio = 1.0;
+
+double MeanLogPower(const Eigen::VectorXcd& x) {
+  return Tapered(x).cwiseAbs2().array().log().mean();
+}
+
+}  // namespace
+
+double PointPrior::LogDensity(const Eigen::VectorXd& parameters) const {
+  const Eigen::VectorXd z = (parameters - mean).cwiseQuotient(deviation);
+  double sum = -deviation.array().log().sum();
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
+    const double n = degrees.size() > 0 ? degrees[i] : std::numeric_limits<double>::infinity();
+    if (std::isfinite(n)) {
+      sum += std::lgamma(0.5 * (n + 1.0)) - std::lgamma(0.5 * n) -
+             0.5 * std::log(n * std::numbers::pi) - 0.5 * (n + 1.0) * std::log1p(z[i] * z[i] / n);
+    } else {
+      sum -= 0.5 * (z[i] * z[i] + std::log(2.0 * std::numbers::pi));
+    }
+  }
+  return sum;
+}
+
+Eigen::VectorXd PointPrior::Precision(const Eigen::VectorXd& parameters) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Ones(mean.size());
+  if (degrees.size() == 0) return out;
+  const Eigen::VectorXd z = (parameters - mean).cwiseQuotient(deviation);
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
+    if (std::isfinite(degrees[i])) out[i] = (degrees[i] + 1.0) / (degrees[i] + z[i] * z[i]);
+  }
+  return out;
+}
+
+Eigen::VectorXd PointPrior::Slope(const Eigen::VectorXd& parameters) const {
+  return -Precision(parameters).cwiseProduct((parameters - mean).cwiseQuotient(deviation));
+}
+
+PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record) {
+  const Eigen::Index flame = record.flame.cols();
+  const Eigen::Index size = structure.Parameters(flame);
+  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}};
+  Eigen::Index next = 0;
+  const auto add = [&](Eigen::Index count, double mean, double deviation) {
+    out.mean.segment(next, count).setConstant(mean);
+    out.deviation.segment(next, count).setConstant(deviation);
+    next += count;
+  };
+  add(structure.Frequencies(), kMeanLogOmega, kLogOmega);
+  add(structure.Dampings(), kMeanLogXi, kLogXi);
+  add(structure.Residues(), 0.0, kResidue);
+  add(structure.Transients(), 0.0, kHeld * record.OneSample());
+  add(structure.AcousticLines(), 0.0, kLineError);
+  add(1, std::log(kMeanTau), kLogTau);
+  if (structure.Delays() > 1) add(1, kMeanLogRho, kLogRho);
+  const double bins = static_cast<double>(record.bins());
+  add(flame, 0.0, kFlame * std::sqrt(Tapered(record.heat_release).squaredNorm() / bins));
+  add(structure.FlameLines(), 0.0, kLineError);
+  for (const NoiseTerm& term : structure.noise) {
+    const bool of_p = term.source == LoopNoise::kPressureSensor;
+    add(1, MeanLogPower(of_p ? record.pressure : record.heat_release), kLevel);
+    add(term.coefficients - 1, 0.0, kShape);
+  }
+  if (HasBackground(structure.noise)) add(1, 0.0, kBackgroundRatio);
+  return out;
+}
+
+}  // namespace howl

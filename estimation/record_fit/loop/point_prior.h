@@ -1,0 +1,33 @@
+// Priors of an operating point's parameters (loop_point.h): normal, in the units of the record, so
+// that they are the same for every rig, rate and length. They are wide enough that a record of a
+// hundred cycles decides (tests/estimation/record_fit), and keep finite what it cannot tell.
+//
+// Where a prior's deviation was itself estimated from a few other records the density is Student's,
+// whose tails allow for that deviation's error:
+//
+//   ln t = c - (n + 1) / 2 ln(1 + z^2 / n),   z = (u - mean) / deviation,   n degrees of freedom
+#ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_PRIOR_H_
+#define HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_PRIOR_H_
+
+#include <Eigen/Core>
+
+#include "estimation/record_fit/loop/loop_point.h"
+
+namespace howl {
+
+struct PointPrior {
+  Eigen::VectorXd mean;
+  Eigen::VectorXd deviation;
+  Eigen::VectorXd degrees;  // of freedom; empty: all normal, as where one is infinite
+
+  double LogDensity(const Eigen::VectorXd& parameters) const;
+  // Of the log density by z, and the precision of the normal density with the same slope there.
+  Eigen::VectorXd Slope(const Eigen::VectorXd& parameters) const;
+  Eigen::VectorXd Precision(const Eigen::VectorXd& parameters) const;
+};
+
+PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_LOOP_POINT_PRIOR_H_

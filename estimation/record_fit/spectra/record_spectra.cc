@@ -1,0 +1,181 @@
+#include "estimation/record_fit/spectra/record_spectra.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "estimation/record_fit/spectra/flame_basis.h"
+#include "model/numerics/dense_algebra.h"
+#include "model/numerics/fft.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+constexpr double kLowestOfCycle = 0.15;
+constexpr double kHighestOfCycle = 6.4;
+constexpr double kHighestOfSampling = 0.4;
+constexpr double kFilterEdge = 1.05;   // of the band's upper end
+constexpr double kFilterWidth = 0.25;  // of the edge
+constexpr double kRangeOverLargest = 1.02;
+// Combinations of splines that v hardly reaches are left out.
+constexpr double kLeastOfLargest = 1e-3;
+
+Eigen::VectorXd Centred(const std::vector<double>& samples, double scale) {
+  Eigen::VectorXd out =
+      Eigen::Map<const Eigen::VectorXd>(samples.data(), static_cast<Eigen::Index>(samples.size()));
+  out.array() -= out.mean();
+  return out / scale;
+}
+
+double RootMeanSquare(const std::vector<double>& samples) {
+  const Eigen::VectorXd centred = Centred(samples, 1.0);
+  return std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size()));
+}
+
+Eigen::VectorXcd Spectrum(const Eigen::VectorXd& signal) {
+  Eigen::VectorXcd out(signal.size() / 2 + 1);
+  Fft fft;
+  fft.Forward(std::span(signal.data(), static_cast<std::size_t>(signal.size())),
+              std::span(out.data(), static_cast<std::size_t>(out.size())));
+  return out / std::sqrt(static_cast<double>(signal.size()));
+}
+
+Eigen::VectorXd Signal(Eigen::VectorXcd spectrum, Eigen::Index samples) {
+  spectrum *= std::sqrt(static_cast<double>(samples));
+  Eigen::VectorXd out(samples);
+  Fft fft;
+  fft.Inverse(std::span(spectrum.data(), static_cast<std::size_t>(spectrum.size())),
+              std::span(out.data(), static_cast<std::size_t>(out.size())));
+  return out;
+}
+
+struct Band {
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+
+  Eigen::VectorXcd Of(const Eigen::VectorXcd& spectrum) const {
+    return spectrum.segment(first, count + 1);
+  }
+};
+
+// The flame's input in time.
+Eigen::VectorXd InputOf(const Eigen::VectorXcd& pressure, FlameInput input, double bin_of_cycle,
+                        double edge, Eigen::Index samples) {
+  Eigen::VectorXcd spectrum = pressure;
+  spectrum[0] = 0.0;
+  for (Eigen::Index k = 1; k < spectrum.size(); ++k) {
+    const double f = static_cast<double>(k) * bin_of_cycle;
+    const double over = std::clamp((f - edge) / (kFilterWidth * edge), 0.0, 1.0);
+    spectrum[k] *=
+        FlameInputResponse(input, C(0.0, f)) * 0.5 * (1.0 + std::cos(std::numbers::pi * over));
+  }
+  return Signal(std::move(spectrum), samples);
+}
+
+// Functions whose spectra are orthogonal, each with the mean square 1 over the band.
+Eigen::MatrixXd OrthogonalFunctions(const Eigen::MatrixXcd& spectra) {
+  Eigen::MatrixXd stacked(2 * spectra.rows(), spectra.cols());
+  stacked << spectra.real(), spectra.imag();
+  stacked /= std::sqrt(static_cast<double>(spectra.rows()));
+  const SingularValues svd = DecomposeSingular(stacked);
+  const Eigen::Index kept = (svd.values.array() > kLeastOfLargest * svd.values[0]).count();
+  return svd.v.leftCols(kept) * svd.values.head(kept).cwiseInverse().asDiagonal();
+}
+
+RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
+  CHECK_EQ(record.pressure.size(), record.heat_release.size());
+  RecordSpectra out;
+  out.flame_input = input;
+  const Eigen::VectorXd p = Centred(record.pressure, scale.pressure);
+  const Eigen::Index samples = p.size();
+  out.sampling_hz = record.sampling_hz;
+  out.bin_hz = record.sampling_hz / static_cast<double>(samples);
+  const double bin_of_cycle = out.bin_hz / scale.cycle_hz;
+  const double highest =
+      std::min(kHighestOfCycle, kHighestOfSampling * record.sampling_hz / scale.cycle_hz);
+  Band band;
+  band.first = std::max<Eigen::Index>(
+      static_cast<Eigen::Index>(std::ceil(kLowestOfCycle / bin_of_cycle)), 1);
+  band.count = static_cast<Eigen::Index>(highest / bin_of_cycle) - band.first;
+  const Eigen::VectorXcd pressure = Spectrum(p);
+  out.pressure = band.Of(pressure);
+  out.heat_release = band.Of(Spectrum(Centred(record.heat_release, scale.heat_release)));
+  const Eigen::VectorXd middle =
+      (Eigen::ArrayXd::LinSpaced(band.count, 0.0, static_cast<double>(band.count - 1)) +
+       static_cast<double>(band.first) + 0.5) *
+      bin_of_cycle;
+  out.s = C(0.0, 1.0) * middle;
+  out.input = out.s.unaryExpr([&](C s) { return FlameInputResponse(input, s); });
+  out.edge_s = C(0.0, bin_of_cycle) *
+               Eigen::VectorXd::LinSpaced(band.count + 1, static_cast<double>(band.first),
+                                          static_cast<double>(band.first + band.count));
+  out.position =
+      2.0 * (middle.array() / middle[0]).log() / std::log(middle[band.count - 1] / middle[0]) - 1.0;
+  out.share = Eigen::VectorXd::Constant(band.count, kSineTaperShare);
+  const Eigen::VectorXd v = InputOf(pressure, input, bin_of_cycle, kFilterEdge * highest, samples);
+  if (scale.input_range == 0.0) scale.input_range = kRangeOverLargest * v.cwiseAbs().maxCoeff();
+  const FlameBasis basis(scale.input_range);
+  Eigen::MatrixXd splines = basis.Columns(v);
+  Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
+  for (Eigen::Index k = 0; k < splines.cols(); ++k) {
+    spectra.col(k) = band.Of(Spectrum(splines.col(k)));
+  }
+  const double step = 1e-4 * scale.input_range;
+  const Eigen::MatrixXd rises =
+      (basis.Columns(v.array() + step) - basis.Columns(v.array() - step)) / (2.0 * step);
+  const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
+  const Eigen::MatrixXd at_rest = basis.Columns(about_rest);
+  if (scale.functions.size() == 0) scale.functions = OrthogonalFunctions(spectra);
+  out.flame = spectra * scale.functions;
+  out.slopes = scale.functions.transpose() * rises.colwise().mean().transpose();
+  out.rest_slopes =
+      scale.functions.transpose() * (at_rest.row(0) - at_rest.row(1)).transpose() / (2.0 * step);
+  out.scale = std::move(scale);
+  return out;
+}
+
+}  // namespace
+
+std::complex<double> FlameInputResponse(FlameInput input, std::complex<double> s) {
+  switch (input) {
+    case FlameInput::kPressureRate:
+      return s;
+    case FlameInput::kPressure:
+      return 1.0;
+    case FlameInput::kVelocity:
+      return 1.0 / s;
+  }
+  return s;
+}
+
+Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x, Eigen::Index reach) {
+  Eigen::VectorXd out(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Eigen::Index from = std::max<Eigen::Index>(i - reach, 0);
+    const Eigen::Index bins = std::min(i + reach + 1, x.size()) - from;
+    out[i] = x.segment(from, bins).squaredNorm() / static_cast<double>(bins);
+  }
+  return out;
+}
+
+RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInput input) {
+  RecordScale scale;
+  scale.cycle_hz = cycle_hz;
+  scale.pressure = RootMeanSquare(record.pressure);
+  scale.heat_release = RootMeanSquare(record.heat_release);
+  return Make(record, std::move(scale), input);
+}
+
+RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like) {
+  return Make(record, like.scale, like.flame_input);
+}
+
+}  // namespace howl

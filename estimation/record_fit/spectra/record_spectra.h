@@ -1,0 +1,88 @@
+// A record made ready for the likelihood of its loop (whittle.h): both signals on one band of bins,
+// and what the flame is driven by.
+//
+//   v = dp/dt, p or the integral of p (FlameInput), of recorded p below 1.3 of the band's upper end
+//   q(t) = sum_k c_k b_k(v(t - tau)) + noise
+//
+// b_k are cubic splines of v (flame_basis.h), combined so that over the band their spectra are
+// orthogonal and as large as recorded q's. The band reaches from 0.15 to 6.4 of the cycle's
+// frequency: below, slow flow rules the signals; above, the flame's harmonics are lost in noise.
+//
+// A residual is taken under the sine taper sin(pi n / N), which is zero at the record's ends: the
+// difference of neighbouring bins of its transform, so that no filter's transient at the ends is
+// left in it. Bin i stands in the middle of two of the transform's; under the taper neighbours are
+// correlated by -1/2, so that each counts for 1 / 1.5 of an independent one: two thirds of all that
+// the record holds.
+//
+// Everything is without a unit: p and q over their root mean squares, frequencies over the cycle's.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_SPECTRA_RECORD_SPECTRA_H_
+#define HOWL_ESTIMATION_RECORD_FIT_SPECTRA_RECORD_SPECTRA_H_
+
+#include <Eigen/Core>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <numbers>
+
+#include "estimation/analysis/spectra/record.h"
+
+namespace howl {
+
+inline constexpr double kSineTaperShare = 1.0 / 1.5;
+
+enum class FlameInput : std::uint8_t { kPressureRate, kPressure, kVelocity };
+
+// v's transfer from p at s = j f over the cycle's frequency: s, 1 or 1 / s.
+std::complex<double> FlameInputResponse(FlameInput input, std::complex<double> s);
+
+// The units, and the flame's functions, that records of one operating point have in common.
+struct RecordScale {
+  double cycle_hz = 0.0;
+  double pressure = 1.0;
+  double heat_release = 1.0;
+  double input_range = 0.0;   // largest |v|
+  Eigen::MatrixXd functions;  // of the splines, one column each
+};
+
+struct RecordSpectra {
+  RecordScale scale;
+  FlameInput flame_input = FlameInput::kPressureRate;
+  double sampling_hz = 0.0;
+  double bin_hz = 0.0;
+  Eigen::VectorXcd s;        // j f over the cycle's frequency
+  Eigen::VectorXcd input;    // V: v's transfer from p
+  Eigen::VectorXd position;  // -1 .. 1 over the band, in log f
+  // Of the transform, one more than there are bins: j f, P, Q, and b_k without delay, one column
+  // each.
+  Eigen::VectorXcd edge_s;
+  Eigen::VectorXcd pressure;
+  Eigen::VectorXcd heat_release;
+  Eigen::MatrixXcd flame;
+  Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
+  Eigen::VectorXd rest_slopes;  // d b_k / d v at v = 0
+  Eigen::VectorXd share;        // what each bin counts for
+
+  Eigen::Index bins() const { return s.size(); }
+  // What a state of one unit, that begins with the record, has in its spectrum but for 1 / s.
+  double OneSample() const {
+    const double samples = sampling_hz / bin_hz;
+    return sampling_hz / (2.0 * std::numbers::pi * scale.cycle_hz) / std::sqrt(samples);
+  }
+};
+
+// The record has both signals.
+RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInput input);
+// The same record, or another part of it, in the units and with the flame's functions of `like`.
+RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like);
+
+// A spectrum of the transform's bins under the taper.
+inline Eigen::VectorXcd Tapered(const Eigen::VectorXcd& x) {
+  return x.head(x.size() - 1) - x.tail(x.size() - 1);
+}
+
+// |x|^2, smoothed over `reach` bins to either side.
+Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x, Eigen::Index reach);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_SPECTRA_RECORD_SPECTRA_H_

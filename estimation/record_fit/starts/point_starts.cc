@@ -1,0 +1,209 @@
+#include "estimation/record_fit/starts/point_starts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "estimation/record_fit/starts/pole_starts.h"
+#include "estimation/record_fit/starts/start_least_squares.h"
+#include "model/numerics/dense_algebra.h"
+
+namespace howl {
+namespace {
+
+constexpr int kDelays = 64;
+constexpr double kMostCycles = 1.25;  // of delay
+constexpr std::size_t kBestDelays = 3;
+constexpr double kRho = 0.2;  // spread of delays
+constexpr double kEulersGamma = 0.5772156649015329;
+constexpr double kQuiet = 0.1;  // share of bins
+constexpr double kWellDamped = 0.1;
+// Nats, so that a start's other sources explain the record where they can.
+constexpr double kBelowSensors = 4.0;
+
+// The level of white noise of which a record's quietest bins consist.
+double QuietLevel(Eigen::VectorXd power) {
+  std::ranges::sort(power);
+  return std::log(power[static_cast<Eigen::Index>(kQuiet * static_cast<double>(power.size()))] /
+                  kQuiet);
+}
+
+class Starts {
+ public:
+  Starts(const RecordSpectra& record, const PointStructure& structure)
+      : record_(record),
+        structure_(structure),
+        heat_release_(Tapered(record.heat_release)),
+        flame_(record.bins(), record.flame.cols()),
+        weight_(SmoothPower(heat_release_, kStartReach).cwiseSqrt().cwiseInverse()) {
+    for (Eigen::Index k = 0; k < flame_.cols(); ++k) flame_.col(k) = Tapered(record.flame.col(k));
+  }
+
+  std::vector<double> Delays(std::size_t count) const;
+  FlamePath Path(double tau) const;
+  Eigen::VectorXd At(std::vector<LoopMode> modes, double tau) const;
+  StartSolution Flame(const FlamePath& path) const;
+
+ private:
+  double LogLeft(double tau) const;
+  void RaiseNoise(LoopPoint* point) const;
+  Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
+
+  const RecordSpectra& record_;
+  const PointStructure& structure_;
+  Eigen::VectorXcd heat_release_;
+  Eigen::MatrixXcd flame_;
+  Eigen::VectorXd weight_;
+};
+
+FlamePath Starts::Path(double tau) const {
+  return {structure_.delay_spread, tau, structure_.Delays() > 1 ? kRho : 0.0};
+}
+
+StartSolution Starts::Flame(const FlamePath& path) const {
+  const Eigen::VectorXcd delay = path.At(record_.s);
+  const Eigen::VectorXcd weight = delay.cwiseProduct(weight_);
+  return SolveStart(weight.asDiagonal() * flame_, weight_.cwiseProduct(heat_release_));
+}
+
+// The mean logarithm of what the flame leaves of q, smoothed: but for a constant, how likely noise
+// of that spectrum is. Where there is little noise the right delay stands out by orders of
+// magnitude in bins which hold little of q's power.
+double Starts::LogLeft(double tau) const {
+  const Eigen::VectorXcd delay = Path(tau).At(record_.s);
+  const Eigen::VectorXcd left =
+      heat_release_ - delay.cwiseProduct(flame_ * Flame(Path(tau)).coefficients);
+  return SmoothPower(left, kStartReach).array().log().mean();
+}
+
+std::vector<double> Starts::Delays(std::size_t count) const {
+  std::vector<double> tau(kDelays);
+  std::vector<double> left(kDelays);
+  for (std::size_t i = 0; i < kDelays; ++i) {
+    tau[i] = 2.0 * std::numbers::pi * kMostCycles * (static_cast<double>(i) + 0.5) / kDelays;
+    left[i] = LogLeft(tau[i]);
+  }
+  std::vector<std::pair<double, double>> minima;
+  // Without the ends: what q tells of p at once, through the acoustics, leaves least at no delay.
+  for (std::size_t i = 1; i + 1 < kDelays; ++i) {
+    if (left[i - 1] < left[i] || left[i + 1] < left[i]) continue;
+    minima.emplace_back(left[i], tau[i]);
+  }
+  std::ranges::sort(minima);
+  minima.resize(std::min(minima.size(), count));
+  std::vector<double> out;
+  for (const auto& minimum : minima) out.push_back(minimum.second);
+  return out;
+}
+
+// The logarithm of a smooth spectrum, from that of bins whose power is exponentially distributed.
+Eigen::VectorXd Starts::LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const {
+  const Eigen::MatrixXd basis = ChebyshevColumns(record_.position, terms);
+  const Eigen::VectorXd values = power.array().max(1e-300).log() + kEulersGamma;
+  return SolveSymmetric(basis.transpose() * basis, basis.transpose() * values);
+}
+
+Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
+  LoopPoint point;
+  point.modes = std::move(modes);
+  point.path = Path(tau);
+  point.flame = Flame(point.path).coefficients;
+  PointStructure quiet = structure_;
+  quiet.noise.clear();
+  const LoopResiduals left = ResidualsOf(record_, quiet, point);
+  for (const NoiseTerm& term : structure_.noise) {
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(term.coefficients);
+    switch (term.source) {
+      case LoopNoise::kCombustion:
+        c = LogSpectrum(left.flame.cwiseAbs2(), term.coefficients);
+        break;
+      case LoopNoise::kDuct:
+        c = LogSpectrum(left.acoustic.cwiseAbs2().cwiseQuotient(left.r.cwiseAbs2()),
+                        term.coefficients);
+        break;
+      case LoopNoise::kPressureSensor:
+        c[0] = QuietLevel(left.acoustic.cwiseAbs2());
+        break;
+      case LoopNoise::kHeatReleaseSensor:
+        c[0] = QuietLevel(left.flame.cwiseAbs2());
+        break;
+      case LoopNoise::kBackground:
+        c[0] = QuietLevel(left.flame.cwiseAbs2()) - kBelowSensors;
+        break;
+    }
+    point.noise.push_back(c);
+  }
+  if (HasBackground(structure_.noise)) point.background_ratio = BackgroundOf(record_).ratio;
+  RaiseNoise(&point);
+  return ToParameters(structure_, point);
+}
+
+// Together all sources have the level that is most likely: what a start misses at the cycle's lines
+// is far more than what smooth spectra hold. ln L = c - 2 n x - Q e^(-x) at x above the level.
+void Starts::RaiseNoise(LoopPoint* point) const {
+  const auto log_likelihood = [&](double x) {
+    LoopPoint moved = *point;
+    for (Eigen::VectorXd& source : moved.noise) source[0] += x;
+    return WhittleLogLikelihood(structure_.noise, record_.share,
+                                ResidualsOf(record_, structure_, moved));
+  };
+  const double twice_bins = 2.0 * record_.share.sum();
+  const double square =
+      (log_likelihood(1.0) - log_likelihood(0.0) + twice_bins) / (1.0 - std::exp(-1.0));
+  if (!(square > twice_bins)) return;
+  for (Eigen::VectorXd& source : point->noise) source[0] += std::log(square / twice_bins);
+}
+
+}  // namespace
+
+Eigen::VectorXd FlameStart(const RecordSpectra& record, const FlamePath& path) {
+  return Starts(record, PointStructure{}).Flame(path).coefficients;
+}
+
+std::vector<double> DelayStarts(const RecordSpectra& record, std::size_t count) {
+  return Starts(record, PointStructure{}).Delays(count);
+}
+
+BackgroundStart BackgroundOf(const RecordSpectra& record) {
+  const Eigen::VectorXcd p = Tapered(record.pressure);
+  const Eigen::VectorXcd q = Tapered(record.heat_release);
+  const Eigen::VectorXd smooth_p = SmoothPower(p, kStartReach).cwiseSqrt();
+  const Eigen::VectorXd smooth_q = SmoothPower(q, kStartReach).cwiseSqrt();
+  const Eigen::ArrayXd coherent = (p.array() * q.conjugate().array()).real();
+  const double sign = (coherent / (smooth_p.array() * smooth_q.array())).sum() < 0.0 ? -1.0 : 1.0;
+  const double of_p = QuietLevel(p.cwiseAbs2());
+  const double of_q = QuietLevel(q.cwiseAbs2());
+  return {sign * std::exp(0.5 * (of_p - of_q)), of_q};
+}
+
+std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointStructure& structure,
+                                      const PointPrior& prior, std::size_t count,
+                                      std::uint64_t seed) {
+  const Starts starts(record, structure);
+  const PoleStarts poles(record, structure);
+  const std::vector<double> delays = starts.Delays(kBestDelays);
+  std::vector<std::vector<StartPole>> from = {poles.Greedy()};
+  if (!structure.ratio) {
+    from.push_back(poles.Relocated(poles.Spread()));
+    from.push_back(poles.Relocated(from[0]));
+  }
+  // The cycle's own damping is hidden in closed loop: sharp poles of the grid may be those of the
+  // closed loop, and better damped ones lead to the open loop's.
+  from.push_back(from[0]);
+  for (StartPole& pole : from.back()) pole.xi = kWellDamped;
+  RandomStream random(seed);
+  while (from.size() * delays.size() < count) from.push_back(poles.Drawn(&random));
+  std::vector<Eigen::VectorXd> out;
+  for (const std::vector<StartPole>& each : from) {
+    for (const double tau : delays) out.push_back(starts.At(poles.WithResidues(each), tau));
+  }
+  // Nothing may begin beyond where the prior is flat to rounding.
+  for (Eigen::VectorXd& start : out) {
+    start = start.cwiseMax(prior.mean - 6.0 * prior.deviation)
+                .cwiseMin(prior.mean + 6.0 * prior.deviation);
+  }
+  return out;
+}
+
+}  // namespace howl
