@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace howl {
@@ -35,6 +36,13 @@ Json ParseJsonOrNone(Input&& input) {
   } catch (const JsonTooDeep&) {
   }
   return Json(Json::value_t::discarded);
+}
+
+// A path, or what another program said, may have bytes that are no UTF-8, of which JSON has none:
+// they become U+FFFD.
+template <typename Json>
+std::string JsonText(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace howl

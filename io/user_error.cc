@@ -1,18 +1,25 @@
 #include "io/user_error.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
+
+#include "io/utf8_text.h"
 
 namespace howl {
 namespace {
 
 constexpr std::size_t kMaxPartLength = 300;
 
+// A part of a text that was cut, or a name of a file, may have half a character.
 std::string OneLine(const std::string& text) {
   std::string line;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size();) {
     if (line.size() >= kMaxPartLength) return line + "...";
-    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    line += is_control ? ' ' : c;
+    const std::size_t length = Utf8Length(std::string_view(text).substr(i));
+    const bool is_control = static_cast<unsigned char>(text[i]) < 0x20 || text[i] == 0x7f;
+    line += is_control ? " " : length == 0 ? "?" : text.substr(i, length);
+    i += std::max<std::size_t>(length, 1);
   }
   return line;
 }

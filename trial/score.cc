@@ -14,7 +14,9 @@ constexpr double kMediumSeverity = 0.4;
 constexpr double kOracleShrinkage = 0.1;
 constexpr std::size_t kReliabilityBins = 5;
 
+// Of those that are numbers: a damaged diagnosis has gaps that are none, and they have no order.
 double Median(std::vector<double> x) {
+  std::erase_if(x, [](double value) { return std::isnan(value); });
   if (x.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::ranges::sort(x);
   const std::size_t n = x.size();

@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 constexpr const char* kSeedKey = "seed";
 constexpr const char* kRigColumn = "rig";
 constexpr std::size_t kMostRigs = 1'000'000;
+// All of the rigs' configs are held at once.
+constexpr std::size_t kMostText = std::size_t{512} << 20;
 
 // A value of a key, and where it was written.
 struct Setting {
@@ -82,8 +84,7 @@ std::vector<Sketch> FirstSketches(const CampaignSpec& spec, CampaignRigs& all) {
   return sketches;
 }
 
-// All combinations of the axes' values, the last axis running fastest.
-std::vector<Sketch> Multiply(const std::vector<Sketch>& sketches, const CampaignSpec& spec) {
+std::size_t PointsOfGrid(const std::vector<Sketch>& sketches, const CampaignSpec& spec) {
   std::size_t points = 1;
   for (const GridAxis& axis : spec.grid) {
     points *= axis.values.size();
@@ -92,8 +93,15 @@ std::vector<Sketch> Multiply(const std::vector<Sketch>& sketches, const Campaign
                       "makes more than a million rigs, expected fewer");
     }
   }
+  return points;
+}
+
+// Visits all combinations of the axes' values, the last axis running fastest. They are made one by
+// one: a value may be a long list.
+template <typename Visit>
+void Multiply(const std::vector<Sketch>& sketches, const CampaignSpec& spec, const Visit& visit) {
+  const std::size_t points = PointsOfGrid(sketches, spec);
   const int digits = static_cast<int>(std::to_string(points).size());
-  std::vector<Sketch> product;
   for (const Sketch& sketch : sketches) {
     for (std::size_t point = 0; point < points; ++point) {
       Sketch one = sketch;
@@ -107,10 +115,9 @@ std::vector<Sketch> Multiply(const std::vector<Sketch>& sketches, const Campaign
         one.settings.push_back({axis.key, axis.values[at / left], spec.source, axis.line});
         at %= left;
       }
-      product.push_back(std::move(one));
+      visit(one);
     }
   }
-  return product;
 }
 
 std::uint64_t SeedOf(const Setting& setting) {
@@ -187,6 +194,12 @@ CampaignRig MakeRig(const Sketch& sketch, std::uint64_t seed, const fs::path& ou
   return rig;
 }
 
+std::size_t TextOf(const CampaignRig& rig) {
+  std::size_t size = rig.config_text.size();
+  for (const std::string& setting : rig.settings) size += setting.size();
+  return size;
+}
+
 void CheckNames(const CampaignSpec& spec, const CampaignRigs& all) {
   constexpr const char* kLetters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+";
@@ -211,12 +224,22 @@ void CheckNames(const CampaignSpec& spec, const CampaignRigs& all) {
 
 CampaignRigs MakeRigs(const CampaignSpec& spec, std::uint64_t seed, const fs::path& out) {
   CampaignRigs all;
-  std::vector<Sketch> sketches = FirstSketches(spec, all);
-  if (!spec.grid.empty()) sketches = Multiply(sketches, spec);
+  const std::vector<Sketch> sketches = FirstSketches(spec, all);
   for (const GridAxis& axis : spec.grid) all.columns.push_back(axis.key);
   Templates templates;
-  for (const Sketch& sketch : sketches) {
+  std::size_t text = 0;
+  const auto add = [&](const Sketch& sketch) {
     all.rigs.push_back(MakeRig(sketch, seed, out, templates));
+    text += TextOf(all.rigs.back());
+    if (text > kMostText) {
+      throw UserError(spec.source.string(), 0, "",
+                      "the configs of its rigs take more than 512 MB, expected fewer or smaller");
+    }
+  };
+  if (spec.grid.empty()) {
+    std::ranges::for_each(sketches, add);
+  } else {
+    Multiply(sketches, spec, add);
   }
   CheckNames(spec, all);
   return all;

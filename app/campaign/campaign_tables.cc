@@ -8,6 +8,7 @@
 
 #include "app/campaign/rig_row.h"
 #include "app/command_line/command.h"
+#include "io/json_fields.h"
 #include "io/results/csv_writer.h"
 
 namespace howl {
@@ -58,6 +59,18 @@ double Quantile(const std::vector<double>& sorted, double share) {
 }
 
 }  // namespace
+
+bool IsRigRow(const nlohmann::json& row, const CampaignRigs& rigs) {
+  const auto has = [&](const char* key, nlohmann::json::value_t type) {
+    return JsonAt(row, key).type() == type;
+  };
+  using Type = nlohmann::json::value_t;
+  const nlohmann::json& settings = ListAt(row, "settings");
+  return has("rig", Type::string) && has("error", Type::string) && has("status", Type::object) &&
+         has("values", Type::object) && has("points", Type::array) &&
+         settings.size() == rigs.columns.size() &&
+         std::ranges::all_of(settings, [](const auto& each) { return each.is_string(); });
+}
 
 std::string CampaignCsv(const CampaignSpec& spec, const CampaignRigs& rigs, const RigRows& rows) {
   const std::vector<std::string> values = ValueColumns(spec);

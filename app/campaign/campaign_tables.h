@@ -13,6 +13,9 @@ namespace howl {
 
 using RigRows = std::vector<nlohmann::ordered_json>;  // as RunRig gives them, in the rigs' order
 
+// Whether it has all that the tables below take from a row.
+bool IsRigRow(const nlohmann::json& row, const CampaignRigs& rigs);
+
 // A row for each rig: rig, seed, what differs from rig to rig, the exit status of each command, an
 // error, and what the commands found.
 std::string CampaignCsv(const CampaignSpec& spec, const CampaignRigs& rigs, const RigRows& rows);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/files/digest.h"
+#include "io/json_fields.h"
 #include "io/json_text.h"
 #include "io/user_error.h"
 
@@ -28,7 +29,7 @@ Json At(const Json& json, const std::vector<const char*>& keys) {
 // A quantity of an experiment's; points are found again by their names, so that a fit's value and a
 // family's bounds share a row.
 Row& Point(Row& row, const Json& experiment, const std::string& quantity) {
-  const std::string name = At(experiment, {"name"}).get<std::string>();
+  const std::string name = TextAt(experiment, "name");
   for (Row& point : row["points"]) {
     if (point["experiment"] == name && point["quantity"] == quantity) return point;
   }
@@ -74,7 +75,7 @@ void HarvestFamily(const Json& results, Row& row) {
   row["values"]["members"] = At(results, {"counts", "members"});
   std::optional<bool> closed;  // an empty family has no bounds
   for (const Json& experiment : At(results, {"experiments"})) {
-    const std::string name = At(experiment, {"name"}).get<std::string>();
+    const std::string name = TextAt(experiment, "name");
     const Json bounds = At(results, {"bounds", name.c_str()});
     if (!bounds.is_object()) continue;
     for (const auto& [quantity, bound] : bounds.items()) {

@@ -11,6 +11,7 @@
 #include "app/files/digest.h"
 #include "app/process/child_process.h"
 #include "app/process/interruption.h"
+#include "io/json_text.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -105,7 +106,7 @@ std::optional<std::string> RunRig(const CampaignSpec& spec, const CampaignRig& r
     std::error_code ignored;
     fs::remove_all(folder, ignored);
   }
-  return row.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return JsonText(row);
 }
 
 }  // namespace howl

@@ -19,6 +19,7 @@
 #include "io/config/config.h"
 #include "io/config/reading/config_reading.h"
 #include "io/json_fields.h"
+#include "io/json_text.h"
 #include "io/result_files.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
@@ -45,13 +46,14 @@ std::string CampaignSha256(const CampaignSpec& spec) {
   return Sha256(text);
 }
 
-bool IsOf(const std::string& row, const CampaignSpec& spec, const CampaignRig& rig) {
-  const auto json = nlohmann::json::parse(row, nullptr, false);
-  return json.is_object() && TextAt(json, "inputs_sha256") == RigInputsSha256(spec, rig);
+bool IsOf(const std::string& row, const CampaignSpec& spec, const CampaignRigs& all,
+          const CampaignRig& rig) {
+  const auto json = ParseJsonOrNone<nlohmann::json>(row);
+  return IsRigRow(json, all) && TextAt(json, "inputs_sha256") == RigInputsSha256(spec, rig);
 }
 
 bool HasError(const std::string& row) {
-  return !TextAt(nlohmann::json::parse(row, nullptr, false), "error").empty();
+  return !TextAt(ParseJsonOrNone<nlohmann::json>(row), "error").empty();
 }
 
 // A key that a config has not, a value that it cannot have: said before the first rig is run.
@@ -105,7 +107,7 @@ Units ValidRows(const CampaignSpec& spec, const CampaignRigs& all, const Units& 
   Units rows;
   for (const CampaignRig& rig : all.rigs) {
     const auto row = stored.find(KeyOf(rig));
-    if (row != stored.end() && IsOf(row->second, spec, rig)) rows.insert(*row);
+    if (row != stored.end() && IsOf(row->second, spec, all, rig)) rows.insert(*row);
   }
   return rows;
 }

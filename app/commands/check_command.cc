@@ -7,6 +7,7 @@
 #include "app/check/check_run.h"
 #include "app/command_line/command.h"
 #include "app/text/text_table.h"
+#include "io/json_text.h"
 #include "io/results/health_json.h"
 #include "io/results/solution_json.h"
 #include "io/whole_file.h"
@@ -101,7 +102,7 @@ void Print(const CheckReport& report) {
 int Run(const Options& options) {
   const CheckReport report = RunCheck(options);
   if (options.out_is_given) {
-    WriteWholeFile(options.out / "check.json", CheckJson(report).dump(2) + "\n");
+    WriteWholeFile(options.out / "check.json", JsonText(CheckJson(report), 2) + "\n");
   }
   if (options.quiet) {
     for (const UserError& error : report.errors) std::fprintf(stderr, "%s\n", error.what());

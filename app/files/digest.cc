@@ -45,6 +45,9 @@ std::string Sha256(std::string_view text) {
 }
 
 std::optional<std::string> ReadWholeFile(const std::filesystem::path& path) {
+  // A device may never end.
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   std::ostringstream text;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "io/json_text.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
 
@@ -58,16 +59,15 @@ std::string ShardHeader(const std::string& command, const Options& options,
   for (const auto& [name, value] : options.own) {
     if (name != kShardOption) own[name] = value;
   }
-  return nlohmann::ordered_json{{"schema", "howl.shard/1"},
-                                {"command", command},
-                                {"config", options.config.string()},
-                                {"options", own},
-                                {"seed", options.seed},
-                                {"program", ProgramIdentity()},
-                                {"inputs_sha256", inputs_sha256},
-                                {"shards", shard.count},
-                                {"shard", shard.index}}
-      .dump();
+  return JsonText(nlohmann::ordered_json{{"schema", "howl.shard/1"},
+                                         {"command", command},
+                                         {"config", options.config.string()},
+                                         {"options", own},
+                                         {"seed", options.seed},
+                                         {"program", ProgramIdentity()},
+                                         {"inputs_sha256", inputs_sha256},
+                                         {"shards", shard.count},
+                                         {"shard", shard.index}});
 }
 
 bool IsWhole(const StoredUnits& stored) {

@@ -1,5 +1,7 @@
 #include "app/jobs/submitted_job.h"
 
+#include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -17,6 +19,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "howl.job/1";
+
+// A job's number is a word of a command line of Slurm's: what could be an option is none.
+bool IsNumberOfSlurm(const std::string& text) {
+  return std::ranges::all_of(
+      text, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; });
+}
 
 }  // namespace
 
@@ -37,6 +45,11 @@ std::optional<SubmittedJob> ReadJob(const fs::path& out) {
         json.at("shards").get<std::size_t>(), json.at("arrays").get<std::vector<std::string>>(),
         json.at("merge").get<std::string>()};
     if (job.words.empty()) throw std::invalid_argument("command");
+    // Each shard is looked for by its name.
+    if (job.shards < 1 || job.shards > kMostShards) throw std::invalid_argument("shards");
+    if (!std::ranges::all_of(job.arrays, IsNumberOfSlurm) || !IsNumberOfSlurm(job.merge)) {
+      throw std::invalid_argument("arrays");
+    }
     return job;
   } catch (const std::exception&) {
     throw UserError(
@@ -48,7 +61,7 @@ std::optional<SubmittedJob> ReadJob(const fs::path& out) {
 void WriteJob(const fs::path& out, const SubmittedJob& job) {
   const Json json = {{"schema", kSchema},    {"command", job.words}, {"folder", job.folder},
                      {"shards", job.shards}, {"arrays", job.arrays}, {"merge", job.merge}};
-  WriteWholeFile(JobPath(out), json.dump(2) + "\n");
+  WriteWholeFile(JobPath(out), JsonText(json, 2) + "\n");
 }
 
 ShardStates StatesOf(const fs::path& out, const SubmittedJob& job) {

@@ -34,6 +34,9 @@ StoredUnits ReadUnits(const std::filesystem::path& path) {
   StoredUnits stored;
   std::ifstream file(path, std::ios::binary);
   stored.is_there = file.is_open();
+  // A device has no units, and may never end.
+  std::error_code ignored;
+  if (stored.is_there && !std::filesystem::is_regular_file(path, ignored)) return stored;
   if (!std::getline(file, stored.header) || file.eof()) {
     stored.header.clear();  // a header that was not written to its end is nobody's
     return stored;

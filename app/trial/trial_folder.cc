@@ -61,7 +61,9 @@ void CompareSealed(const TrialFolder& folder, const TrialLog& log, Changes& chan
   }
   const nlohmann::json cases = ObjectAt(seal, "cases");
   for (const auto& [name, hash] : cases.items()) {
-    if (Sha256OfFolder(folder.CaseFolder(name)) != hash) {
+    if (!IsCaseName(name)) {
+      changes.Add(folder.Seal(), "has a name that no case has");
+    } else if (Sha256OfFolder(folder.CaseFolder(name)) != hash) {
       changes.Add(folder.CaseFolder(name), "has changed since the sealing");
     }
   }
@@ -78,6 +80,10 @@ void CompareDiagnoses(const TrialFolder& folder, const TrialLog& log, Changes& c
     }
     if (event != "diagnosed") continue;
     const std::string name = TextAt(entry, "case");
+    if (!IsCaseName(name)) {
+      changes.Add(folder.Log(), "has a name that no case has");
+      continue;
+    }
     const fs::path path = folder.Diagnosis(name);
     if (opened_at > 0.0) changes.Add(path, "was made after the key was opened");
     if (!seen.insert(name).second) changes.Add(path, "was made twice");
@@ -96,6 +102,12 @@ void CompareDiagnoses(const TrialFolder& folder, const TrialLog& log, Changes& c
 }
 
 }  // namespace
+
+bool IsCaseName(std::string_view name) {
+  return !name.empty() && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+  });
+}
 
 std::string Sha256OfFolder(const fs::path& folder) {
   std::map<std::string, std::string> files;

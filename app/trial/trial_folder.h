@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/trial/trial_log.h"
@@ -36,6 +37,9 @@ struct TrialFolder {
   std::filesystem::path Seal() const { return books / "seal.json"; }
   std::filesystem::path Log() const { return books / "log.jsonl"; }
 };
+
+// Whether it is a name as cases have, and no path: a case's folder is removed and made anew.
+bool IsCaseName(std::string_view name);
 
 // A hash over the names, sizes and contents of all files of a folder.
 std::string Sha256OfFolder(const std::filesystem::path& folder);

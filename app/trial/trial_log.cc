@@ -56,7 +56,7 @@ std::size_t TrialLog::Read(const std::string& text) {
 void TrialLog::Append(nlohmann::ordered_json entry) {
   const std::lock_guard<std::mutex> hold(lock_);
   entry["previous"] = last_hash_;
-  const std::string line = entry.dump() + "\n";
+  const std::string line = JsonText(entry) + "\n";
   const int file = open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
   const bool written = file >= 0 &&
                        write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&

@@ -42,11 +42,13 @@ std::string DecipherKey(const TrialFolder& folder, const TrialRequest& request);
 void OpenKey(const TrialFolder& folder, const std::string& key, TrialLog& log);
 
 struct ScoredTrial {
-  nlohmann::json key;
+  std::string command;  // both as the key has them
+  nlohmann::json seed;
   std::vector<CaseOutcome> cases;
   std::vector<RigEffect> effects;
   ScoreSheet sheet;
 };
+// Throws UserError where the key or a diagnosis is damaged.
 ScoredTrial ScoreTrial(const TrialFolder& folder, const TrialLog& log);
 
 // trial.json, trial.csv and sheet.md, and their entry in the log.

@@ -4,6 +4,7 @@
 
 #include "app/files/digest.h"
 #include "app/process/child_process.h"
+#include "io/json_text.h"
 #include "io/whole_file.h"
 #include "model/version.h"
 
@@ -26,7 +27,7 @@ std::string KeyText(const TrialRequest& request, const SealedCases& cases) {
                     {"seed", request.options.seed},
                     {"rig_effects", rig_effects},
                     {"cases", cases.withheld}};
-  return key.dump(1) + "\n";
+  return JsonText(key, 1) + "\n";
 }
 
 }  // namespace

@@ -36,6 +36,19 @@ std::string Required(const Units& units, const std::string& key, const fs::path&
   return found->second;
 }
 
+// The cases that have a diagnosis; a name that is a path would be written elsewhere.
+std::vector<std::string> CaseNames(const Units& units, const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& [key, bytes] : units) {
+    if (!key.starts_with(kDiagnosis)) continue;
+    names.push_back(key.substr(kDiagnosis.size()));
+    if (IsCaseName(names.back())) continue;
+    throw UserError(folder.string(), 0, key,
+                    "names no case of a trial: remove its shard and run it again");
+  }
+  return names;
+}
+
 // The names of the shards, each of which has a seal.
 std::vector<std::string> ShardNames(const Units& units) {
   std::vector<std::string> names;
@@ -122,9 +135,8 @@ void AdoptTrialShards(const Options& options, const Units& units) {
                      {"at", TextAt(*sealed, "at")},
                      {"seal_sha256", TextAt(*sealed, "seal_sha256")}});
   }
-  for (const auto& [key, bytes] : units) {
-    if (!key.starts_with(kDiagnosis)) continue;
-    WriteWholeFile(folder.Diagnosis(key.substr(kDiagnosis.size())), bytes);
+  for (const std::string& name : CaseNames(units, shards)) {
+    WriteWholeFile(folder.Diagnosis(name), units.at(KeyOf(kDiagnosis, name)));
   }
   const std::string seal_sha256 = WriteSeal(folder, request, cases);
   // The log comes last and at once: a merge that was stopped before it begins anew.

@@ -8,7 +8,7 @@
 namespace howl {
 namespace {
 
-constexpr std::uint64_t kMostNumbers = 100'000'000;
+constexpr std::uint64_t kMostColumns = 1'000'000;  // of a matrix without rows
 
 class Writer {
  public:
@@ -43,7 +43,7 @@ class Reader {
   bool Get(std::vector<double>* x) {
     std::uint64_t size = 0;
     std::uint64_t columns = 0;
-    if (!Sizes(&size, &columns)) return false;
+    if (!Sizes(sizeof(double), &size, &columns) || columns != 1) return false;
     x->resize(size);
     return Copy(x->data(), size);
   }
@@ -51,7 +51,7 @@ class Reader {
   bool Get(Eigen::Matrix<Scalar, Rows, Cols>* x) {
     std::uint64_t size = 0;
     std::uint64_t columns = 0;
-    if (!Sizes(&size, &columns)) return false;
+    if (!Sizes(sizeof(Scalar), &size, &columns)) return false;
     if (columns == 0 ? size != 0 : size % columns != 0) return false;
     const auto rows = static_cast<Eigen::Index>(columns == 0 ? 0 : size / columns);
     const auto cols = static_cast<Eigen::Index>(columns);
@@ -63,8 +63,10 @@ class Reader {
   bool AtEnd() const { return position_ == bytes_.size(); }
 
  private:
-  bool Sizes(std::uint64_t* size, std::uint64_t* columns) {
-    return Copy(size, 1) && Copy(columns, 1) && *size <= kMostNumbers;
+  // No more numbers than there are bytes for: a damaged size does not claim memory.
+  bool Sizes(std::size_t bytes_each, std::uint64_t* size, std::uint64_t* columns) {
+    return Copy(size, 1) && Copy(columns, 1) && *size <= (bytes_.size() - position_) / bytes_each &&
+           *columns <= kMostColumns;
   }
   template <typename T>
   bool Copy(T* to, std::size_t count) {

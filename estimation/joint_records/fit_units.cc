@@ -1,6 +1,7 @@
 #include "estimation/joint_records/fit_units.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -10,6 +11,12 @@ namespace {
 // Three numbers of the fit, its iterations, whether it converged, and how many parameters it has.
 constexpr std::size_t kHead = 6;
 constexpr double kMostParameters = 10'000.0;
+constexpr double kMostIterations = 1e9;
+
+// Whether it is a whole number from the first to the last.
+bool IsCount(double x, double first, double last) {
+  return x >= first && x <= last && x == std::floor(x);
+}
 
 }  // namespace
 
@@ -34,7 +41,10 @@ std::optional<PointFit> PointFitOf(const std::string& bytes) {
   std::array<double, kHead> head;
   if (bytes.size() < sizeof head) return std::nullopt;
   std::memcpy(head.data(), bytes.data(), sizeof head);
-  if (!(head[5] >= 1.0 && head[5] <= kMostParameters)) return std::nullopt;
+  if (!IsCount(head[3], 0.0, kMostIterations) || !IsCount(head[4], 0.0, 1.0) ||
+      !IsCount(head[5], 1.0, kMostParameters)) {
+    return std::nullopt;
+  }
   const auto size = static_cast<std::size_t>(head[5]);
   if (bytes.size() != sizeof(double) * (kHead + size + size * size)) return std::nullopt;
   PointFit fit;

@@ -12,6 +12,7 @@ namespace {
 bool IsPlain(const std::string& text) {
   if (MakeScalar(text, false, 1).kind != LocatedNode::Kind::kText) return false;
   if (std::isalpha(static_cast<unsigned char>(text.front())) == 0) return false;
+  if (text == "null" || text == "Null" || text == "NULL") return false;
   for (const char c : text) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
         std::string_view("_-./").find(c) == std::string_view::npos) {

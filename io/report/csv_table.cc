@@ -48,6 +48,9 @@ double CsvTable::Number(std::size_t row, const std::string& column) const {
 CsvTable ReadCsvTable(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("no such file");
+  // A device may never end.
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) throw std::runtime_error("no table");
   CsvTable table;
   std::string line;
   if (std::getline(file, line)) table.columns = Cells(line);

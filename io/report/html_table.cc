@@ -18,10 +18,9 @@ constexpr int kDigits = 3;  // that a reader takes in at a glance
 // 4980 rather than 4.98 · 10³.
 std::string Readable(double value, int digits) {
   constexpr int kMostPlainPower = 5;
+  if (!std::isfinite(value)) return Spelled(value, digits);
   const int power = value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
-  if (!std::isfinite(value) || power < digits || power > kMostPlainPower) {
-    return Spelled(value, digits);
-  }
+  if (power < digits || power > kMostPlainPower) return Spelled(value, digits);
   const double unit = std::pow(10.0, power - digits + 1);
   return Spelled(unit * std::round(value / unit), kMostPlainPower + 2);
 }

@@ -39,7 +39,7 @@ std::string Raised(int power) {
 std::string SpelledInterval(const Estimate& estimate, double scale, int digits) {
   const double value = scale * estimate.value;
   const double half = std::abs(scale) * HalfWidth95(estimate);
-  if (!std::isfinite(half) || half == 0.0) return Spelled(value, digits);
+  if (!std::isfinite(value) || !std::isfinite(half) || half == 0.0) return Spelled(value, digits);
   const int first = PowerOf(std::max(std::abs(value), half));
   const int power = first < kLeastPlainPower || first > kMostPlainPower ? first : 0;
   const double unit = std::pow(10.0, power);

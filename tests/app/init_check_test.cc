@@ -54,6 +54,21 @@ TEST(InitCommand, WithEveryNumberGivenNothingIsLeftToDo) {
   EXPECT_THAT(check.out, HasSubstr("predict: 2 operating points, power_kw 53.00 to 56.00"));
 }
 
+TEST(CheckCommand, SaysMistakesAsJsonThoughTheirTextsAreCut) {
+  const TemporaryFolder folder;
+  std::string wide = "a";
+  while (wide.size() < 400) wide += "\xc3\xa8";
+  const std::string config =
+      folder
+          .Write("rig.yaml", "experiments:\n  - {name: a, phi: 0.5, frequency_hz: \"" + wide +
+                                 "\", phase_deg: -5, gain: 12}\n\"" + wide + "\": 1\n")
+          .string();
+  const ProgramResult check = RunHowl("check " + config + " --out " + folder.path().string());
+  EXPECT_EQ(check.status, 2);
+  const auto json = nlohmann::json::parse(ReadFile(folder.path() / "check.json"));
+  EXPECT_EQ(json.at("errors").size(), 2U) << json;
+}
+
 TEST(InitCommand, NeverOverwritesAFile) {
   const TemporaryFolder folder;
   const std::string config = folder.Write("rig.yaml", "mine: 1\n").string();

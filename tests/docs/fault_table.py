@@ -131,6 +131,24 @@ def axes(place):
     return place.shell("howl campaign rig.yaml --out out")
 
 
+def long_template(place):
+    place.write("long.yaml", RIG + ("# " + "x" * 200_000 + "\n") * 15)
+    place.write("rig.yaml", "config: long.yaml\ngrid: {seed: {from: 1, to: 100000}}\n")
+    return place.shell("howl campaign rig.yaml --out out")
+
+
+def fleet(place):
+    place.write("long.yaml", RIG)
+    place.write("rig.yaml", "config: long.yaml\nfleet: /dev/zero\n")
+    return place.shell("howl campaign rig.yaml --out out")
+
+
+def endless_job(place):
+    (place.folder / "out/shards").mkdir(parents=True)
+    place.write("out/shards/job.json", place.corpus("submitted/shards_without_end"))
+    return place.shell("howl status out")
+
+
 def nested_results(place):
     place.write("reference.json", '{"schema": "howl.reference/2", "solution": ' + "[" * 300_000 + "]" * 300_000 + "}")
     return place.shell("ulimit -c 0; howl regress rig.yaml --reference . --out out")
@@ -174,6 +192,7 @@ FAULTS = [
 HOSTILE = [
     ("a name that is a path", lambda p: p.rig(name='"../up"')),
     ("a name with a control character", lambda p: p.rig(name='"e\\e[2J"')),
+    ("a text with half a pair of UTF-16", lambda p: text_config(p, b"title: \xed\xa0\x80\n")),
     ("a name with a variable of the environment", lambda p: p.rig(name='"${HOME}"')),
     ("a name that is a file of results", lambda p: p.rig(name="family")),
     ("a number out of range", lambda p: p.rig(gain="1e300")),
@@ -185,6 +204,9 @@ HOSTILE = [
     ("a mapping of 60000 keys",
      lambda p: text_config(p, "effects:\n" + "".join(f"  k{i}: 1\n" for i in range(60_000)))),
     ("a grid of a hundred thousand values on each axis", axes),
+    ("a campaign whose configs take 300 GB", long_template),
+    ("a campaign's table that is a device", fleet),
+    ("a submitted job of 10^15 shards", endless_job),
     ("lists in lists", lambda p: text_config(p, "experiments: " + "[" * 1000 + "]" * 1000)),
     ("one very long line", lambda p: text_config(p, "title: " + "x" * 1_000_000)),
     ("a config of 30 MB", lambda p: text_config(p, "\n" * 30_000_000)),

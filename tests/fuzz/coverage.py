@@ -25,15 +25,16 @@ MARK = "<!-- coverage -->\n"
 # What reads, and not what writes, runs or draws.
 READERS = [
     ("configs", r"io/config/"),
-    ("campaigns and jobs", r"app/campaign/campaign_spec\.cc|app/jobs/job_spec\.cc"),
+    ("campaigns and jobs", r"app/campaign/(campaign_(spec|rigs)|derived_config)\.cc|app/jobs/job_spec\.cc"),
     ("records as text or gzip", r"io/records/(text|columns)/"),
     ("records of MATLAB or HDF5", r"io/records/binary/"),
     ("records of any format", r"io/records/(?!write_record)[a-z_]*\.cc"),
-    ("the look at a record", r"io/inspect/(?!init_config|yaml_text)"),
+    ("the look at a record", r"io/inspect/"),
     ("results", r"io/report/(read_|csv_table|report_input|run_file|family_members)|"
                 r"io/results/(reference_file|family/family_csv)"),
-    ("states, shards, logs", r"app/jobs/(shard_set|submitted_job|unit_store)|app/trial/trial_log|"
-                             r"estimation/family/bounds/bound_text"),
+    ("states, shards, logs", r"app/jobs/(shard_set|submitted_job|unit_store)|app/trial/trial_(log|folder|score)|"
+                             r"app/campaign/(rig_row|campaign_tables)|estimation/family/bounds/bound_text|"
+                             r"estimation/joint_records/fit_units|diagnosis/(fit/fit_memory|budget/step_memory)"),
 ]
 
 

@@ -4,7 +4,10 @@
 #include <string>
 
 #include "io/config/config.h"
+#include "io/config/reading/config_reading.h"
+#include "io/inspect/init_config.h"
 #include "io/inspect/record_look.h"
+#include "io/records/record_faults.h"
 #include "io/records/records.h"
 #include "io/records/response_table.h"
 #include "tests/fuzz/target.h"
@@ -57,6 +60,36 @@ std::function<void(std::string_view)> WithMagic(const std::string& magic, std::s
   };
 }
 
+// All faults of a record, as howl check tells them.
+void Faults(std::string_view input) {
+  const RecordSpec spec{.file = InputFile(input),
+                        .pressure = "p",
+                        .heat_release = "q",
+                        .time = "t",
+                        .start_s = 0.002,
+                        .duration_s = 0.1};
+  const RecordReading reading = ReadRecordOn(spec, "config.yaml", 3);
+  CHECK(reading.record || !reading.faults.empty());
+  for (const UserError& fault : reading.faults) CheckIsOneLine(fault.what());
+}
+
+// What howl init writes, its FILL_INs given, is a config.
+void Init(std::string_view input) {
+  const std::filesystem::path file = ScratchFolder() / "init.csv";
+  std::filesystem::rename(InputFile(input), file);
+  Answered([&] {
+    const std::vector<RecordLook> looks = {LookAtRecord(file)};
+    const InitConfig written = WriteInitConfig(
+        looks, {.folder = ScratchFolder(), .values = {"0.5"}, .sampling_hz = 5000.0});
+    CHECK_EQ(written.left_open, 0U);
+    try {
+      (void)LoadConfig(InputFile(written.text));
+    } catch (const UserError& error) {
+      LOG(FATAL) << error.what() << "\n" << written.text;
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<FuzzTarget> RecordTargets() {
@@ -64,6 +97,8 @@ std::vector<FuzzTarget> RecordTargets() {
           {"gzip", WithMagic("\x1f\x8b\x08")},
           {"mat5", WithMagic("MATLAB 5.0 MAT-file")},
           {"mat73", WithMagic("\x89HDF\r\n\x1a\n", 512)},
+          {"faults", Faults},
+          {"init", Init},
           {"hdf5", WithMagic("\x89HDF\r\n\x1a\n")}};
 }
 

@@ -19,38 +19,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFileMark = "#file ";
-
 fs::path Folder() {
   fs::path folder = ScratchFolder() / "results";
   fs::create_directories(folder);
   return folder;
 }
 
-// The input is several files, each behind a line "#file NAME".
-void WriteFiles(std::string_view input) {
-  constexpr std::array<std::string_view, 18> kNames = {
-      "run.json",        "analysis.json",     "solution.json",   "family.json",
-      "family.csv",      "tradeoff.csv",      "diagnosis.json",  "simulation.json",
-      "trial.json",      "trial.csv",         "campaign.json",   "campaign.csv",
-      "transfer.csv",    "lines.csv",         "flame_curve.csv", "campaign_points.csv",
-      "prediction.json", "prediction_map.csv"};
-  for (const std::string_view name : kNames) fs::remove(Folder() / name);
-  while (input.starts_with(kFileMark)) {
-    const std::size_t end = std::min(input.find('\n'), input.size());
-    const std::string_view name = input.substr(kFileMark.size(), end - kFileMark.size());
-    input.remove_prefix(std::min(end + 1, input.size()));
-    const std::size_t next = std::min(input.find("\n#file "), input.size());
-    for (const std::string_view known : kNames) {
-      if (name == known) std::ofstream(Folder() / known, std::ios::binary) << input.substr(0, next);
-    }
-    input.remove_prefix(std::min(next + 1, input.size()));
-  }
-}
+constexpr std::array<std::string_view, 18> kFiles = {
+    "run.json",        "analysis.json",     "solution.json",   "family.json",
+    "family.csv",      "tradeoff.csv",      "diagnosis.json",  "simulation.json",
+    "trial.json",      "trial.csv",         "campaign.json",   "campaign.csv",
+    "transfer.csv",    "lines.csv",         "flame_curve.csv", "campaign_points.csv",
+    "prediction.json", "prediction_map.csv"};
 
 // Figures take most of a report's time: most inputs go without.
 void Report(std::string_view input, bool with_figures) {
-  WriteFiles(input);
+  WriteFiles(Folder(), kFiles, input);
   Answered([&] {
     ReportInput report = ReadReportInput(Folder(), 1);
     std::vector<Figure> figures;

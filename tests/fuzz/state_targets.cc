@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "app/input/problem_input.h"
+#include "app/jobs/shard.h"
 #include "app/jobs/shard_set.h"
 #include "app/jobs/submitted_job.h"
 #include "app/jobs/unit_store.h"
@@ -42,7 +43,12 @@ void Shards(std::string_view input) {
 
 void Job(std::string_view input) {
   const fs::path folder = FolderWith("job.json", input);
-  Answered([&] { (void)ReadJob(folder); });
+  Answered([&] {
+    const std::optional<SubmittedJob> job = ReadJob(folder);
+    // Each is looked for, and each number is handed to Slurm.
+    CHECK(job && job->shards >= 1 && job->shards <= kMostShards);
+    for (const std::string& array : job->arrays) CHECK(!array.starts_with("-"));
+  });
 }
 
 void Store(std::string_view input) {

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,8 @@ std::vector<FuzzTarget> RecordTargets();
 std::vector<FuzzTarget> ResultTargets();
 // What an interrupted, sharded or submitted run reads of itself.
 std::vector<FuzzTarget> StateTargets();
+// What fits, campaigns and trials read of what they kept.
+std::vector<FuzzTarget> KeptTargets();
 
 std::vector<FuzzTarget> AllTargets();
 
@@ -33,6 +36,14 @@ std::vector<FuzzTarget> AllTargets();
 const std::filesystem::path& ScratchFolder();
 // The path of a file in it that has these bytes, until the next call.
 std::filesystem::path InputFile(std::string_view bytes);
+
+// The input is several files, each behind a line "#file NAME". Of the names those that are known
+// are written to the folder, where those that the input has not are removed.
+void WriteFiles(const std::filesystem::path& folder, std::span<const std::string_view> known,
+                std::string_view input);
+
+// That what is said is one line of text, and not too long.
+void CheckIsOneLine(std::string_view line);
 
 // Runs `read`. A UserError is an answer: it must be one line of text, and not too long.
 void Answered(const std::function<void()>& read);

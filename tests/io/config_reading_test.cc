@@ -70,6 +70,15 @@ TEST(ConfigReading, WhatIsStillToBeFilledInIsOneLine) {
   EXPECT_EQ(reading.config->experiments.size(), 1U);
 }
 
+TEST(ConfigReading, AnUnknownKeyMayLookLikeThatOfAnExperiment) {
+  const ConfigFile file("experiments:\n  - {name: a, phi: 0.5, " + kNumbers +
+                        "\"experiments[x]\": 1\n\"experiments[99999999999999999999]\": 1\n"
+                        "\"experiments[\": 1\n");
+  EXPECT_THAT(
+      Keys(ReadConfigOn(file.Path())),
+      ElementsAre("3 experiments[x]", "4 experiments[99999999999999999999]", "5 experiments["));
+}
+
 TEST(ConfigReading, AGoodConfigIsReadAsEveryCommandReadsIt) {
   const ConfigFile file("experiments:\n  - {name: a, phi: 0.5, " + kNumbers +
                         "solver: {starts: 3}\n");

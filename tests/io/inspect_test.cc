@@ -176,6 +176,20 @@ TEST(Inspect, TheConfigIsReadBackAsItWasMeant) {
   }
 }
 
+TEST(Inspect, ColumnsMayHaveNamesThatYamlTakesForSomethingElse) {
+  const TemporaryFolder folder;
+  std::string rows;
+  for (int i = 0; i < 60; ++i) rows += std::to_string(i % 7) + "," + std::to_string(i % 5) + "\n";
+  for (const std::string name : {"null", "true", "~", "a: b", "#p", "- p", "1,2"}) {
+    const std::vector<RecordLook> looks = {
+        LookAtRecord(folder.Write("r.csv", "\"" + name + "\",q\n" + rows))};
+    const InitConfig written =
+        WriteInitConfig(looks, {.folder = folder.path(), .values = {"1"}, .sampling_hz = 5000.0});
+    const Config config = LoadConfig(folder.Write("rig.yaml", written.text));
+    EXPECT_EQ(config.experiments[0].record->pressure, name) << written.text;
+  }
+}
+
 TEST(Inspect, MeasuredRecordsComeOutRight) {
   const char* const data = std::getenv("HOWL_DATA");
   if (data == nullptr) GTEST_SKIP() << "HOWL_DATA is not set";

@@ -1,9 +1,11 @@
 #include "io/config/reading/config_reading.h"
 
 #include <algorithm>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "io/config/schema/config_schema.h"
@@ -20,10 +22,14 @@ namespace {
 
 constexpr std::string_view kExperiments = "experiments[";
 
-// Of "experiments[3].gain": 3.
+// Of "experiments[3].gain": 3. A user's own key may begin like one: "experiments[x]".
 std::optional<std::size_t> ExperimentOf(const std::string& key) {
   if (!key.starts_with(kExperiments)) return std::nullopt;
-  return std::stoul(key.substr(kExperiments.size()));
+  std::size_t index = 0;
+  const char* const last = key.data() + key.size();
+  const auto [end, error] = std::from_chars(key.data() + kExperiments.size(), last, index);
+  if (error != std::errc() || end == last || *end != ']') return std::nullopt;
+  return index;
 }
 
 std::string SectionOf(const std::string& key) { return key.substr(0, key.find_first_of(".[")); }

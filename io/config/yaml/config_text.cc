@@ -11,26 +11,10 @@
 
 #include "io/config/yaml/config_table.h"
 #include "io/user_error.h"
+#include "io/utf8_text.h"
 
 namespace howl {
 namespace {
-
-// The length of the UTF-8 sequence at `text`'s start; 0 when it is none.
-std::size_t Utf8Length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xc2 ? 0
-                             : lead < 0xe0 ? 2
-                             : lead < 0xf0 ? 3
-                             : lead < 0xf5 ? 4
-                                           : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  return length;
-}
 
 bool IsControl(char c) {
   const auto byte = static_cast<unsigned char>(c);

@@ -44,8 +44,9 @@ Json RecordJson(const ReportInput& input, const std::string& name, double freque
   if (named == nullptr) return nullptr;
   const Record& record = named->record;
   const double window_s = std::max(kRecordWindow_s, kRecordPeriods / frequency_hz);
-  const std::size_t count =
-      std::min(record.pressure.size(), static_cast<std::size_t>(window_s * record.sampling_hz));
+  // The frequency is a result's: of a damaged one the window may be infinite.
+  const auto samples = static_cast<double>(record.pressure.size());
+  const auto count = static_cast<std::size_t>(std::min(samples, window_s * record.sampling_hz));
   const std::size_t first = (record.pressure.size() - count) / 2;
   std::string p;
   std::string q;

@@ -87,7 +87,8 @@ std::size_t FamilyTable::Column(const std::string& name) const {
 
 FamilyTable ReadFamilyCsv(const std::filesystem::path& path) {
   std::ifstream file(path);
-  if (!file) {
+  std::error_code ignored;
+  if (!file || !std::filesystem::is_regular_file(path, ignored)) {  // a device may never end
     throw UserError(path.string(), 0, "", "no such file, expected the one that howl family writes");
   }
   std::string line;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <map>
 
 namespace howl {
@@ -64,6 +66,20 @@ TEST(FitUnits, WhatIsNoFitIsDoneAnew) {
     units.units["a"] = bytes;
     EXPECT_EQ(KeptFit(&units, "a", SomeFit).iterations, 17);
     EXPECT_EQ(units.units["a"], whole);
+  }
+}
+
+TEST(FitUnits, CountsAreWholeNumbers) {
+  PointFit fit = SomeFit();
+  fit.iterations = -1;
+  EXPECT_FALSE(PointFitOf(PointFitBytes(fit)));
+  // Its first three numbers, then the iterations and whether it converged.
+  for (const std::size_t place : {3U, 4U}) {
+    for (const double value : {0.5, 1e300, std::nan("")}) {
+      std::string bytes = PointFitBytes(SomeFit());
+      std::memcpy(bytes.data() + place * sizeof value, &value, sizeof value);
+      EXPECT_FALSE(PointFitOf(bytes)) << place << " " << value;
+    }
   }
 }
 
