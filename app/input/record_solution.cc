@@ -24,7 +24,7 @@ std::vector<OtherDelay> KeptOtherDelays(FitState& state, const std::string& key,
       return kept;
     }
   }
-  std::vector<OtherDelay> found = OtherDelaysOf(record, fit.structure, fit.points[e]);
+  std::vector<OtherDelay> found = OtherDelaysOf(record, fit.structure, fit.points[e], fit.prior[e]);
   state.Keep(key, std::string(reinterpret_cast<const char*>(found.data()),
                               found.size() * sizeof(OtherDelay)));
   return found;

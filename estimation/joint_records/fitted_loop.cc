@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "estimation/record_fit/delay_maxima.h"
 
@@ -121,10 +122,15 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
 }
 
 std::vector<OtherDelay> OtherDelaysOf(const RecordSpectra& record, const PointStructure& structure,
-                                      const PointFit& fit) {
+                                      const PointFit& fit, const PointPrior& law) {
+  PointPrior prior = PriorOf(structure, record);
+  for (const auto& [first, count] :
+       {std::pair(structure.AcousticLine(), structure.AcousticLines()),
+        std::pair(structure.FlameLine(record.flame.cols()), structure.FlameLines())}) {
+    prior.deviation.segment(first, count) = law.deviation.segment(first, count);
+  }
   std::vector<OtherDelay> out;
-  for (const DelayMaximum& each :
-       OtherDelayMaxima(record, structure, PriorOf(structure, record), fit.parameters)) {
+  for (const DelayMaximum& each : OtherDelayMaxima(record, structure, prior, fit.parameters)) {
     out.push_back({each.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz), each.nats_below});
   }
   return out;

@@ -65,9 +65,11 @@ struct FittedLoop {
 FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& structure,
                         const PointFit& fit);
 
-// The most likely first. Each takes a fit: seconds of work, where the loop above takes none.
+// The most likely first. Each takes a fit: seconds of work, where the loop above takes none. Of
+// `law`, the point's prior by all points, the size of the model's errors alone is taken: it is the
+// rig's, and a record that has any other delay has them no larger.
 std::vector<OtherDelay> OtherDelaysOf(const RecordSpectra& record, const PointStructure& structure,
-                                      const PointFit& fit);
+                                      const PointFit& fit, const PointPrior& law);
 
 }  // namespace howl
 

@@ -79,7 +79,7 @@ TEST_F(JointRecords, FindsEachPointsLoop) {
     near(loop.small_signal.loop_gain, kGains[e], "loop gain");
     EXPECT_EQ(loop.small_signal.growth_rate_1_s.value > 0.0, kGains[e] > 1.0);
     const std::vector<OtherDelay> others =
-        OtherDelaysOf((*points_)[e].record, *structure_, fit_->points[e]);
+        OtherDelaysOf((*points_)[e].record, *structure_, fit_->points[e], fit_->prior[e]);
     EXPECT_FALSE(others.empty());
     for (const OtherDelay& other : others) EXPECT_GT(other.nats_below, 10.0);
   }
