@@ -55,11 +55,11 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
   });
   if (items.empty()) return std::nullopt;
   const std::string key = "step/" + std::to_string(step) + "/";
-  const auto last = std::ranges::stable_partition(
-      items, [](const LoopItem& item) { return item.kind != LoopItemKind::kInstrument; });
-  const std::vector<LoopItem> instruments(last.begin(), last.end());
-  std::vector<LoopTrial> trials =
-      TryItems(records_, from, {items.begin(), last.begin()}, key, options_);
+  const auto last = std::stable_partition(items.begin(), items.end(), [](const LoopItem& item) {
+    return item.kind != LoopItemKind::kInstrument;
+  });
+  const std::vector<LoopItem> instruments(last, items.end());
+  std::vector<LoopTrial> trials = TryItems(records_, from, {items.begin(), last}, key, options_);
   for (const LoopItem& item : instruments) {
     trials.push_back(TryInstrument(records_, from, item, key, options_));
   }
