@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -56,8 +57,8 @@ class Profile {
     form.instruments.back().value = FromSearch(parameter_, u);
     return form;
   }
-  ProfilePoint At(double u, const std::vector<Eigen::VectorXd>& starts) const;
-  Maximum From(ProfilePoint best) const;
+  ProfilePoint At(double u, const std::vector<Eigen::VectorXd>& starts);
+  Maximum From(ProfilePoint best);
 
  private:
   const LoopRecords& records_;
@@ -65,14 +66,16 @@ class Profile {
   const EffectParameter& parameter_;
   LoopForm form_;
   std::string key_;
+  std::size_t evaluations_ = 0;  // each is a unit of its own, the same value from another start too
   const LoopBudgetOptions& options_;
 };
 
-ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) const {
+ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) {
+  const std::string key = key_ + std::to_string(evaluations_++) + "/";
   const LoopForm form = FormAt(u);
   std::vector<PointFit> fits(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
-    fits[e] = KeptFit(options_.units, key_ + std::to_string(u) + "/" + std::to_string(e), [&] {
+    fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
       return FitPoint(records_.Whole(form, e), form.structure,
                       PriorOfTrial(records_, from_, form, e), starts[e]);
     });
@@ -86,7 +89,7 @@ ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) c
 }
 
 // Up, by parabolas through three values each, until they stand closer than the profile's own width.
-Maximum Profile::From(ProfilePoint best) const {
+Maximum Profile::From(ProfilePoint best) {
   double step = kFirstStep * (High() - Low());
   double std = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostSteps; ++i) {
@@ -138,8 +141,8 @@ double ValueOf(const LoopFit& fit, const LoopItem& item) { return InstrumentOf(f
 
 LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
                         const std::string& key, const LoopBudgetOptions& options) {
-  const Profile profile(records, from, item,
-                        key + "trial/" + item.id + item.instrument->form().value + "/", options);
+  Profile profile(records, from, item,
+                  key + "trial/" + item.id + item.instrument->form().value + "/", options);
   ProfilePoint best;
   for (const double start : profile.parameter().starts) {
     ProfilePoint point = profile.At(ToSearch(profile.parameter(), start), ParametersOf(from));
@@ -161,7 +164,7 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
   for (int round = 0; round < kMostRounds; ++round) {
     const std::string of_round = key + "refined/" + item.id + "/" + std::to_string(round) + "/";
     const LoopItem same = AsFitted(fit, item);
-    const Profile profile(records, fit, same, of_round, options);
+    Profile profile(records, fit, same, of_round, options);
     const double before = ToSearch(profile.parameter(), ValueOf(fit, item));
     const Maximum maximum = profile.From(profile.At(before, ParametersOf(fit)));
     if (std::abs(maximum.at.u - before) < kStands * maximum.std) break;
@@ -176,8 +179,7 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
 EstimatedParameter EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
                                       const LoopItem& item, const std::string& key,
                                       const LoopBudgetOptions& options) {
-  const Profile profile(records, fit, AsFitted(fit, item), key + "estimate/" + item.id + "/",
-                        options);
+  Profile profile(records, fit, AsFitted(fit, item), key + "estimate/" + item.id + "/", options);
   const EffectParameter& parameter = profile.parameter();
   const Maximum maximum =
       profile.From(profile.At(ToSearch(parameter, ValueOf(fit, item)), ParametersOf(fit)));
