@@ -28,6 +28,9 @@ class Search {
   LoopFit FitBase() const;
   // No value where nothing pays any more.
   std::optional<LoopStep> Next(const LoopFit& from, std::size_t step) const;
+  // The same among these items alone.
+  std::optional<LoopStep> NextOf(std::vector<LoopItem> items, const LoopFit& from,
+                                 const std::string& key) const;
   LoopFit Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
                   const std::string& key) const;
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
@@ -53,8 +56,18 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
   std::erase_if(items, [&](const LoopItem& item) {
     return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
   });
-  if (items.empty()) return std::nullopt;
+  std::vector<LoopItem> noise = items;
+  std::erase_if(noise, [](const LoopItem& item) { return item.kind != LoopItemKind::kNoise; });
   const std::string key = "step/" + std::to_string(step) + "/";
+  if (std::optional<LoopStep> of_noise = NextOf(std::move(noise), from, key + "noise/")) {
+    return of_noise;
+  }
+  return NextOf(std::move(items), from, key);
+}
+
+std::optional<LoopStep> Search::NextOf(std::vector<LoopItem> items, const LoopFit& from,
+                                       const std::string& key) const {
+  if (items.empty()) return std::nullopt;
   const auto last = std::stable_partition(items.begin(), items.end(), [](const LoopItem& item) {
     return item.kind != LoopItemKind::kInstrument;
   });
@@ -65,7 +78,7 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
   }
   std::ranges::stable_sort(trials, std::ranges::greater(), &LoopTrial::gain);
   for (const LoopTrial& trial : trials) {
-    VLOG(1) << "step " << step << ": " << trial.item.id << " " << trial.gain << " nats";
+    VLOG(1) << key << trial.item.id << " " << trial.gain << " nats";
   }
   const double least = std::log(kOdds * static_cast<double>(items.size()));
   std::optional<LoopFit> best;
@@ -77,8 +90,8 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
     if (trials[i].item.kind == LoopItemKind::kInstrument) {
       fit = Refined(records_, std::move(fit), trials[i].item, key, options_);
     }
-    VLOG(1) << "step " << step << ": " << trials[i].item.id << " foretells "
-            << fit.Density() - from.Density() << " nats better";
+    VLOG(1) << key << trials[i].item.id << " foretells " << fit.Density() - from.Density()
+            << " nats better";
     if (!(fit.Density() > from.Density() + least)) continue;
     if (best && fit.Density() <= best->Density()) continue;
     best = std::move(fit);
