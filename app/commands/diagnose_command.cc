@@ -1,10 +1,8 @@
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,6 +12,7 @@
 #include "app/diagnose/diagnose_table.h"
 #include "app/diagnose/loop_diagnosis_run.h"
 #include "app/diagnose/planned_records.h"
+#include "app/diagnose/withheld.h"
 #include "app/files/digest.h"
 #include "app/input/diagnose_input.h"
 #include "app/jobs/shard.h"
@@ -23,7 +22,6 @@
 #include "app/text/diagnose_text.h"
 #include "diagnosis/diagnosis.h"
 #include "io/config/reading/config_reading.h"
-#include "io/config/schema/nearest_key.h"
 #include "io/results/diagnosis_json.h"
 #include "io/whole_file.h"
 #include "model/effects/catalogue.h"
@@ -35,17 +33,7 @@ namespace {
 std::vector<std::string> Withheld(const Options& options) {
   std::vector<std::string> known;
   for (const EffectPointer& effect : Catalogue()) known.emplace_back(effect->id());
-  std::vector<std::string> ids;
-  std::istringstream list(options.Text("--without").value_or(""));
-  for (std::string id; std::getline(list, id, ',');) {
-    if (std::find(known.begin(), known.end(), id) == known.end()) {
-      const std::optional<std::string> nearest = NearestKey(id, known);
-      throw UsageError("--without: " + id + " is no effect of the catalogue" +
-                       (nearest ? ", did you mean " + *nearest + "?" : ""));
-    }
-    ids.push_back(id);
-  }
-  return ids;
+  return WithheldOf(options, known, "no effect of the catalogue");
 }
 
 // The least number of replicates, with which one in twenty can be resolved.

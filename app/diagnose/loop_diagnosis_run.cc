@@ -2,21 +2,18 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/command_line/command.h"
+#include "app/diagnose/withheld.h"
 #include "app/input/fit_state.h"
 #include "app/input/usable_records.h"
 #include "app/process/progress_line.h"
 #include "app/text/loop_diagnosis_text.h"
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/joint_records/record_loop_spec.h"
-#include "io/config/schema/nearest_key.h"
 #include "io/results/loop_diagnosis_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
@@ -32,21 +29,6 @@ void RefuseOthers(const Options& options) {
                      ": the config's model states a loop that is fitted to records, expected the "
                      "paper's loop for it");
   }
-}
-
-std::vector<std::string> WithheldItems(const std::string& text) {
-  const std::vector<std::string> known = LoopItemIds();
-  std::vector<std::string> out;
-  std::istringstream list(text);
-  for (std::string id; std::getline(list, id, ',');) {
-    if (std::ranges::find(known, id) == known.end()) {
-      const std::optional<std::string> nearest = NearestKey(id, known);
-      throw UsageError("--without: " + id + " is nothing that a loop of records may lack" +
-                       (nearest ? ", did you mean " + *nearest + "?" : ""));
-    }
-    out.push_back(id);
-  }
-  return out;
 }
 
 // The config's loop with the least noise that a rig has, and no errors: what more there is, is
@@ -67,15 +49,14 @@ LoopForm BaseOf(const Config& config) {
 
 int RunLoopDiagnosis(const Config& config, const Options& options) {
   RefuseOthers(options);
-  const std::string without = options.Text("--without").value_or("");
   LoopBudgetOptions how;
-  how.withheld = WithheldItems(without);
+  how.withheld = WithheldOf(options, LoopItemIds(), "nothing that a loop of records may lack");
   const LoopForm base = BaseOf(config);
   std::vector<LoopRecord> records;
   for (const UsableRecord& each : LoadUsableRecords(config, options)) {
     records.push_back({each.record.name, each.record.phi, each.cycle_hz, each.record.record});
   }
-  FitState state(config, options, "diagnosis.state", without);
+  FitState state(config, options, "diagnosis.state", options.Text("--without").value_or(""));
   if (!options.quiet) state.SayWhereItStands();
   how.starts = StatedStarts(config).value_or(how.starts);
   how.seed = options.seed;

@@ -20,10 +20,8 @@ std::vector<BandErrors> PredictionErrors(const JointBand& band, const JointResid
   const Eigen::VectorXcd left = residuals.flame->target - residuals.flame->columns * at.flame;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Matrix2cd& w = at.inverse[static_cast<std::size_t>(i)];
-    const Eigen::Vector2cd we = w * Eigen::Vector2cd(residuals.acoustic->residual[i], left[i]);
-    const auto error = [&](const Eigen::Vector2cd& u) { return u.dot(we) / u.dot(w * u).real(); };
-    signals.pressure_error[i] = error({1.0, -at.f[i]});
-    signals.heat_release_error[i] = error({-residuals.acoustic->r[i], 1.0});
+    SetPredictionErrors({residuals.acoustic->residual[i], left[i]}, w, residuals.acoustic->r[i],
+                        at.f[i], i, &signals);
   }
   return ErrorsOverBands(signals);
 }

@@ -219,21 +219,22 @@ void DriveAsRecorded(CutRecord* record) {
       record->heat_release_spectrum.segment(record->first - kTapReach, record->extended());
 }
 
+Record HalfOf(Record record, bool second) {
+  for (std::vector<double>* signal : {&record.pressure, &record.heat_release}) {
+    const auto middle = signal->begin() + static_cast<std::ptrdiff_t>(signal->size() / 2);
+    if (second) {
+      signal->erase(signal->begin(), middle);
+    } else {
+      signal->erase(middle, signal->end());
+    }
+  }
+  return record;
+}
+
 std::vector<DiagnosisExperiment> HalfOfRecords(const std::vector<DiagnosisExperiment>& experiments,
                                                bool second) {
-  std::vector<DiagnosisExperiment> out;
-  for (const DiagnosisExperiment& each : experiments) {
-    DiagnosisExperiment half = each;
-    for (std::vector<double>* signal : {&half.record.pressure, &half.record.heat_release}) {
-      const auto middle = signal->begin() + static_cast<std::ptrdiff_t>(signal->size() / 2);
-      if (second) {
-        signal->erase(signal->begin(), middle);
-      } else {
-        signal->erase(middle, signal->end());
-      }
-    }
-    out.push_back(std::move(half));
-  }
+  std::vector<DiagnosisExperiment> out = experiments;
+  for (DiagnosisExperiment& each : out) each.record = HalfOf(std::move(each.record), second);
   return out;
 }
 

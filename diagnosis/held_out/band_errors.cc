@@ -60,6 +60,15 @@ void AddBands(const PredictedSignals& signals, const Eigen::VectorXcd& error,
 
 }  // namespace
 
+void SetPredictionErrors(const Eigen::Vector2cd& residuals, const Eigen::Matrix2cd& w,
+                         std::complex<double> r, std::complex<double> f, Eigen::Index bin,
+                         PredictedSignals* signals) {
+  const Eigen::Vector2cd we = w * residuals;
+  const auto error = [&](const Eigen::Vector2cd& u) { return u.dot(we) / u.dot(w * u).real(); };
+  signals->pressure_error[bin] = error({1.0, -f});
+  signals->heat_release_error[bin] = error({-r, 1.0});
+}
+
 std::vector<BandErrors> ErrorsOverBands(const PredictedSignals& signals) {
   std::vector<BandErrors> out;
   AddBands(signals, signals.pressure_error, signals.pressure_power, signals.heat_release,

@@ -7,6 +7,7 @@
 #define HOWL_DIAGNOSIS_HELD_OUT_BAND_ERRORS_H_
 
 #include <Eigen/Core>
+#include <complex>
 #include <vector>
 
 namespace howl {
@@ -32,6 +33,13 @@ struct PredictedSignals {
   Eigen::VectorXcd pressure_error;  // of the prediction from the other signal
   Eigen::VectorXcd heat_release_error;
 };
+
+// The errors of a bin's predictions from its residuals E = (E_A, E_B), W = Sigma^-1, R and F:
+//
+//   e_p = P - E[P | Q] = u^H W E / (u^H W u),   u = (1, -F);    e_q = Q - E[Q | P], u = (-R, 1)
+void SetPredictionErrors(const Eigen::Vector2cd& residuals, const Eigen::Matrix2cd& w,
+                         std::complex<double> r, std::complex<double> f, Eigen::Index bin,
+                         PredictedSignals* signals);
 
 // The bands of p, then those of q.
 std::vector<BandErrors> ErrorsOverBands(const PredictedSignals& signals);

@@ -44,10 +44,8 @@ std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructu
   signals.heat_release_error.resize(record.bins());
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const Eigen::Matrix2cd w = NoiseCovariance(structure.noise, residuals, i).inverse();
-    const Eigen::Vector2cd we = w * Eigen::Vector2cd(residuals.acoustic[i], residuals.flame[i]);
-    const auto error = [&](const Eigen::Vector2cd& u) { return u.dot(we) / u.dot(w * u).real(); };
-    signals.pressure_error[i] = error({1.0, -residuals.f[i]});
-    signals.heat_release_error[i] = error({-residuals.r[i], 1.0});
+    SetPredictionErrors({residuals.acoustic[i], residuals.flame[i]}, w, residuals.r[i],
+                        residuals.f[i], i, &signals);
   }
   return ErrorsOverBands(signals);
 }

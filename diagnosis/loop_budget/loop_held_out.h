@@ -1,10 +1,7 @@
 // How well a fitted loop foretells what it was not fitted to. Each point's loop is fitted to one
-// half of its record, under the law that the other points give; the other half is then predicted:
-//
-//   e_p = P - E[P | Q] = u^H W E / (u^H W u),   u = (1, -F);    e_q = Q - E[Q | P], u = (-R, 1)
-//   W = Sigma^-1, E = (E_A, E_B)                                                  (whittle.h)
-//
-// What modes hold at the ends of a half is that half's own: it is estimated there, given the rest.
+// half of its record, under the law that the other points give; the other half is then predicted
+// (band_errors.h). What modes hold at the ends of a half is that half's own: it is estimated there,
+// given the rest.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_HELD_OUT_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_HELD_OUT_H_
 

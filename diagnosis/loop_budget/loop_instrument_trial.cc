@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "diagnosis/structure/structure_priors.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -18,13 +19,6 @@ constexpr int kMostSteps = 10;
 constexpr int kMostRounds = 3;
 constexpr double kStands = 0.1;      // of the value's own deviation
 constexpr double kFirstStep = 0.05;  // of the search's range
-
-double ToSearch(const EffectParameter& parameter, double x) {
-  return parameter.scale == ParameterScale::kLogarithmic ? std::log(x) : x;
-}
-double FromSearch(const EffectParameter& parameter, double u) {
-  return parameter.scale == ParameterScale::kLogarithmic ? std::exp(u) : u;
-}
 
 // A value in the coordinate of the search, what it is worth, and each point's parameters there.
 struct ProfilePoint {
@@ -76,8 +70,9 @@ ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) {
   std::vector<PointFit> fits(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
     fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
-      return FitPoint(records_.Whole(form, e), form.structure,
-                      PriorOfTrial(records_, from_, form, e), starts[e]);
+      const RecordSpectra record = records_.Whole(form, e);
+      return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
+                      starts[e]);
     });
   });
   ProfilePoint out{u, 0.0, {}};
@@ -90,7 +85,7 @@ ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) {
 
 // Up, by parabolas through three values each, until they stand closer than the profile's own width.
 Maximum Profile::From(ProfilePoint best) {
-  double step = kFirstStep * (High() - Low());
+  double step = kFirstStep * SearchSpan(parameter_);
   double std = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostSteps; ++i) {
     const double u = best.u;
@@ -141,8 +136,7 @@ double ValueOf(const LoopFit& fit, const LoopItem& item) { return InstrumentOf(f
 
 LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
                         const std::string& key, const LoopBudgetOptions& options) {
-  Profile profile(records, from, item,
-                  key + "trial/" + item.id + item.instrument->form().value + "/", options);
+  Profile profile(records, from, item, key + "trial/" + KeyOf(item) + "/", options);
   ProfilePoint best;
   for (const double start : profile.parameter().starts) {
     ProfilePoint point = profile.At(ToSearch(profile.parameter(), start), ParametersOf(from));
@@ -150,7 +144,7 @@ LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, const L
   }
   const Maximum maximum = profile.From(std::move(best));
   LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {maximum.at.parameters}};
-  const double span = profile.High() - profile.Low();
+  const double span = SearchSpan(profile.parameter());
   const double width = std::sqrt(2.0 * std::numbers::pi) * maximum.std;
   out.gain = maximum.at.nats + std::log(std::min(width, span) / span);
   for (std::size_t e = 0; e < records.size(); ++e) {
@@ -162,7 +156,7 @@ LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, const L
 LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
                 const std::string& key, const LoopBudgetOptions& options) {
   for (int round = 0; round < kMostRounds; ++round) {
-    const std::string of_round = key + "refined/" + item.id + "/" + std::to_string(round) + "/";
+    const std::string of_round = key + "refined/" + KeyOf(item) + "/" + std::to_string(round) + "/";
     const LoopItem same = AsFitted(fit, item);
     Profile profile(records, fit, same, of_round, options);
     const double before = ToSearch(profile.parameter(), ValueOf(fit, item));
@@ -179,7 +173,8 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
 EstimatedParameter EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
                                       const LoopItem& item, const std::string& key,
                                       const LoopBudgetOptions& options) {
-  Profile profile(records, fit, AsFitted(fit, item), key + "estimate/" + item.id + "/", options);
+  Profile profile(records, fit, AsFitted(fit, item), key + "estimate/" + KeyOf(item) + "/",
+                  options);
   const EffectParameter& parameter = profile.parameter();
   const Maximum maximum =
       profile.From(profile.At(ToSearch(parameter, ValueOf(fit, item)), ParametersOf(fit)));

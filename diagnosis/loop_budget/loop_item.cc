@@ -111,6 +111,10 @@ std::vector<std::string> LoopItemIds() {
   return out;
 }
 
+std::string KeyOf(const LoopItem& item) {
+  return item.id + (item.instrument ? item.instrument->form().value : "");
+}
+
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
   std::vector<LoopItem> out;
   for (const LoopItem& item : AllItems()) {

@@ -57,6 +57,8 @@ struct LoopItem {
 std::vector<NoiseTerm> LeastNoise();
 
 std::vector<std::string> LoopItemIds();
+// In keys of finished units (fit_units.h): forms of one effect are different items.
+std::string KeyOf(const LoopItem& item);
 
 // All that may be added to `model` now, of a search that began at `base`.
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);

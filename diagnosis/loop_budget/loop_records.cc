@@ -2,25 +2,13 @@
 
 #include <glog/logging.h>
 
-#include <span>
 #include <utility>
 
+#include "diagnosis/cuts/make_cut_records.h"
 #include "estimation/parallel.h"
 
 namespace howl {
 namespace {
-
-Record HalfOf(const Record& record, std::size_t half) {
-  const std::size_t count = record.pressure.size() / 2;
-  const auto part = [&](const std::vector<double>& signal) {
-    const auto samples = std::span(signal).subspan(half * count, count);
-    return std::vector<double>(samples.begin(), samples.end());
-  };
-  Record out = record;
-  out.pressure = part(record.pressure);
-  out.heat_release = part(record.heat_release);
-  return out;
-}
 
 RecordSpectra Without(const LoopForm& form, RecordSpectra record) {
   for (const LoopInstrument& instrument : form.instruments) {
@@ -55,14 +43,14 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
                          MakeRecordSpectra(of.record, of.cycle_hz, static_cast<FlameInput>(input))};
     for (std::size_t half = 0; half < 2; ++half) {
       spectra.halves[e][half] =
-          MakeRecordSpectra(HalfOf(of.record, half), spectra.points[e].record);
+          MakeRecordSpectra(HalfOf(of.record, half == 1), spectra.points[e].record);
     }
   });
 }
 
 std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
   std::vector<OperatingPoint> out = Of(form.flame_input).points;
-  for (std::size_t e = 0; e < out.size(); ++e) out[e].record = Whole(form, e);
+  for (OperatingPoint& point : out) point.record = Without(form, std::move(point.record));
   return out;
 }
 

@@ -30,6 +30,10 @@ class LoopRecords {
   // As `form` has them, without its instruments.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
+  // How many coefficients the flame has.
+  Eigen::Index FlameTerms(FlameInput input, std::size_t e) const {
+    return Of(input).points[e].record.flame.cols();
+  }
   // In the units of the whole.
   RecordSpectra Half(const LoopForm& form, std::size_t e, std::size_t half) const;
   // Of the change from what was recorded to what `form` is fitted to.

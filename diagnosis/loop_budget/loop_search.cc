@@ -28,9 +28,11 @@ class Search {
   LoopFit FitBase() const;
   // No value where nothing pays any more.
   std::optional<LoopStep> Next(const LoopFit& from, std::size_t step) const;
-  // The same among these items alone.
-  std::optional<LoopStep> NextOf(std::vector<LoopItem> items, const LoopFit& from,
-                                 const std::string& key) const;
+  std::vector<LoopTrial> Try(const LoopFit& from, const std::vector<LoopItem>& items,
+                             const std::string& key) const;
+  // The best of these trials that pays; those of `fitted` have been found not to.
+  std::optional<LoopStep> BestOf(std::vector<LoopTrial> trials, const LoopFit& from,
+                                 const std::vector<LoopItem>& fitted, const std::string& key) const;
   LoopFit Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
                   const std::string& key) const;
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
@@ -41,12 +43,7 @@ class Search {
 };
 
 LoopFit Search::FitBase() const {
-  RecordsFitOptions fit_options;
-  fit_options.starts = options_.starts;
-  fit_options.seed = options_.seed;
-  fit_options.threads = options_.threads;
-  fit_options.units = options_.units;
-  fit_options.key = "base/";
+  const RecordsFitOptions fit_options = FitOptionsOf(options_, "base/");
   const std::vector<OperatingPoint> points = records_.Points(base_);
   return Scored(records_, base_, FitRecords(points, base_.structure, fit_options), fit_options);
 }
@@ -56,37 +53,47 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
   std::erase_if(items, [&](const LoopItem& item) {
     return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
   });
-  std::vector<LoopItem> noise = items;
-  std::erase_if(noise, [](const LoopItem& item) { return item.kind != LoopItemKind::kNoise; });
+  // Noise by itself comes first.
+  const auto last = std::stable_partition(items.begin(), items.end(), [](const LoopItem& item) {
+    return item.kind == LoopItemKind::kNoise;
+  });
+  const std::vector<LoopItem> noise(items.begin(), last);
   const std::string key = "step/" + std::to_string(step) + "/";
-  if (std::optional<LoopStep> of_noise = NextOf(std::move(noise), from, key + "noise/")) {
-    return of_noise;
-  }
-  return NextOf(std::move(items), from, key);
+  std::vector<LoopTrial> trials = Try(from, noise, key);
+  if (std::optional<LoopStep> of_noise = BestOf(trials, from, {}, key)) return of_noise;
+  for (LoopTrial& trial : Try(from, {last, items.end()}, key)) trials.push_back(std::move(trial));
+  return BestOf(std::move(trials), from, noise, key);
 }
 
-std::optional<LoopStep> Search::NextOf(std::vector<LoopItem> items, const LoopFit& from,
-                                       const std::string& key) const {
-  if (items.empty()) return std::nullopt;
-  const auto last = std::stable_partition(items.begin(), items.end(), [](const LoopItem& item) {
-    return item.kind != LoopItemKind::kInstrument;
-  });
-  const std::vector<LoopItem> instruments(last, items.end());
-  std::vector<LoopTrial> trials = TryItems(records_, from, {items.begin(), last}, key, options_);
-  for (const LoopItem& item : instruments) {
-    trials.push_back(TryInstrument(records_, from, item, key, options_));
+std::vector<LoopTrial> Search::Try(const LoopFit& from, const std::vector<LoopItem>& items,
+                                   const std::string& key) const {
+  std::vector<LoopItem> own;
+  std::vector<LoopItem> instruments;
+  for (const LoopItem& item : items) {
+    (item.kind == LoopItemKind::kInstrument ? instruments : own).push_back(item);
   }
+  std::vector<LoopTrial> out = TryItems(records_, from, own, key, options_);
+  for (const LoopItem& item : instruments) {
+    out.push_back(TryInstrument(records_, from, item, key, options_));
+  }
+  return out;
+}
+
+std::optional<LoopStep> Search::BestOf(std::vector<LoopTrial> trials, const LoopFit& from,
+                                       const std::vector<LoopItem>& fitted,
+                                       const std::string& key) const {
   std::ranges::stable_sort(trials, std::ranges::greater(), &LoopTrial::gain);
   for (const LoopTrial& trial : trials) {
     VLOG(1) << key << trial.item.id << " " << trial.gain << " nats";
   }
-  const double least = std::log(kOdds * static_cast<double>(items.size()));
+  const double least = std::log(kOdds * static_cast<double>(trials.size()));
   std::optional<LoopFit> best;
   std::size_t best_trial = 0;
   for (std::size_t i = 0; i < std::min(trials.size(), kMostFitted); ++i) {
     if (!(trials[i].gain > 0.0)) break;
+    if (std::ranges::find(fitted, trials[i].item.id, &LoopItem::id) != fitted.end()) continue;
     LoopFit fit = FitLoopFrom(records_, trials[i].model, trials[i].starts,
-                              key + "fit/" + trials[i].item.id + "/", options_);
+                              key + "fit/" + KeyOf(trials[i].item) + "/", options_);
     if (trials[i].item.kind == LoopItemKind::kInstrument) {
       fit = Refined(records_, std::move(fit), trials[i].item, key, options_);
     }

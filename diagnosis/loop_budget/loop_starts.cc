@@ -50,7 +50,7 @@ LoopStarts WithOtherInput(const LoopRecords& records, const LoopForm& form,
 std::vector<LoopPoint> PointsOf(const LoopRecords& records, const LoopFit& fit) {
   std::vector<LoopPoint> out;
   for (std::size_t e = 0; e < records.size(); ++e) {
-    const Eigen::Index flame = records.Whole(fit.model, e).flame.cols();
+    const Eigen::Index flame = records.FlameTerms(fit.model.flame_input, e);
     out.push_back(ToPoint(fit.model.structure, flame, fit.fit.points[e].parameters));
   }
   return out;

@@ -1,8 +1,6 @@
 #include "diagnosis/loop_budget/loop_trial.h"
 
-#include <algorithm>
 #include <atomic>
-#include <limits>
 #include <utility>
 
 #include "diagnosis/loop_budget/parameter_labels.h"
@@ -18,12 +16,11 @@ struct Unit {
 }  // namespace
 
 PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
-                        std::size_t e) {
-  const RecordSpectra record = records.Whole(with, e);
-  const RecordSpectra before = records.Whole(from.model, e);
-  std::vector<std::string> known = ParameterLabels(from.model.structure, before.flame.cols());
+                        std::size_t e, const RecordSpectra& record) {
+  const Eigen::Index terms = records.FlameTerms(from.model.flame_input, e);
+  std::vector<std::string> known = ParameterLabels(from.model.structure, terms);
   const Eigen::Index flame = from.model.structure.Flame();
-  for (Eigen::Index k = 0; k < before.flame.cols(); ++k) {
+  for (Eigen::Index k = 0; k < terms; ++k) {
     // Whatever another input makes the flame's functions, their prior is that of the record.
     known[static_cast<std::size_t>(flame + k)].clear();
   }
@@ -52,11 +49,12 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
   RunUnits(units.size(), options.threads, [&](std::size_t i) {
     const Unit& unit = units[i];
     const LoopForm& model = out[unit.trial].model;
-    const std::string of = key + "trial/" + items[unit.trial].id + "/" + std::to_string(unit.row) +
-                           "/" + std::to_string(unit.point);
+    const std::string of = key + "trial/" + KeyOf(items[unit.trial]) + "/" +
+                           std::to_string(unit.row) + "/" + std::to_string(unit.point);
     fits[i] = KeptFit(options.units, of, [&] {
-      return FitPoint(records.Whole(model, unit.point), model.structure,
-                      PriorOfTrial(records, from, model, unit.point),
+      const RecordSpectra record = records.Whole(model, unit.point);
+      return FitPoint(record, model.structure,
+                      PriorOfTrial(records, from, model, unit.point, record),
                       starts[unit.trial].rows[unit.row][unit.point]);
     });
     if (options.progress) options.progress(++done, units.size());
@@ -86,7 +84,16 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     }
     first += rows * records.size();
   }
-  std::ranges::stable_sort(out, std::ranges::greater(), &LoopTrial::gain);
+  return out;
+}
+
+RecordsFitOptions FitOptionsOf(const LoopBudgetOptions& options, const std::string& key) {
+  RecordsFitOptions out;
+  out.starts = options.starts;
+  out.seed = options.seed;
+  out.threads = options.threads;
+  out.units = options.units;
+  out.key = key;
   return out;
 }
 
@@ -102,10 +109,7 @@ LoopFit Scored(const LoopRecords& records, const LoopForm& model, RecordsFit fit
 
 LoopFit FitLoopFrom(const LoopRecords& records, const LoopForm& model, const StartRows& starts,
                     const std::string& key, const LoopBudgetOptions& options) {
-  RecordsFitOptions fit_options;
-  fit_options.threads = options.threads;
-  fit_options.units = options.units;
-  fit_options.key = key;
+  const RecordsFitOptions fit_options = FitOptionsOf(options, key);
   const std::vector<OperatingPoint> points = records.Points(model);
   return Scored(records, model, FitRecordsFrom(points, model.structure, starts, fit_options),
                 fit_options);

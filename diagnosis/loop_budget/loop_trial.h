@@ -29,14 +29,18 @@ struct LoopTrial {
   StartRows starts;   // one row: where each point's fit came to
 };
 
-// The most promising first.
+// In the order of the items.
 std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
                                 const std::vector<LoopItem>& items, const std::string& key,
                                 const LoopBudgetOptions& options);
 
-// The priors of a trial: those of the law for what `from` has, wide ones for what is new.
+// The priors of a trial on `record`, that of point e as `with` has it: those of the law for what
+// `from` has, wide ones for what is new.
 PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
-                        std::size_t e);
+                        std::size_t e, const RecordSpectra& record);
+
+// How all points are fitted together, with units under `key`.
+RecordsFitOptions FitOptionsOf(const LoopBudgetOptions& options, const std::string& key);
 
 // With what each point's record is foretold, as it was recorded.
 LoopFit Scored(const LoopRecords& records, const LoopForm& model, RecordsFit fit,

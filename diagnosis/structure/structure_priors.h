@@ -30,6 +30,10 @@ inline double ToSearch(const EffectParameter& p, double x) {
   return p.scale == ParameterScale::kLogarithmic ? std::log(x) : x;
 }
 
+inline double FromSearch(const EffectParameter& p, double u) {
+  return p.scale == ParameterScale::kLogarithmic ? std::exp(u) : u;
+}
+
 inline double SearchSpan(const EffectParameter& p) {
   return ToSearch(p, p.high) - ToSearch(p, p.low);
 }

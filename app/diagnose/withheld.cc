@@ -1,0 +1,27 @@
+#include "app/diagnose/withheld.h"
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+#include "app/command_line/command.h"
+#include "io/config/schema/nearest_key.h"
+
+namespace howl {
+
+std::vector<std::string> WithheldOf(const Options& options, const std::vector<std::string>& known,
+                                    const std::string& none_of_them) {
+  std::vector<std::string> out;
+  std::istringstream list(options.Text("--without").value_or(""));
+  for (std::string id; std::getline(list, id, ',');) {
+    if (std::ranges::find(known, id) == known.end()) {
+      const std::optional<std::string> nearest = NearestKey(id, known);
+      throw UsageError("--without: " + id + " is " + none_of_them +
+                       (nearest ? ", did you mean " + *nearest + "?" : ""));
+    }
+    out.push_back(id);
+  }
+  return out;
+}
+
+}  // namespace howl
