@@ -1,16 +1,18 @@
 // What each structure of the loop is worth on measured records of several operating points:
 //
-//   [STRUCTURES="complex residues,acoustics' lines"] [FLAME_INPUT=velocity]
+//   [STRUCTURES="complex residues,acoustics' lines"] [FLAME_INPUTS=pressure,velocity]
 //     joint_records_study CONFIG [EXPERIMENT ...]
 //
-// FLAME_INPUT: pressure_rate, pressure or velocity.
-// A row for each structure, from the paper's loop on: nats of the density of each point's record by
-// the law that the other points give, summed, above the paper's loop; on how many points it is
-// better than the structure before; and the delays. Then each structure's modes, delay and levels
-// of noise over the points, with the law's mean and spread.
+// FLAME_INPUTS: of pressure_rate, pressure and velocity; all three where not given.
+// A row for each structure and input, from the paper's loop on: nats of the density of each point's
+// record by the law that the other points give, summed, above the paper's loop; on how many points
+// it is better than the structure before; and each point's modes, delay, noise and errors, with
+// their intervals. At the end a table of all: nats, and the gap to the free smooth transfers that
+// each half of a record shows by itself (held_out_score.h), of what was fitted to the other half;
+// then where the most likely of them still leaves most.
 #include <glog/logging.h>
-#include <tbb/parallel_for.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -22,14 +24,48 @@
 #include "bench/load_rig.h"
 #include "bench/record_structures.h"
 #include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/held_out/common_ceiling.h"
+#include "diagnosis/held_out/places_left.h"
+#include "diagnosis/loop_budget/loop_held_out.h"
+#include "estimation/joint_records/fitted_loop.h"
+#include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/records_fit.h"
 #include "io/config/reading/config_reading.h"
 
 namespace howl {
 namespace {
 
+constexpr std::array<FlameInput, 3> kInputs = {FlameInput::kPressureRate, FlameInput::kPressure,
+                                               FlameInput::kVelocity};
+
+struct Row {
+  std::string structure;
+  FlameInput input = FlameInput::kPressureRate;
+  double nats = 0.0;
+  HeldOutScore score;
+};
+
 double Seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool Asked(const char* variable, const std::string& name) {
+  const char* const only = std::getenv(variable);
+  return only == nullptr ||
+         ("," + std::string(only) + ",").find("," + name + ",") != std::string::npos;
+}
+
+// The source's level at twice the cycle's frequency, with the factor that bounds it at 95 %.
+void PrintNoise(const FittedLoop& loop) {
+  for (const FittedNoise& source : loop.noise) {
+    std::size_t at = 0;
+    while (at + 1 < source.frequency_hz.size() && source.frequency_hz[at] < 2.0 * loop.cycle_hz) {
+      ++at;
+    }
+    std::printf(" | %s %.2g */%.2f", std::string(LoopNoiseName(source.source)).c_str(),
+                source.psd[at], std::exp(1.96 * source.log_std[at]));
+    if (source.ratio) std::printf(" p/q %.2f+-%.2f", source.ratio->value, 1.96 * source.ratio->std);
+  }
 }
 
 void PrintPoint(const std::string& name, const PointStructure& structure,
@@ -56,54 +92,73 @@ void PrintPoint(const std::string& name, const PointStructure& structure,
     std::printf("%s %.2f@%.0f", h ? "" : " | e", std::abs(point.flame_lines[h]),
                 180.0 / std::numbers::pi * std::arg(point.flame_lines[h]));
   }
+  PrintNoise(FittedLoopOf(record, structure, fit));
   std::printf("%s\n", fit.converged ? "" : " (not converged)");
 }
 
-FlameInput InputAsked() {
-  const char* const asked = std::getenv("FLAME_INPUT");
-  const std::string input = asked ? asked : "pressure_rate";
-  if (input == "pressure") return FlameInput::kPressure;
-  if (input == "velocity") return FlameInput::kVelocity;
-  CHECK_EQ(input, "pressure_rate");
-  return FlameInput::kPressureRate;
+void PrintTable(const std::vector<std::string>& names, const std::vector<Row>& rows) {
+  CommonCeiling ceiling;
+  for (const Row& row : rows) ceiling.Lower(row.score);
+  const Row* best = &rows[0];
+  std::printf("| structure | flame's input | nats | gap |\n|---|---|---|---|\n");
+  for (const Row& row : rows) {
+    std::printf("| %s | %s | %.0f | %.3f |\n", row.structure.c_str(), FlameInputName(row.input),
+                row.nats, ceiling.Gap(row.score));
+    if (row.nats > best->nats) best = &row;
+  }
+  for (const Place& place : PlacesLeft(names, ceiling.Against(best->score))) {
+    std::printf("left: %s, %.0f to %.0f Hz, share %.2f at", LoopBlockName(place.block).data(),
+                place.low_hz, place.high_hz, place.share);
+    for (const std::string& name : place.experiments) std::printf(" %s", name.c_str());
+    std::printf("\n");
+  }
 }
 
 int Run(int argc, char** argv) {
-  const Config config = LoadConfig(argv[1]);
+  const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
   const std::vector<CutRecord> cuts = MakeCutRecords(rig);
-  std::vector<OperatingPoint> points(rig.size());
-  tbb::parallel_for(std::size_t{0}, rig.size(), [&](std::size_t e) {
-    points[e] = {rig[e].phi,
-                 MakeRecordSpectra(rig[e].record, cuts[e].at.cycle_frequency_hz, InputAsked())};
-  });
-  std::vector<double> first;
-  std::vector<double> before;
-  RecordsFit poorer;
-  const char* const only = std::getenv("STRUCTURES");
-  for (const NamedStructure& each : RecordStructures()) {
-    if (only && std::string(only).find(each.name) == std::string::npos) continue;
-    const double begun = Seconds();
-    RecordsFit fit = FitRecords(points, each.structure, {}, first.empty() ? nullptr : &poorer);
-    const double fitted = Seconds();
-    const std::vector<double> density = LeftOutDensities(points, fit);
-    if (first.empty()) first = before = density;
-    double sum = 0.0;
-    std::size_t better = 0;
-    for (std::size_t e = 0; e < density.size(); ++e) {
-      sum += density[e] - first[e];
-      if (density[e] > before[e]) ++better;
-    }
-    std::printf("%-18s left out %9.1f  better on %zu of %zu  fit %.0f s, left out %.0f s\n",
-                each.name.c_str(), sum, better, density.size(), fitted - begun, Seconds() - fitted);
-    for (std::size_t e = 0; e < points.size(); ++e) {
-      std::printf("  %9.1f %9.1f", density[e], density[e] - first[e]);
-      PrintPoint(rig[e].name, each.structure, points[e].record, fit.points[e]);
-    }
-    std::fflush(stdout);
-    before = density;
-    poorer = std::move(fit);
+  std::vector<LoopRecord> loops;
+  for (std::size_t e = 0; e < rig.size(); ++e) {
+    loops.push_back({rig[e].name, rig[e].phi, cuts[e].at.cycle_frequency_hz, rig[e].record});
   }
+  const LoopRecords records(loops, 0);
+  std::vector<Row> rows;
+  std::vector<double> first;
+  for (const FlameInput input : kInputs) {
+    if (!Asked("FLAME_INPUTS", FlameInputName(input))) continue;
+    std::vector<double> before;
+    RecordsFit poorer;
+    for (const NamedStructure& each : RecordStructures()) {
+      if (!Asked("STRUCTURES", each.name)) continue;
+      const double begun = Seconds();
+      LoopFit fit{{each.structure, input}, {}, {}};
+      const std::vector<OperatingPoint> points = records.Points(fit.model);
+      fit.fit = FitRecords(points, each.structure, {}, before.empty() ? nullptr : &poorer);
+      const double fitted = Seconds();
+      fit.log_density = LeftOutDensities(points, fit.fit);
+      if (first.empty()) first = fit.log_density;
+      if (before.empty()) before = first;
+      double sum = 0.0;
+      std::size_t better = 0;
+      for (std::size_t e = 0; e < first.size(); ++e) {
+        sum += fit.log_density[e] - first[e];
+        if (fit.log_density[e] > before[e]) ++better;
+      }
+      rows.push_back({each.name, input, sum, ScoreHeldOut(records, fit, "", {})});
+      std::printf("%-18s %-13s left out %9.1f  better on %zu of %zu  fit %.0f s, left out %.0f s\n",
+                  each.name.c_str(), FlameInputName(input), sum, better, first.size(),
+                  fitted - begun, Seconds() - fitted);
+      for (std::size_t e = 0; e < points.size(); ++e) {
+        std::printf("  %9.1f %9.1f", fit.log_density[e], fit.log_density[e] - first[e]);
+        PrintPoint(rig[e].name, each.structure, points[e].record, fit.fit.points[e]);
+      }
+      std::fflush(stdout);
+      before = fit.log_density;
+      poorer = std::move(fit.fit);
+    }
+  }
+  PrintTable(records.names(), rows);
   return 0;
 }
 

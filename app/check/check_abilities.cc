@@ -11,6 +11,7 @@
 #include "app/input/config_fit.h"
 #include "app/text/text_table.h"
 #include "estimation/fit/joint_problem.h"
+#include "estimation/joint_records/loop_names.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -92,8 +93,11 @@ class Finder {
     }
     const RecordLoopSpec& loop = *config_.record_loop;
     const std::string modes = loop.choose_modes ? "auto" : std::to_string(loop.modes);
-    ability.text = Count(input_.records.size(), "record") + " of p and q; modes: " + modes;
-    ability.details = {{"records", input_.records.size()}, {"modes", modes}};
+    const std::string input = loop.choose_flame_input ? "auto" : FlameInputName(loop.flame_input);
+    ability.text = Count(input_.records.size(), "record") + " of p and q; modes: " + modes +
+                   ", flame_input: " + input;
+    ability.details = {
+        {"records", input_.records.size()}, {"modes", modes}, {"flame_input", input}};
   }
 
   void RequirePapersLoop() const {

@@ -35,9 +35,14 @@ void RefuseOthers(const Options& options) {
 // found.
 LoopForm BaseOf(const Config& config) {
   const RecordLoopSpec& spec = *config.record_loop;
+  const auto refuse = [&](const char* key, const char* expected) {
+    throw UserError(config.source.string(), config.tree.Find("model")->value.line, key, expected);
+  };
   if (spec.choose_modes) {
-    throw UserError(config.source.string(), config.tree.Find("model")->value.line, "model: modes",
-                    "is auto, expected a number: diagnose adds modes to it");
+    refuse("model: modes", "is auto, expected a number: diagnose adds modes to it");
+  }
+  if (spec.choose_flame_input) {
+    refuse("model: flame_input", "is auto, expected one of them: diagnose tries the others");
   }
   LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
   out.structure.noise = LeastNoise();

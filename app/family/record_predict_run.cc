@@ -54,8 +54,8 @@ RecordPrediction Predict(const Config& config, const Options& options,
   std::vector<OnsetPoint> loops;
   double lowest = HUGE_VAL;
   double highest = -HUGE_VAL;
-  for (std::size_t e = 0; e < solution.points.size(); ++e) {
-    const double at = solution.points[e].operating_parameter;
+  for (std::size_t e = 0; e < solution.loop.points.size(); ++e) {
+    const double at = solution.loop.points[e].operating_parameter;
     loops.push_back({at, solution.fitted[e].small_signal});
     lowest = std::min(lowest, at);
     highest = std::max(highest, at);
@@ -63,8 +63,8 @@ RecordPrediction Predict(const Config& config, const Options& options,
   const LoopPredictor predictor(loops);
   RecordPrediction out;
   out.operating_parameter = config.operating_parameter;
-  out.measured_points = solution.points.size();
-  for (const double at : AskedPoints(options, solution.points)) {
+  out.measured_points = solution.loop.points.size();
+  for (const double at : AskedPoints(options, solution.loop.points)) {
     RecordPredictionPoint point{at, "", "", predictor.At(at)};
     if (point.loop.measured) point.experiment = solution.names[*point.loop.measured];
     point.kind = KindOf(at, lowest, highest, point.loop.measured.has_value());

@@ -35,16 +35,19 @@ std::vector<OtherDelay> KeptOtherDelays(FitState& state, const std::string& key,
 RecordSolution SolveRecords(const Config& config, const Options& options, SolvedFor what) {
   const std::vector<UsableRecord> records = LoadUsableRecords(config, options);
   RecordSolution out;
-  out.points.resize(records.size());
   for (const UsableRecord& record : records) {
     out.names.push_back(record.record.name);
     out.cycle_amplitude.push_back(record.cycle_amplitude);
   }
-  RunUnits(records.size(), options.threads, [&](std::size_t e) {
-    const UsableRecord& record = records[e];
-    out.points[e] = {record.record.phi, MakeRecordSpectra(record.record.record, record.cycle_hz,
-                                                          config.record_loop->flame_input)};
-  });
+  const auto points_of = [&](FlameInput input) {
+    std::vector<OperatingPoint> points(records.size());
+    RunUnits(records.size(), options.threads, [&](std::size_t e) {
+      const UsableRecord& record = records[e];
+      points[e] = {record.record.phi,
+                   MakeRecordSpectra(record.record.record, record.cycle_hz, input)};
+    });
+    return points;
+  };
   FitState state(config, options, "fit.state");
   if (what == SolvedFor::kFit) state.BeginAnewIfComplete();
   if (!options.quiet) state.SayWhereItStands();
@@ -53,15 +56,15 @@ RecordSolution SolveRecords(const Config& config, const Options& options, Solved
   fit_options.seed = options.seed;
   fit_options.threads = options.threads;
   fit_options.units = &state;
-  out.loop = FitLoop(out.points, *config.record_loop, fit_options);
+  out.loop = FitLoop(points_of, *config.record_loop, fit_options);
   out.fitted.resize(records.size());
   out.other_delays.resize(records.size());
   RunUnits(records.size(), options.threads, [&](std::size_t e) {
     const RecordsFit& fit = out.loop.fit;
-    out.fitted[e] = FittedLoopOf(out.points[e].record, fit.structure, fit.points[e]);
+    out.fitted[e] = FittedLoopOf(out.loop.points[e].record, fit.structure, fit.points[e]);
     if (what != SolvedFor::kFit) return;
-    out.other_delays[e] =
-        KeptOtherDelays(state, "other_delays/" + std::to_string(e), out.points[e].record, fit, e);
+    out.other_delays[e] = KeptOtherDelays(state, "other_delays/" + std::to_string(e),
+                                          out.loop.points[e].record, fit, e);
   });
   std::vector<OnsetPoint> points;
   for (std::size_t e = 0; e < records.size(); ++e) {

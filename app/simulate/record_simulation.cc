@@ -63,10 +63,10 @@ void RequireTaken(const Config& config) {
 
 std::vector<Experiment> ExperimentsOf(const RecordSolution& solution) {
   std::vector<Experiment> out;
-  for (std::size_t e = 0; e < solution.points.size(); ++e) {
+  for (std::size_t e = 0; e < solution.loop.points.size(); ++e) {
     Experiment experiment;
     experiment.name = solution.names[e];
-    experiment.phi = solution.points[e].operating_parameter;
+    experiment.phi = solution.loop.points[e].operating_parameter;
     experiment.frequency_hz = solution.fitted[e].cycle_hz;
     out.push_back(std::move(experiment));
   }
@@ -79,7 +79,7 @@ SimulationTimes TimesOf(const Config& config, const RecordSolution& solution,
   SimulationTimes times = MakeSimulationTimes(config.simulation, experiments);
   double duration_s = 0.0;
   double sampling_hz = 0.0;
-  for (const OperatingPoint& point : solution.points) {
+  for (const OperatingPoint& point : solution.loop.points) {
     duration_s = std::max(duration_s, 1.0 / point.record.bin_hz);
     sampling_hz = std::max(sampling_hz, point.record.sampling_hz);
   }
@@ -91,8 +91,8 @@ SimulationTimes TimesOf(const Config& config, const RecordSolution& solution,
 std::vector<ModalRig> RigsOf(const Config& config, const RecordSolution& solution) {
   const RecordsFit& fit = solution.loop.fit;
   std::vector<ModalRig> rigs;
-  for (std::size_t e = 0; e < solution.points.size(); ++e) {
-    const RecordSpectra& record = solution.points[e].record;
+  for (std::size_t e = 0; e < solution.loop.points.size(); ++e) {
+    const RecordSpectra& record = solution.loop.points[e].record;
     const bool at_rest = config.simulation.start == SimulationStart::kRest;
     rigs.push_back(
         FittedRigOf(record, fit.structure,
@@ -139,10 +139,11 @@ std::string Text(const RecordSolution& solution, const std::vector<ModalRig>& ri
                  const std::vector<SimulatedRecord>& records) {
   TextTable table({"experiment", "loop gain", "starts", "p rms", "recorded", "file"});
   for (std::size_t e = 0; e < rigs.size(); ++e) {
-    table.AddRow(
-        {solution.names[e], Significant(solution.fitted[e].small_signal.loop_gain.value, 4),
-         StartText(rigs[e]), Significant(RootMeanSquare(records[e].pressure), 4),
-         Significant(solution.points[e].record.scale.pressure, 4), solution.names[e] + ".csv"});
+    table.AddRow({solution.names[e],
+                  Significant(solution.fitted[e].small_signal.loop_gain.value, 4),
+                  StartText(rigs[e]), Significant(RootMeanSquare(records[e].pressure), 4),
+                  Significant(solution.loop.points[e].record.scale.pressure, 4),
+                  solution.names[e] + ".csv"});
   }
   return table.Text() + "the loops, flames and noise are those that the records show\n";
 }

@@ -8,6 +8,7 @@
 
 #include "app/text/text_table.h"
 #include "estimation/analysis/spectra/half_width.h"
+#include "estimation/joint_records/loop_names.h"
 
 namespace howl {
 namespace {
@@ -25,7 +26,7 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
   for (std::size_t e = 0; e < solution.fitted.size(); ++e) {
     const FittedLoop& loop = solution.fitted[e];
     table.AddRow({solution.names[e] + (loop.converged ? "" : " *"),
-                  Significant(solution.points[e].operating_parameter), Fixed(loop.cycle_hz, 1),
+                  Significant(solution.loop.points[e].operating_parameter), Fixed(loop.cycle_hz, 1),
                   PlusMinus(Scaled(loop.tau_s, 1e3), 4), PlusMinus(loop.small_signal.loop_gain, 4),
                   PlusMinus(loop.small_signal.growth_rate_1_s, 3)});
   }
@@ -119,9 +120,10 @@ std::string TriedText(const ChosenLoop& loop) {
     return "density of each record by what the others show: " + Significant(best, 6) +
            " nats in all\n";
   }
-  TextTable table({"modes", "nats", "below the best"});
-  for (const ModesTried& one : loop.tried) {
-    table.AddRow({std::to_string(one.modes), Fixed(one.Sum(), 1), Fixed(best - one.Sum(), 1)});
+  TextTable table({"flame input", "modes", "nats", "below the best"});
+  for (const LoopTried& one : loop.tried) {
+    table.AddRow({FlameInputName(one.flame_input), std::to_string(one.modes), Fixed(one.Sum(), 1),
+                  Fixed(best - one.Sum(), 1)});
   }
   return table.Text() +
          "nats: of the density of each record by what the others show; a difference of 3 is odds "

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include "estimation/parallel.h"
+#include "estimation/record_fit/fit_under_prior.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
@@ -66,8 +67,9 @@ HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const 
     const std::size_t half = i % 2;
     const PointFit of_other = KeptFit(
         options.units, key + "half/" + std::to_string(1 - half) + "/" + std::to_string(e), [&] {
-          return FitPoint(records.Half(fit.model, e, 1 - half), structure, prior[e],
-                          fit.fit.points[e].parameters);
+          // As the whole record was: what one start alone misses would pass for a gap.
+          return FitUnder(records.Half(fit.model, e, 1 - half), structure, prior[e],
+                          fit.fit.points[e].parameters, records.size() > 1);
         });
     const RecordSpectra here = records.Half(fit.model, e, half);
     const Eigen::VectorXd at = WithTransientsOf(here, structure, prior[e], of_other.parameters);

@@ -18,6 +18,7 @@ struct RecordLoopSpec {
   bool own_damping = true;
   bool complex_residues = true;
   FlameInput flame_input = FlameInput::kPressureRate;
+  bool choose_flame_input = false;  // by what the data say of the three
   DelaySpread delay_spread = DelaySpread::kNone;
   bool line_errors = true;  // loop_point.h
 };

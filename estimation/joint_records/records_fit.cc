@@ -7,6 +7,7 @@
 #include "estimation/joint_records/records_fitter.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/delay_maxima.h"
+#include "estimation/record_fit/fit_under_prior.h"
 
 namespace howl {
 namespace {

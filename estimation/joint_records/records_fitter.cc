@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "estimation/parallel.h"
+#include "estimation/record_fit/fit_under_prior.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "estimation/unit_seed.h"
@@ -61,14 +62,6 @@ ParameterEvidence EvidenceOf(const PointFit& fit, const PointPrior& prior, const
   return out;
 }
 
-// With these parameters, but for the flame's, which are those that leave least of q.
-Eigen::VectorXd WithFlame(const RecordSpectra& record, const PointStructure& structure,
-                          const Eigen::VectorXd& parameters) {
-  LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  point.flame = FlameStart(record, point.path);
-  return ToParameters(structure, point);
-}
-
 }  // namespace
 
 ReferenceUnits ReferenceOf(const std::vector<OperatingPoint>& points) {
@@ -96,16 +89,6 @@ std::vector<double> Standardised(const std::vector<OperatingPoint>& points) {
 std::string UnitKey(const RecordsFitOptions& options, const char* what, std::size_t a,
                     std::size_t b) {
   return options.key + what + "/" + std::to_string(a) + "/" + std::to_string(b);
-}
-
-PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
-                  const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior) {
-  PointFit best = FitPoint(record, structure, prior, at);
-  if (from_prior) {
-    PointFit other = FitPoint(record, structure, prior, WithFlame(record, structure, prior.mean));
-    if (other.log_posterior > best.log_posterior) best = std::move(other);
-  }
-  return best;
 }
 
 bool RecordsFitter::Stands(const ParameterLaw& before, const ParameterLaw& after) const {
@@ -153,7 +136,7 @@ std::vector<PointFit> RecordsFitter::Alone(const RecordsFitOptions& options) con
 }
 
 Eigen::VectorXd RecordsFitter::StartFrom(std::size_t e, const Eigen::VectorXd& common) const {
-  return WithFlame(points_[e].record, structure_, units_[e].FromCommon(common, base_[e].mean));
+  return WithBestFlame(points_[e].record, structure_, units_[e].FromCommon(common, base_[e].mean));
 }
 
 std::vector<std::size_t> RecordsFitter::Drawn() const {

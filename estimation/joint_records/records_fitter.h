@@ -20,10 +20,6 @@ std::vector<double> Standardised(const std::vector<OperatingPoint>& points);
 std::string UnitKey(const RecordsFitOptions& options, const char* what, std::size_t a,
                     std::size_t b);
 
-// Begun where the point stands and, if asked, at what the prior expects.
-PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
-                  const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior);
-
 class RecordsFitter {
  public:
   RecordsFitter(const std::vector<OperatingPoint>& points, const PointStructure& structure,

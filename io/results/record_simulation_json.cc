@@ -57,7 +57,7 @@ Json RecordSimulationJson(const RecordSolution& solution, std::span<const ModalR
   Json experiments = Json::array();
   for (std::size_t e = 0; e < rigs.size(); ++e) {
     const ModalRig& rig = rigs[e];
-    const double range = RangeOf(solution.points[e].record.scale, rig.drive);
+    const double range = RangeOf(solution.loop.points[e].record.scale, rig.drive);
     const double step = 1e-4 * range;
     const Json gain = NumberOrNull(solution.fitted[e].small_signal.loop_gain.value);
     experiments.push_back(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "estimation/joint_records/loop_names.h"
 #include "io/results/solution_json.h"
 
 namespace howl {
@@ -64,7 +65,7 @@ Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
   });
   const SmallSignalLoop& small = loop.small_signal;
   return {{"name", solution.names[e]},
-          {"phi", solution.points[e].operating_parameter},
+          {"phi", solution.loop.points[e].operating_parameter},
           {"omega_hz", first.omega_hz.value},
           {"xi", first.xi.value},
           {"N", first.N.value},
@@ -92,8 +93,10 @@ Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
 
 Json TriedJson(const ChosenLoop& loop) {
   Json tried = Json::array();
-  for (const ModesTried& one : loop.tried) {
-    tried.push_back({{"modes", one.modes}, {"log_density_left_out", one.Sum()}});
+  for (const LoopTried& one : loop.tried) {
+    tried.push_back({{"flame_input", FlameInputName(one.flame_input)},
+                     {"modes", one.modes},
+                     {"log_density_left_out", one.Sum()}});
   }
   return tried;
 }
@@ -105,10 +108,10 @@ bool RecordSolution::Converged() const {
 }
 
 Json RecordSolutionJson(const RecordSolution& solution) {
-  const ModesTried& chosen = solution.loop.tried[solution.loop.chosen];
+  const LoopTried& chosen = solution.loop.tried[solution.loop.chosen];
   Json experiments = Json::array();
   double cost = 0.0;
-  for (std::size_t e = 0; e < solution.points.size(); ++e) {
+  for (std::size_t e = 0; e < solution.names.size(); ++e) {
     experiments.push_back(ExperimentJson(solution, e));
     cost -= solution.loop.fit.points[e].log_posterior;
   }
@@ -121,6 +124,7 @@ Json RecordSolutionJson(const RecordSolution& solution) {
           {"cost", NumberOrNull(cost)},
           {"termination", converged ? "converged" : "not converged"},
           {"converged", converged},
+          {"flame_input", FlameInputName(chosen.flame_input)},
           {"modes", chosen.modes},
           {"modes_tried", TriedJson(solution.loop)}};
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/joint_records/choose_modes.h"
+#include "estimation/joint_records/choose_loop.h"
 #include "estimation/joint_records/fitted_loop.h"
 #include "estimation/joint_records/onset.h"
 
@@ -15,7 +15,6 @@ namespace howl {
 
 struct RecordSolution {
   std::vector<std::string> names;  // of the experiments
-  std::vector<OperatingPoint> points;
   ChosenLoop loop;
   std::vector<FittedLoop> fitted;
   std::vector<std::vector<OtherDelay>> other_delays;  // of each experiment

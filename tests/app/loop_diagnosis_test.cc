@@ -65,6 +65,7 @@ TEST_F(LoopDiagnosis, RefusesWhatItDoesNotTake) {
   refuses(loop, "--bootstrap 19", "--bootstrap: the config's model states a loop");
   refuses(loop, "--without duct_nois", "did you mean duct_noise?");
   refuses("{modes: auto}", "", "is auto, expected a number");
+  refuses("{modes: 1, flame_input: auto}", "", "is auto, expected one of them");
 }
 
 }  // namespace

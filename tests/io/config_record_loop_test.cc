@@ -79,6 +79,7 @@ TEST(ConfigRecordLoop, EachKeyStatesARicherLoop) {
   EXPECT_FALSE(three.complex_residues);
   EXPECT_EQ(three.flame_input, FlameInput::kPressureRate);
   EXPECT_TRUE(Read("modes: auto").record_loop->choose_modes);
+  EXPECT_TRUE(Read("flame_input: auto").record_loop->choose_flame_input);
   EXPECT_FALSE(Read("modes: 2, ratio: free").record_loop->ratio);
   EXPECT_TRUE(Read("damping: own").record_loop->own_damping);
   EXPECT_TRUE(Read("residue: complex").record_loop->complex_residues);

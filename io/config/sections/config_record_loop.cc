@@ -66,6 +66,7 @@ void ReadRecordLoop(const ConfigCursor& model, Config& config) {
   word.clear();
   model.Read("flame_input", word);
   spec.flame_input = FlameInputNamed(word);
+  spec.choose_flame_input = word == "auto";
   word.clear();
   model.Read("delay_spread", word);
   spec.delay_spread = DelaySpreadNamed(word);
@@ -74,7 +75,7 @@ void ReadRecordLoop(const ConfigCursor& model, Config& config) {
   config.model.harmonic_ratio = spec.ratio.value_or(config.model.harmonic_ratio);
   const bool papers = spec.modes <= kPapersMostModes && !spec.choose_modes && spec.ratio &&
                       !spec.own_damping && !spec.complex_residues &&
-                      spec.flame_input == FlameInput::kPressureRate &&
+                      spec.flame_input == FlameInput::kPressureRate && !spec.choose_flame_input &&
                       spec.delay_spread == DelaySpread::kNone && spec.line_errors;
   if (!papers) config.record_loop = spec;
 }

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "estimation/joint_records/choose_modes.h"
+#include "estimation/joint_records/choose_loop.h"
 #include "estimation/joint_records/fitted_loop.h"
 #include "estimation/joint_records/onset.h"
 #include "estimation/record_fit/delay_maxima.h"
@@ -209,9 +209,32 @@ TEST(SharedUnits, AreTheSameInAllUnits) {
   EXPECT_NEAR(here.path.tau / one.scale.cycle_hz, there.path.tau / other.scale.cycle_hz, 1e-12);
 }
 
+// A flame that dp/dt drives is not taken for one that p or its integral does.
+TEST(ChooseLoop, FindsWhatDrivesTheFlame) {
+  const auto points = [](FlameInput input) {
+    std::vector<OperatingPoint> out;
+    for (const double gain : {1.2, 1.5}) {
+      const ModalLoop loop = DuctAt(gain);
+      out.push_back({gain, MakeRecordSpectra(SimulateModalLoop(loop, 0.8, 30),
+                                             CycleFrequency(loop, 150.0, 300.0), input)});
+    }
+    return out;
+  };
+  RecordLoopSpec spec{.ratio = std::nullopt, .choose_flame_input = true};
+  const ChosenLoop loop = FitLoop(points, spec, {.starts = 6});
+  ASSERT_EQ(loop.tried.size(), 3u);
+  const LoopTried& chosen = loop.tried[loop.chosen];
+  EXPECT_EQ(chosen.flame_input, FlameInput::kPressureRate);
+  EXPECT_EQ(loop.points[0].record.flame_input, FlameInput::kPressureRate);
+  for (const LoopTried& other : loop.tried) {
+    if (other.flame_input == chosen.flame_input) continue;
+    EXPECT_LT(other.Sum(), chosen.Sum() - std::log(20.0));
+  }
+}
+
 // Records of two modes ask for two.
 TEST(LongChooseModes, TakesAsManyAsThereAre) {
-  const std::vector<OperatingPoint> points = Points(3.0);
+  const auto points = [](FlameInput) { return Points(3.0); };
   RecordLoopSpec spec{.choose_modes = true, .ratio = std::nullopt};
   const ChosenLoop loop = FitLoop(points, spec, {.starts = 6});
   EXPECT_EQ(loop.tried[loop.chosen].modes, 2);

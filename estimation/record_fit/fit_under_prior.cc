@@ -1,0 +1,27 @@
+#include "estimation/record_fit/fit_under_prior.h"
+
+#include <utility>
+
+#include "estimation/record_fit/starts/point_starts.h"
+
+namespace howl {
+
+Eigen::VectorXd WithBestFlame(const RecordSpectra& record, const PointStructure& structure,
+                              const Eigen::VectorXd& parameters) {
+  LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  point.flame = FlameStart(record, point.path);
+  return ToParameters(structure, point);
+}
+
+PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
+                  const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior) {
+  PointFit best = FitPoint(record, structure, prior, at);
+  if (from_prior) {
+    PointFit other =
+        FitPoint(record, structure, prior, WithBestFlame(record, structure, prior.mean));
+    if (other.log_posterior > best.log_posterior) best = std::move(other);
+  }
+  return best;
+}
+
+}  // namespace howl

@@ -1,0 +1,20 @@
+// A fit of one operating point under a prior that other points tell: begun where the point stands
+// and, if asked, at what the prior expects too, with the flame that then leaves least of q. The
+// more likely of the two.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_FIT_UNDER_PRIOR_H_
+#define HOWL_ESTIMATION_RECORD_FIT_FIT_UNDER_PRIOR_H_
+
+#include "estimation/record_fit/point_fit.h"
+
+namespace howl {
+
+// These parameters, but for the flame's coefficients.
+Eigen::VectorXd WithBestFlame(const RecordSpectra& record, const PointStructure& structure,
+                              const Eigen::VectorXd& parameters);
+
+PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
+                  const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_FIT_UNDER_PRIOR_H_
