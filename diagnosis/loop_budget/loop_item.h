@@ -7,7 +7,7 @@
 //   own_damping                      each mode has its own
 //   complex_residues                 p is measured elsewhere than the flame is, or there is flow
 //   acoustic_mode                    one more mode; it may be added repeatedly
-//   delay_dispersion                 delays are spread, normally
+//   delay_dispersion                 delays are spread, normally (flame_path.h)
 //   gamma_delays                     or as behind a chain of lags
 //   flame_input_pressure, _velocity  the flame answers to another signal than the base's
 //   ID of the catalogue              an instrument of q with one parameter, which all points share

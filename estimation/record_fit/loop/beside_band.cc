@@ -62,13 +62,12 @@ LoopGradient BesideBandGradient(const RecordSpectra& record, const PointStructur
     out.loop.segment(residues, structure.modes).array() += by_constant / SumOfResidues(point);
   }
   const C s = tail.loop.s;
-  const auto by_path = [&](C by_log, C by_slope_and_log) {
-    return bins * (tail.ByConstant() * by_log + tail.BySlope() * by_slope_and_log).real();
+  const auto by_path = [&](C by_log, C fall_by_log) {
+    return bins * (tail.ByConstant() * by_log + tail.ByFall() * fall_by_log).real();
   };
-  out.loop[structure.Delay()] += by_path(point.path.ByLogTau(s), point.path.BySlopeAndLogTau(s));
+  out.loop[structure.Delay()] += by_path(point.path.ByLogTau(s), point.path.FallByLogTau(s));
   if (structure.Delays() > 1) {
-    out.loop[structure.Delay() + 1] +=
-        by_path(point.path.ByLogRho(s), point.path.BySlopeAndLogRho(s));
+    out.loop[structure.Delay() + 1] += by_path(point.path.ByLogRho(s), point.path.FallByLogRho(s));
   }
   return out;
 }

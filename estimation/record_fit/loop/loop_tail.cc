@@ -37,7 +37,7 @@ LoopTail::LoopTail(const RecordSpectra& record, const LoopPoint& point)
     constant = record.slopes.dot(point.flame) * SumOfResidues(point) * point.path.At(loop.s);
   }
   const double falls = record.flame_input == FlameInput::kVelocity ? 2.0 : 1.0;
-  const C turns = C(0.0, -1.0) * point.path.BySlope(loop.s);
+  const C turns = C(0.0, 1.0) * point.path.Fall(loop.s);
   of_constant = 1.0 / turns;
   of_rest = 1.0 / (falls / loop.s.imag() + turns);
 }
@@ -55,9 +55,10 @@ C LoopTail::ByConstant() const { return -std::log(1.0 - constant) * (of_constant
 
 C LoopTail::ByLoop() const { return -std::log(1.0 - u) * of_rest; }
 
-C LoopTail::BySlope() const {
+C LoopTail::ByFall() const {
   const C of = Dilogarithm(constant);
-  return C(0.0, 1.0) * (of * of_constant * of_constant + (Dilogarithm(u) - of) * of_rest * of_rest);
+  return C(0.0, -1.0) *
+         (of * of_constant * of_constant + (Dilogarithm(u) - of) * of_rest * of_rest);
 }
 
 }  // namespace howl

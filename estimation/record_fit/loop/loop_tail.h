@@ -33,16 +33,16 @@ struct LoopTail {
   // Else the loop grows at all frequencies from there on.
   bool Possible(const FlamePath& path) const;
   std::complex<double> Value() const;
-  // Of Value by ln K, by ln U, and by d ln D_tau / ds.
+  // Of Value by ln K, by ln U, and by l.
   std::complex<double> ByConstant() const;
   std::complex<double> ByLoop() const;
-  std::complex<double> BySlope() const;
+  std::complex<double> ByFall() const;
 
   LoopAt loop;                          // at omega_2
   std::complex<double> u;               // with the flame's slope in it
   std::complex<double> constant = 0.0;  // K
-  std::complex<double> of_constant;     // 1 / -j l
-  std::complex<double> of_rest;         // 1 / (m / omega_2 - j l)
+  std::complex<double> of_constant;     // 1 / j l
+  std::complex<double> of_rest;         // 1 / (m / omega_2 + j l)
 };
 
 // What K is proportional to.

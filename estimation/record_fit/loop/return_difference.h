@@ -23,11 +23,11 @@
 // a constant K / D_tau, which there is if dp/dt drives the flame, and what falls off as 1 /
 // omega^m:
 //
-//   integral of ln |D| = - Re [ Li2(K) / -j l + (Li2(U) - Li2(K)) / (m / omega_2 - j l) ]
+//   integral of ln |D| = - Re [ Li2(K) / j l + (Li2(U) - Li2(K)) / (m / omega_2 + j l) ]
 //
-// at omega_2, with l = d ln D_tau / ds and Li2 the dilogarithm (-j l = j tau where delays are not
-// spread). Where |K| or |U| is not below one there, the loop grows at all frequencies from there
-// on: no rig's, and impossible.
+// at omega_2, with Li2 the dilogarithm and l the value of D_tau over its integral from there on
+// (flame_path.h): tau where delays are not spread. Where |K| or |U| is not below one there, the
+// loop grows at all frequencies from there on: no rig's, and impossible.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_RETURN_DIFFERENCE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_RETURN_DIFFERENCE_H_
 

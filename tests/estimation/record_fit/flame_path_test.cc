@@ -34,11 +34,13 @@ TEST(FlamePath, IsTheTransformOfItsDelays) {
   const double tau = 3.0;
   const double rho = 0.25;
   const double sigma = rho * tau;
-  const auto normal = [&](double t) {
-    return std::exp(-0.5 * std::pow((t - tau) / sigma, 2)) /
-           (sigma * std::sqrt(2.0 * std::numbers::pi));
-  };
   const double shape = 1.0 / (rho * rho);
+  const auto inverse_gaussian = [&](double t) {
+    if (t <= 0.0) return 0.0;
+    const double lambda = tau * shape;
+    return std::sqrt(lambda / (2.0 * std::numbers::pi * t * t * t)) *
+           std::exp(-0.5 * lambda * std::pow((t - tau) / tau, 2) / t);
+  };
   const auto gamma = [&](double t) {
     if (t <= 0.0) return 0.0;
     const double x = t * shape / tau;
@@ -46,12 +48,23 @@ TEST(FlamePath, IsTheTransformOfItsDelays) {
   };
   for (const C s : {C(0.0, 0.3), C(0.0, 1.0), C(0.0, 3.0), C(0.1, 1.2)}) {
     const FlamePath by_normal{DelaySpread::kNormal, tau, rho};
-    EXPECT_LT(
-        std::abs(by_normal.At(s) - Transform(s, tau - 10.0 * sigma, tau + 10.0 * sigma, normal)),
-        1e-9);
+    EXPECT_LT(std::abs(by_normal.At(s) - Transform(s, 0.0, tau + 40.0 * sigma, inverse_gaussian)),
+              1e-9);
     const FlamePath by_gamma{DelaySpread::kGamma, tau, rho};
     EXPECT_LT(std::abs(by_gamma.At(s) - Transform(s, 0.0, tau + 30.0 * sigma, gamma)), 1e-9);
   }
+}
+
+// As the spread falls the difference to a normal density's transform falls as its third cumulant
+// does: as rho^4.
+TEST(FlamePath, IsNormalWhereTheSpreadIsSmall) {
+  const C x(0.0, 2.0);
+  const auto apart = [&](double rho) {
+    const FlamePath path{DelaySpread::kNormal, 1.0, rho};
+    return std::abs(path.At(x) - std::exp(-x + 0.5 * rho * rho * x * x));
+  };
+  EXPECT_NEAR(apart(0.1) / apart(0.05), 16.0, 1.0);
+  EXPECT_LT(apart(0.05), 1e-4);
 }
 
 TEST(FlamePath, SlopesAreThoseOfItsLogarithm) {
@@ -68,6 +81,17 @@ TEST(FlamePath, SlopesAreThoseOfItsLogarithm) {
       const C by_rho = (log_at(a, b + kStep) - log_at(a, b - kStep)) / (2.0 * kStep);
       EXPECT_LT(std::abs(path.ByLogTau(s) - by_tau), 1e-8);
       EXPECT_LT(std::abs(path.ByLogRho(s) - by_rho), 1e-8);
+      const auto fall = [&](double log_tau, double log_rho) {
+        return FlamePath{spread, std::exp(log_tau), std::exp(log_rho)}.Fall(s);
+      };
+      const C fall_by_tau = (fall(a + kStep, b) - fall(a - kStep, b)) / (2.0 * kStep);
+      const C fall_by_rho = (fall(a, b + kStep) - fall(a, b - kStep)) / (2.0 * kStep);
+      EXPECT_LT(std::abs(path.FallByLogTau(s) - fall_by_tau), 1e-8);
+      EXPECT_LT(std::abs(path.FallByLogRho(s) - fall_by_rho), 1e-8);
+      // At / Fall is the integral of At from s on: its slope is -At.
+      const auto integral = [&](C at) { return path.At(at) / path.Fall(at); };
+      EXPECT_LT(std::abs((integral(s + kStep) - integral(s - kStep)) / (2.0 * kStep) + path.At(s)),
+                1e-8);
     }
   }
 }

@@ -72,6 +72,25 @@ TEST_F(Jacobian, OfALoopThatDecaysIsTheSumOverTheBand) {
   }
 }
 
+// A spread that let the flame answer before it is driven would be worth nats here.
+TEST_F(Jacobian, OfALoopWithSpreadDelaysIsTheSumOverTheBand) {
+  for (const DelaySpread spread : {DelaySpread::kNormal, DelaySpread::kGamma}) {
+    for (const double rho : {0.2, 0.5, 0.9}) {
+      point_.path = {spread, 1.5, rho};
+      for (const double gain : {0.1, 0.5}) {
+        SetGain(gain);
+        double magnitude = 0.0;
+        for (Eigen::Index i = 0; i < record_.bins(); ++i) {
+          magnitude += 2.0 * record_.share[i] * std::abs(std::log(std::abs(D(record_.s[i]))));
+        }
+        EXPECT_GT(magnitude, 5.0);
+        EXPECT_NEAR(LogDeterminant(record_, point_), InBand(), 0.04 * magnitude)
+            << gain << " " << rho << " " << static_cast<int>(spread);
+      }
+    }
+  }
+}
+
 // A growing pair of roots adds 2 pi times its growth rates to Bode's integral: over the bins of a
 // record twice its growth rate times the record's length.
 TEST_F(Jacobian, DoesNotRewardALoopThatGrows) {
