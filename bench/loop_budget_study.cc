@@ -6,7 +6,6 @@
 // GLOG_v=1 and GLOG_logtostderr=1 it says what each step tried.
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -27,8 +26,7 @@ LoopForm BaseOf(const Config& config) {
   if (config.record_loop) spec = *config.record_loop;
   LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
   out.structure.noise = LeastNoise();
-  const bool lines = std::getenv("LINE_ERRORS") != nullptr;
-  out.structure.acoustic_lines = out.structure.flame_lines = lines ? kCycleLines : 0;
+  out.structure.acoustic_lines = out.structure.flame_lines = 0;
   return out;
 }
 

@@ -16,6 +16,8 @@ constexpr double kOdds = 20.0;  // that an item comes in by chance, to one
 constexpr double kOddsOfClass = 50.0;
 constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain most
 constexpr std::size_t kMostItems = 16;
+constexpr std::size_t kMostRefits = 3;
+constexpr double kRest = 3.0;  // nats: odds of 20 to 1
 
 class Search {
  public:
@@ -26,6 +28,9 @@ class Search {
 
  private:
   LoopFit FitBase() const;
+  // Fitted anew from where it stands, as long as that finds better. Each further item's fit looks
+  // at other delays under the law anew: what it found by that alone would count as the item's.
+  LoopFit AtRest(LoopFit fit, const std::string& key) const;
   // No value where nothing pays any more.
   std::optional<LoopStep> Next(const LoopFit& from, std::size_t step) const;
   std::vector<LoopTrial> Try(const LoopFit& from, const std::vector<LoopItem>& items,
@@ -46,6 +51,19 @@ LoopFit Search::FitBase() const {
   const RecordsFitOptions fit_options = FitOptionsOf(options_, "base/");
   const std::vector<OperatingPoint> points = records_.Points(base_);
   return Scored(records_, base_, FitRecords(points, base_.structure, fit_options), fit_options);
+}
+
+LoopFit Search::AtRest(LoopFit fit, const std::string& key) const {
+  for (std::size_t i = 0; i < kMostRefits; ++i) {
+    const StartRows here = StartsWith(records_, fit, fit.model).rows;
+    LoopFit again =
+        FitLoopFrom(records_, fit.model, here, key + "again/" + std::to_string(i) + "/", options_);
+    const double gain = again.Density() - fit.Density();
+    VLOG(1) << key << "again: " << gain << " nats";
+    if (gain > 0.0) fit = std::move(again);
+    if (gain < kRest) break;
+  }
+  return fit;
 }
 
 std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) const {
@@ -142,11 +160,12 @@ LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const
 
 LoopFound Search::Run() const {
   LoopFound out;
-  out.base = FitBase();
+  out.base = AtRest(FitBase(), "base/");
   out.best = out.base;
   for (std::size_t step = 0; step < kMostItems; ++step) {
     std::optional<LoopStep> next = Next(out.best, step);
     if (!next) break;
+    next->after = AtRest(std::move(next->after), "step/" + std::to_string(step) + "/rest/");
     out.best = next->after;
     out.steps.push_back(std::move(*next));
   }
