@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -34,7 +35,8 @@ double Median(std::vector<double> x) {
   return x[x.size() / 2];
 }
 
-void Row(int modes, double noise, double sensor_noise, int records, double seconds) {
+void Row(int modes, double noise, double sensor_noise, int records, double seconds,
+         std::uint64_t seed) {
   ModalLoop loop = DuctOfModes(modes);
   loop.noise = noise;
   loop.sensor_noise = sensor_noise;
@@ -45,7 +47,7 @@ void Row(int modes, double noise, double sensor_noise, int records, double secon
   int missed = 0;
   const auto before = std::chrono::steady_clock::now();
   for (int i = 0; i < records; ++i) {
-    const Record record = SimulateModalLoop(loop, seconds, 1000 + static_cast<std::uint64_t>(i));
+    const Record record = SimulateModalLoop(loop, seconds, seed + static_cast<std::uint64_t>(i));
     const IdentifiedLoop found = Identify(loop, record, 8);
     if (found.from_truth.log_posterior > found.fit.log_posterior + 1.0) ++missed;
     damping.push_back(100.0 * found.parameters[static_cast<std::size_t>(modes)].std);
@@ -89,8 +91,10 @@ int main(int argc, char** argv) {
   for (int i = 3; i < argc; ++i) numbers.push_back(std::atoi(argv[i]));
   if (numbers.empty()) numbers = {3, 4};
   for (const int modes : numbers) {
+    std::uint64_t seed = 1000;  // the records of each row are others
     for (const double level : {0.2, 0.5, 1.0, 2.0, 4.0}) {
-      howl::Row(modes, 0.1 * level, 0.005 * level, records, seconds);
+      howl::Row(modes, 0.1 * level, 0.005 * level, records, seconds, seed);
+      seed += static_cast<std::uint64_t>(records);
     }
   }
   return 0;

@@ -8,12 +8,14 @@
 #include "estimation/parallel.h"
 #include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/fit_under_prior.h"
+#include "estimation/record_fit/mode_maxima.h"
 
 namespace howl {
 namespace {
 
 constexpr int kRounds = 12;
-constexpr int kRoundsOfSearch = 2;  // in which each point looks at other delays under the law
+// In which each point looks at other delays and places of modes under the law.
+constexpr int kRoundsOfSearch = 2;
 
 RecordsFit FitWith(const RecordsFitter& fitter, const std::vector<OperatingPoint>& points,
                    const PointStructure& structure, const StartRows& starts,
@@ -37,7 +39,8 @@ RecordsFit FitWith(const RecordsFitter& fitter, const std::vector<OperatingPoint
             PointFit fit = FitUnder(points[e].record, structure, out.prior[e],
                                     out.points[e].parameters, !alone && early);
             if (!early) return fit;
-            return BestByDelay(points[e].record, structure, out.prior[e], std::move(fit));
+            fit = BestByDelay(points[e].record, structure, out.prior[e], std::move(fit));
+            return BestByModes(points[e].record, structure, out.prior[e], std::move(fit));
           });
     });
     VLOG(1) << "round " << round << " of the law of the parameters";

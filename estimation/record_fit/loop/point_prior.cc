@@ -30,6 +30,7 @@ constexpr double kLevel = 3.0;  // of ln S_j, about the signal's mean
 constexpr double kShape = 1.5;  // of its higher coefficients
 // Amplifiers are set so that p and q fill their ranges alike.
 constexpr double kBackgroundRatio = 1.0;
+constexpr double kMostDeviations = 6.0;
 
 double MeanLogPower(const Eigen::VectorXcd& x) {
   return Tapered(x).cwiseAbs2().array().log().mean();
@@ -64,6 +65,11 @@ Eigen::VectorXd PointPrior::Precision(const Eigen::VectorXd& parameters) const {
 
 Eigen::VectorXd PointPrior::Slope(const Eigen::VectorXd& parameters) const {
   return -Precision(parameters).cwiseProduct((parameters - mean).cwiseQuotient(deviation));
+}
+
+Eigen::VectorXd PointPrior::Within(const Eigen::VectorXd& parameters) const {
+  return parameters.cwiseMax(mean - kMostDeviations * deviation)
+      .cwiseMin(mean + kMostDeviations * deviation);
 }
 
 PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record) {

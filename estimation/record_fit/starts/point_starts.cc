@@ -196,12 +196,9 @@ std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointSt
   while (from.size() * delays.size() < count) from.push_back(poles.Drawn(&random));
   std::vector<Eigen::VectorXd> out;
   for (const std::vector<StartPole>& each : from) {
-    for (const double tau : delays) out.push_back(starts.At(poles.WithResidues(each), tau));
-  }
-  // Nothing may begin beyond where the prior is flat to rounding.
-  for (Eigen::VectorXd& start : out) {
-    start = start.cwiseMax(prior.mean - 6.0 * prior.deviation)
-                .cwiseMin(prior.mean + 6.0 * prior.deviation);
+    for (const double tau : delays) {
+      out.push_back(prior.Within(starts.At(poles.WithResidues(each), tau)));
+    }
   }
   return out;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "estimation/record_fit/delay_maxima.h"
+#include "estimation/record_fit/mode_maxima.h"
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "tests/estimation/record_fit/modal_loop.h"
@@ -47,9 +48,11 @@ inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std:
   const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
   const PointPrior prior = PriorOf(structure, spectra);
   IdentifiedLoop out;
-  // As one point by itself is fitted (records_fit.h): from starts, then at its most likely delay.
+  // As one point by itself is fitted (records_fit.h): from starts, then at its most likely delay and
+  // places of modes.
   out.fit = FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, starts, 1));
   out.fit = BestByDelay(spectra, structure, prior, std::move(out.fit));
+  out.fit = BestByModes(spectra, structure, prior, std::move(out.fit));
   out.fit = FitPoint(spectra, structure, prior, out.fit.parameters);
   LoopPoint found = ToPoint(structure, spectra.flame.cols(), out.fit.parameters);
   LoopPoint truth = found;

@@ -50,6 +50,29 @@ TEST(PointFit, EndsAtAPossibleLoop) {
   EXPECT_TRUE(possible(fit.parameters));
 }
 
+// Begun with a mode far beyond the band a fit ends beside the maximum. Of the weak modes, for
+// without that which rules the cycle nothing of the loop is found.
+TEST(ModeMaxima, FindTheWeakModeThatAFitMisses) {
+  ModalLoop loop = DuctOfModes(3);
+  loop.noise = 0.02;
+  loop.sensor_noise = 0.001;
+  const Record record = SimulateModalLoop(loop, 1.0, 5);
+  const RecordSpectra spectra =
+      MakeRecordSpectra(record, CycleFrequency(loop, 150.0, 300.0), FlameInput::kPressureRate);
+  const PointStructure structure = FreeStructure(3);
+  const PointPrior prior = PriorOf(structure, spectra);
+  const PointFit right = Identify(loop, record, 1).from_truth;
+  for (std::size_t missed = 1; missed < 3; ++missed) {
+    LoopPoint point = ToPoint(structure, spectra.flame.cols(), right.parameters);
+    point.modes[missed].omega = 6.0;
+    point.modes[missed].xi = 0.01;
+    const PointFit wrong = FitPoint(spectra, structure, prior, ToParameters(structure, point));
+    ASSERT_LT(wrong.log_posterior, right.log_posterior - 100.0) << missed;
+    const PointFit found = BestByModes(spectra, structure, prior, wrong);
+    EXPECT_GT(found.log_posterior, right.log_posterior - 1.0) << missed;
+  }
+}
+
 // From wherever a fit begins, its delay and its modes stay where a rig's may be: a quadratic far
 // from any maximum points anywhere.
 TEST(PointFit, StaysWhereRigsAre) {

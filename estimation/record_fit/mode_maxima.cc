@@ -1,0 +1,52 @@
+#include "estimation/record_fit/mode_maxima.h"
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "estimation/record_fit/starts/pole_starts.h"
+
+namespace howl {
+namespace {
+
+// To within a nat or so of the maximum, which tells maxima apart.
+constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
+constexpr int kMostScans = 4;
+
+// Parameters with one of the modes elsewhere.
+std::vector<Eigen::VectorXd> Elsewhere(const RecordSpectra& record, const PointStructure& structure,
+                                       const PointPrior& prior, const Eigen::VectorXd& parameters) {
+  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  const PoleStarts starts(record, structure);
+  std::vector<StartPole> here;
+  for (const LoopMode& mode : point.modes) here.push_back({mode.omega, mode.xi});
+  std::vector<Eigen::VectorXd> out;
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    std::vector<StartPole> others = here;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    std::vector<StartPole> place = here;
+    place[k] = starts.Next(others);
+    LoopPoint moved = point;
+    moved.modes = starts.WithResidues(place);
+    out.push_back(prior.Within(ToParameters(structure, moved)));
+  }
+  return out;
+}
+
+}  // namespace
+
+PointFit BestByModes(const RecordSpectra& record, const PointStructure& structure,
+                     const PointPrior& prior, PointFit fit) {
+  if (structure.ratio) return fit;
+  for (int scan = 0; scan < kMostScans; ++scan) {
+    const double before = fit.log_posterior;
+    for (const Eigen::VectorXd& start : Elsewhere(record, structure, prior, fit.parameters)) {
+      PointFit other = FitPoint(record, structure, prior, start, kToTheMaximum);
+      if (other.log_posterior > fit.log_posterior) fit = std::move(other);
+    }
+    if (fit.log_posterior - before < kToTheMaximum.converged) break;
+  }
+  return fit;
+}
+
+}  // namespace howl
