@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/text/text_table.h"
+#include "app/text/vanishing_text.h"
 #include "estimation/analysis/spectra/half_width.h"
 #include "estimation/joint_records/loop_names.h"
 
@@ -48,7 +49,8 @@ std::string OnsetText(const RecordSolution& solution, const std::string& operati
                      operating_parameter + " " + Significant(onset.at.phi, 4) +
                      " (95 %: " + Significant(onset.at.lo, 4) + " .. " +
                      Significant(onset.at.hi, 4) + "), at " + PlusMinus(onset.frequency_hz, 4) +
-                     " Hz, by straight lines through the points' loop gains and frequencies",
+                     " Hz, by straight lines through the points' loop gains and frequencies" +
+                     OfTwoText(onset.at),
                  2) +
          "\n";
 }
