@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/text/text_table.h"
-#include "app/text/vanishing_text.h"
 #include "estimation/analysis/spectra/half_width.h"
 #include "estimation/joint_records/loop_names.h"
 
@@ -39,18 +38,21 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
 
 std::string OnsetText(const RecordSolution& solution, const std::string& operating_parameter) {
   const Onset& onset = solution.onset;
-  if (!onset.at.available) return "";
+  if (!onset.at.available) {
+    return solution.fitted.size() == 2
+               ? "where small oscillations begin to grow, two points cannot tell: nothing shows "
+                 "whether\n  their loop gains lie on a straight line\n"
+               : "";
+  }
   if (!std::isfinite(onset.frequency_hz.value)) {
     return "where small oscillations begin to grow, a straight line through these loop gains "
-           "cannot "
-           "tell\n";
+           "cannot tell\n";
   }
   return Wrapped("the loop gain about rest reaches one, and a cycle begins or ends, at " +
                      operating_parameter + " " + Significant(onset.at.phi, 4) +
                      " (95 %: " + Significant(onset.at.lo, 4) + " .. " +
                      Significant(onset.at.hi, 4) + "), at " + PlusMinus(onset.frequency_hz, 4) +
-                     " Hz, by straight lines through the points' loop gains and frequencies" +
-                     OfTwoText(onset.at),
+                     " Hz, by straight lines through the points' loop gains and frequencies",
                  2) +
          "\n";
 }

@@ -6,10 +6,6 @@
 
 namespace howl {
 
-std::string OfTwoText(const VanishingPhi& vanishing) {
-  return vanishing.of_two ? ", if the loop gain is straight, which two points cannot show" : "";
-}
-
 std::string VanishingText(const VanishingPhi& vanishing, const std::string& operating_parameter) {
   if (!vanishing.available) return "";
   if (std::isinf(vanishing.lo) && std::isinf(vanishing.hi)) {
@@ -17,7 +13,7 @@ std::string VanishingText(const VanishingPhi& vanishing, const std::string& oper
   }
   return "the loop gain reaches one, and the cycle vanishes, at " + operating_parameter + " " +
          Significant(vanishing.phi, 4) + " (95 %: " + Significant(vanishing.lo, 4) + " .. " +
-         Significant(vanishing.hi, 4) + ")" + OfTwoText(vanishing) + "\n";
+         Significant(vanishing.hi, 4) + ")\n";
 }
 
 }  // namespace howl

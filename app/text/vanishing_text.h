@@ -8,12 +8,9 @@
 
 namespace howl {
 
-// Empty where no line goes through the loop gains (straight_line.h). An interval without an end says
-// so instead of giving a number that means nothing.
+// Empty where fewer than three experiments have a loop gain. An interval without an end says so
+// instead of giving a number that means nothing.
 std::string VanishingText(const VanishingPhi& vanishing, const std::string& operating_parameter);
-
-// What an interval of two points takes for granted, to be added to a sentence; empty for more.
-std::string OfTwoText(const VanishingPhi& vanishing);
 
 }  // namespace howl
 

@@ -17,7 +17,7 @@ struct OnsetPoint {
 };
 
 struct Onset {
-  VanishingPhi at;        // needs two points whose root was found
+  VanishingPhi at;        // needs three points whose root was found
   Estimate frequency_hz;  // NaN where `at` has an end that is infinite
 };
 

@@ -10,7 +10,7 @@ std::optional<StraightLine> FitStraightLine(std::span<const LinePoint> points) {
   const bool weighted = std::all_of(points.begin(), points.end(), [](const LinePoint& p) {
     return std::isfinite(p.y.std) && p.y.std > 0.0;
   });
-  if (points.size() < (weighted ? 2 : 3)) return std::nullopt;
+  if (points.size() < 3) return std::nullopt;
   const auto weight = [&](const LinePoint& p) {
     return weighted ? 1.0 / (p.y.std * p.y.std) : 1.0;
   };
@@ -34,7 +34,7 @@ std::optional<StraightLine> FitStraightLine(std::span<const LinePoint> points) {
     const double r = p.y.value - line.y_mean - line.slope * (p.x - line.x_mean);
     chi_square += weight(p) * r * r;
   }
-  const double scatter = points.size() > 2 ? chi_square / (n - 2.0) : 0.0;
+  const double scatter = chi_square / (n - 2.0);
   line.scale = weighted ? std::max(scatter, 1.0) : scatter;
   line.t = kNormal95 * (weighted && scatter <= 1.0 ? 1.0 : StudentInflation(n - 2.0));
   return line;

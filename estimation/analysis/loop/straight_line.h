@@ -1,8 +1,6 @@
 // A straight line y = a + b x through values of several operating points: weighted least squares
 // where every value has a standard deviation, else ordinary. With known deviations scatter beyond
-// them widens the line's variance, and only then is t Student's, with n - 2 degrees of freedom. Two
-// points lie on any line: their deviations alone are its variance, and nothing shows whether the
-// values lie on a line at all.
+// them widens the line's variance, and only then is t Student's, with n - 2 degrees of freedom.
 #ifndef HOWL_ESTIMATION_ANALYSIS_LOOP_STRAIGHT_LINE_H_
 #define HOWL_ESTIMATION_ANALYSIS_LOOP_STRAIGHT_LINE_H_
 
@@ -33,7 +31,7 @@ struct StraightLine {
   }
 };
 
-// None of fewer than three points, two if their deviations are known, or where all have the same x.
+// None of fewer than three points, or where all have the same x.
 std::optional<StraightLine> FitStraightLine(std::span<const LinePoint> points);
 
 }  // namespace howl

@@ -17,7 +17,6 @@ VanishingPhi EstimateVanishingPhi(std::span<const LoopGainPoint> points) {
   if (!line) return result;
   const double slope = line->slope;
   result.available = true;
-  result.of_two = points.size() == 2;
   result.slope = slope;
   result.intercept = line->y_mean - slope * line->x_mean;
   result.phi = (1.0 - result.intercept) / slope;

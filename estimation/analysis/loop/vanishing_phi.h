@@ -23,8 +23,7 @@ struct VanishingPhi {
   double lo = -std::numeric_limits<double>::infinity();  // 95 %; infinite: the slope may be zero
   double hi = std::numeric_limits<double>::infinity();
   double intercept = 0.0, slope = 0.0;
-  bool available = false;  // needs three points, two of known deviations, not all at one phi
-  bool of_two = false;     // that the gains lie on a line is taken for granted
+  bool available = false;  // needs three points with at least two different phi
 };
 
 VanishingPhi EstimateVanishingPhi(std::span<const LoopGainPoint> points);
