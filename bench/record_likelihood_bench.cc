@@ -1,6 +1,5 @@
 // What the likelihood of a record's loop costs: a value, its gradient with all that a step moves
-// and with what one parameter alone moves, an information, and one fit. The rival is the gradient
-// by matrices of derivatives, which an information needs.
+// and with what one parameter alone moves, an information by matrices of derivatives, and one fit.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -8,7 +7,6 @@
 
 #include "bench/record_structures.h"
 #include "estimation/record_fit/loop/point_likelihood.h"
-#include "estimation/record_fit/loop/return_difference.h"
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "model/noise/random_stream.h"
@@ -95,20 +93,6 @@ void BM_GradientWhereOneParameterMoves(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_GradientWhereOneParameterMoves)->Unit(benchmark::kMicrosecond);
-
-void BM_GradientByMatrices(benchmark::State& state) {
-  const Point& at = ThePoint();
-  for (auto _ : state) {
-    const LoopPoint point = ToPoint(at.structure, at.record.flame.cols(), at.parameters);
-    const Eigen::VectorXd gradient =
-        WhittleGradient(at.structure.noise, at.record.share,
-                        ResidualsOf(at.record, at.structure, point),
-                        DerivativesOf(at.record, at.structure, point)) +
-        LogDeterminantGradient(at.record, at.structure, point);
-    benchmark::DoNotOptimize(gradient.data());
-  }
-}
-BENCHMARK(BM_GradientByMatrices)->Unit(benchmark::kMicrosecond);
 
 void BM_Information(benchmark::State& state) {
   const Point& at = ThePoint();

@@ -29,6 +29,7 @@ KeptLoop::KeptLoop(const RecordSpectra& record, const PointStructure& structure)
     : record_(record),
       structure_(structure),
       lines_(record.edge_s, std::max(structure.acoustic_lines, structure.flame_lines)),
+      band_lines_(record.s, std::max(structure.acoustic_lines, structure.flame_lines)),
       flame_real_(record.flame.real()),
       flame_imag_(record.flame.imag()),
       modes_(static_cast<std::size_t>(structure.modes)) {
@@ -56,7 +57,10 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
   point_ = ToPoint(structure_, flame, parameters);
   if (modes) MoveModes();
   if (answer) MoveAnswer();
-  if (acoustic_lines) lines_.Factors(point_.acoustic_lines, &acoustic_factors_);
+  if (acoustic_lines) {
+    lines_.Factors(point_.acoustic_lines, &acoustic_factors_);
+    band_lines_.Factors(point_.acoustic_lines, &band_acoustic_factors_);
+  }
   if (answer || acoustic_lines) {
     Leave(record_.pressure, answer_, acoustic_factors_, &residuals_.acoustic);
   }
@@ -73,7 +77,16 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
       arriving_[i] = Times(edge_path_.at[i], burning_[i]);
     }
   }
-  if (flame_lines) lines_.Factors(point_.flame_lines, &flame_factors_);
+  if (flame_lines) {
+    lines_.Factors(point_.flame_lines, &flame_factors_);
+    band_lines_.Factors(point_.flame_lines, &band_flame_factors_);
+  }
+  if (HasLines() && (acoustic_lines || flame_lines)) {
+    residuals_.line_factors.resize(record_.bins());
+    for (Eigen::Index i = 0; i < record_.bins(); ++i) {
+      residuals_.line_factors[i] = Times(band_acoustic_factors_[i], band_flame_factors_[i]);
+    }
+  }
   if (path || burning || flame_lines) {
     Leave(record_.heat_release, arriving_, flame_factors_, &residuals_.flame);
   }

@@ -45,12 +45,17 @@ class KeptLoop {
   void MoveModes();
   void MoveAnswer();
   void MovePath();
+  bool HasLines() const { return structure_.acoustic_lines + structure_.flame_lines > 0; }
+  // Of the lines' factors on the record's bins, by the errors of one cut.
+  Eigen::VectorXd SlopeByBandLines(const WhittleWeights& weights,
+                                   const Eigen::VectorXcd& other_factors, Eigen::Index lines);
   void SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* out);
   void SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out);
 
   const RecordSpectra& record_;
   const PointStructure& structure_;
-  LineShapes lines_;
+  LineShapes lines_;       // before the taper
+  LineShapes band_lines_;  // on the record's bins
   Eigen::MatrixXd flame_real_, flame_imag_;     // b_k
   std::vector<Eigen::MatrixXd> noise_columns_;  // one a source
   Eigen::VectorXd parameters_;
@@ -63,7 +68,8 @@ class KeptLoop {
   // Of the two cuts before the taper: without the lines' errors, and 1 + those.
   Eigen::VectorXcd answer_, acoustic_factors_;
   Eigen::VectorXcd arriving_, flame_factors_;
-  Eigen::VectorXcd edge_weights_, weighted_;  // room for the slopes
+  Eigen::VectorXcd band_acoustic_factors_, band_flame_factors_;
+  Eigen::VectorXcd edge_weights_, weighted_, band_weighted_;  // room for the slopes
 };
 
 }  // namespace howl

@@ -44,6 +44,16 @@ Eigen::VectorXd KeptLoop::Slope(const WhittleWeights& weights) {
   return out;
 }
 
+Eigen::VectorXd KeptLoop::SlopeByBandLines(const WhittleWeights& weights,
+                                           const Eigen::VectorXcd& other_factors,
+                                           Eigen::Index lines) {
+  band_weighted_.resize(record_.bins());
+  for (Eigen::Index i = 0; i < record_.bins(); ++i) {
+    band_weighted_[i] = Times(weights.line_factors[i], other_factors[i]);
+  }
+  return band_lines_.Slope(band_weighted_, lines);
+}
+
 void KeptLoop::SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* out) {
   BeforeTaper(weights.acoustic, &edge_weights_);
   weighted_.resize(edge_weights_.size());
@@ -52,7 +62,8 @@ void KeptLoop::SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* 
       weighted_[i] = Times(edge_weights_[i], answer_[i]);
     }
     out->segment(structure_.AcousticLine(), structure_.AcousticLines()) =
-        lines_.Slope(weighted_, structure_.acoustic_lines);
+        lines_.Slope(weighted_, structure_.acoustic_lines) +
+        SlopeByBandLines(weights, band_flame_factors_, structure_.acoustic_lines);
   }
   for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
     weighted_[i] = Times(edge_weights_[i], acoustic_factors_[i]);
@@ -95,7 +106,8 @@ void KeptLoop::SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out)
       weighted_[i] = Times(edge_weights_[i], arriving_[i]);
     }
     out->segment(structure_.FlameLine(flame), structure_.FlameLines()) =
-        lines_.Slope(weighted_, structure_.flame_lines);
+        lines_.Slope(weighted_, structure_.flame_lines) +
+        SlopeByBandLines(weights, band_acoustic_factors_, structure_.flame_lines);
   }
   for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
     edge_weights_[i] = Times(edge_weights_[i], flame_factors_[i]);

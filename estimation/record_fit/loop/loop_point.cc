@@ -217,12 +217,21 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   return out;
 }
 
-LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
-                          const LoopPoint& point) {
+LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point) {
   LoopResiduals out;
   out.r = Transfer(point, record.s);
   const double slope = record.slopes.dot(point.flame);
   out.f = slope * point.path.At(record.s).cwiseProduct(record.input);
+  if (point.acoustic_lines.size() + point.flame_lines.size() > 0) {
+    out.line_factors = LineFactors(record.s, point.acoustic_lines)
+                           .cwiseProduct(LineFactors(record.s, point.flame_lines));
+  }
+  return out;
+}
+
+LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
+                          const LoopPoint& point) {
+  LoopResiduals out = TransfersOf(record, point);
   out.acoustic = Tapered(record.pressure -
                          AnswerOfAcoustics(record, point)
                              .cwiseProduct(LineFactors(record.edge_s, point.acoustic_lines)));

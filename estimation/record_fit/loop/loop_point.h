@@ -19,9 +19,9 @@
 //   E_A: R Q becomes (1 + sum_h W_h) R Q,   E_B: the flame's answer becomes (1 + sum_h W_h) of it
 //   W_h = 2 r (s Re d_h - h Im d_h) / (s^2 + 2 r s + h^2),   which is d_h at s = j h
 //
-// r, kLineReach, is half its width. W_h is a filter that looks back only, as the loop itself does:
-// the Jacobian stays what it was (return_difference.h). It is an error of the mean alone: R and F,
-// which small signals see, and with them the noise's directions, are without it.
+// r, kLineReach, is half its width. W_h is a filter that looks back only, as the loop itself does. It
+// is an error of the mean alone: R and F, which small signals see, and with them the noise's
+// directions, are without it; the Jacobian is of the residuals, and has it (return_difference.h).
 //
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
 // and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared), real and
@@ -113,6 +113,8 @@ std::complex<double> AcousticTransfer(const LoopPoint& point, std::complex<doubl
 void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point,
                        std::complex<double> s, std::complex<double> by, Eigen::VectorXd* out);
 
+// R, F and the lines' factors on the record's bins, without the rest of the residuals.
+LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point);
 LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
                           const LoopPoint& point);
 // The noise of `point` in the place of what the residuals have.

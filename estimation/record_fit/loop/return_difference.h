@@ -7,7 +7,10 @@
 //
 //   D = 1 - phi_0 U,   U = R D_tau(s) V(s),   sum over all f of ln |D(f)| = 0,
 //
-// D_tau being the path of flame_path.h and phi_0 the flame's mean slope. The likelihood has the
+// D_tau being the path of flame_path.h and phi_0 the flame's mean slope. Where the cuts err at the
+// cycle's lines (loop_point.h) the residuals are of U times the lines' factors, and so is D in the
+// band: large errors reach far beside their lines, and nats that they do not earn would be the
+// reward of a loop that no residual shows. The likelihood has the
 // bins of a band alone, and of those the Jacobian is what the others leave:
 //
 //   ln |det| = -w sum over f beyond the band of 2 ln |D(f)|
@@ -50,10 +53,6 @@ double LogDeterminant(const RecordSpectra& record, const LoopPoint& point, const
 // band. Returns the weight of the latter's slope.
 double AddBandWeights(const RecordSpectra& record, const LoopResiduals& at, double beside,
                       WhittleWeights* weights);
-
-// By the parameters that loop_point.h lists, of which the noise's have none.
-Eigen::VectorXd LogDeterminantGradient(const RecordSpectra& record, const PointStructure& structure,
-                                       const LoopPoint& point);
 
 }  // namespace howl
 

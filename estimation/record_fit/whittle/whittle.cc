@@ -251,11 +251,4 @@ LoopScore WhittleScore(const std::vector<NoiseTerm>& noise, const Eigen::VectorX
   return Gather(noise, weights, all, derivatives);
 }
 
-Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
-                                const LoopResiduals& at, const LoopDerivatives& derivatives) {
-  WhittleWeights weights;
-  WeighBins(noise, share, at, &weights);
-  return GatherGradient(noise, weights, derivatives);
-}
-
 }  // namespace howl

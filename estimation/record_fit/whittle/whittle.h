@@ -37,6 +37,9 @@ struct LoopResiduals {
   Eigen::VectorXcd flame;     // E_B
   Eigen::MatrixXd spectra;    // S_j, one column a source
   double background_ratio = 0.0;
+  // By how much R F is larger where the cuts err at the cycle's lines; empty: by nothing. The
+  // Jacobian's alone (return_difference.h).
+  Eigen::VectorXcd line_factors;
 };
 
 // Derivatives by the parameters, one column each. The acoustics' parameters move R and E_A; those
@@ -66,10 +69,6 @@ double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::Ve
 
 LoopScore WhittleScore(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                        const LoopResiduals& at, const LoopDerivatives& derivatives);
-
-// The gradient alone, in a tenth of the time.
-Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
-                                const LoopResiduals& at, const LoopDerivatives& derivatives);
 
 }  // namespace howl
 

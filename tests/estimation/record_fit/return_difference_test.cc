@@ -103,5 +103,27 @@ TEST_F(Jacobian, DoesNotRewardALoopThatGrows) {
   EXPECT_NEAR(InBand() - LogDeterminant(record_, point_), reward, 0.05 * reward);
 }
 
+// A flame whose answer at the cycle's lines is far from its curve's, by errors that reach over the
+// band, earns what its residuals' loop earns, and not what the curve alone would.
+TEST_F(Jacobian, IsThatOfTheLinesErrors) {
+  point_.path.tau = 0.02;
+  SetGain(0.8);
+  const double of_curve = LogDeterminant(record_, point_);
+  point_.flame_lines = Eigen::Vector3cd(C(-4.0, -4.0), C(-4.0, -4.0), C(-4.0, -4.0));
+  double of_residuals = 0.0;
+  for (Eigen::Index i = 0; i < record_.bins(); ++i) {
+    const C s = record_.s[i];
+    C factor = 1.0;
+    for (int h = 1; h <= 3; ++h) {
+      const C e = point_.flame_lines[h - 1];
+      factor += 2.0 * kLineReach * (s * e.real() - h * e.imag()) /
+                (s * s + 2.0 * kLineReach * s + static_cast<double>(h * h));
+    }
+    of_residuals += 2.0 * record_.share[i] * std::log(std::abs(1.0 - factor * (1.0 - D(s))));
+  }
+  ASSERT_LT(of_residuals, of_curve - 50.0);
+  EXPECT_LT(LogDeterminant(record_, point_), of_residuals + std::numbers::ln2);
+}
+
 }  // namespace
 }  // namespace howl

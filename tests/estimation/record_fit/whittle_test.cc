@@ -8,7 +8,7 @@
 #include <cmath>
 #include <complex>
 
-#include "estimation/record_fit/loop/return_difference.h"
+#include "estimation/record_fit/loop/point_likelihood.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 
@@ -51,10 +51,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
     }
     for (Eigen::Index h = 0; h < point.flame_lines.size(); ++h) point.flame_lines[h] = C(-0.3, 0.1);
     const Eigen::VectorXd at = ToParameters(structure, point);
-    const Eigen::VectorXd gradient =
-        WhittleGradient(structure.noise, spectra.share, ResidualsOf(spectra, structure, point),
-                        DerivativesOf(spectra, structure, point)) +
-        LogDeterminantGradient(spectra, structure, point);
+    const Eigen::VectorXd gradient = PointLikelihood(spectra, structure).Gradient(at);
     const double scale = gradient.cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < at.size(); ++i) {
       constexpr double kStep = 1e-5;
