@@ -4,6 +4,7 @@
 
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
+#include "estimation/record_fit/loop/loop_residuals.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {

@@ -35,6 +35,19 @@ void LineShapes::Factors(const Eigen::VectorXcd& errors, Eigen::VectorXcd* out) 
   out->imag() += imag_.leftCols(lines) * by_level + x_.cwiseProduct(rate_real);
 }
 
+Eigen::MatrixXcd LineShapes::Columns(const Eigen::VectorXcd& answer) const {
+  const Eigen::Index lines = real_.cols();
+  Eigen::MatrixXcd out(x_.size(), 2 * lines);
+  for (Eigen::Index k = 0; k < lines; ++k) {
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      const C shape(real_(i, k), imag_(i, k));
+      out(i, k) = Times(Times(C(0.0, x_[i]), shape), answer[i]);
+      out(i, lines + k) = -static_cast<double>(k + 1) * Times(shape, answer[i]);
+    }
+  }
+  return out;
+}
+
 Eigen::VectorXd LineShapes::Slope(const Eigen::VectorXcd& weights, Eigen::Index lines) const {
   Eigen::VectorXd out(2 * lines);
   if (lines == 0) return out;

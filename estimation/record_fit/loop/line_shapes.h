@@ -15,6 +15,8 @@ class LineShapes {
 
   // 1 + the errors of all lines.
   void Factors(const Eigen::VectorXcd& errors, Eigen::VectorXcd* out) const;
+  // What real and then imaginary parts of the errors add to an answer.
+  Eigen::MatrixXcd Columns(const Eigen::VectorXcd& answer) const;
   // The slopes by real and then imaginary parts of `lines` errors of a sum over frequencies of the
   // real part of weight times factor.
   Eigen::VectorXd Slope(const Eigen::VectorXcd& weights, Eigen::Index lines) const;

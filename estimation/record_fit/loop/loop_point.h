@@ -113,16 +113,6 @@ std::complex<double> AcousticTransfer(const LoopPoint& point, std::complex<doubl
 void AddAcousticSlopes(const PointStructure& structure, const LoopPoint& point,
                        std::complex<double> s, std::complex<double> by, Eigen::VectorXd* out);
 
-// R, F and the lines' factors on the record's bins, without the rest of the residuals.
-LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point);
-LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
-                          const LoopPoint& point);
-// The noise of `point` in the place of what the residuals have.
-void SetNoise(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
-              LoopResiduals* residuals);
-LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
-                              const LoopPoint& point);
-
 }  // namespace howl
 
 #endif  // HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_

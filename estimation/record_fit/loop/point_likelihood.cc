@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/return_difference.h"
 
 namespace howl {

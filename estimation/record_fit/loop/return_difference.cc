@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "estimation/record_fit/loop/beside_band.h"
+#include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/loop_tail.h"
 #include "estimation/record_fit/whittle/log_of_product.h"
 #include "model/numerics/complex_products.h"

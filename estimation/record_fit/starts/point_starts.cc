@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/starts/pole_starts.h"
 #include "estimation/record_fit/starts/start_least_squares.h"
 #include "model/numerics/dense_algebra.h"

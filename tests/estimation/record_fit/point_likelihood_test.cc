@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/return_difference.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"

@@ -1,0 +1,151 @@
+#include "estimation/record_fit/loop/loop_residuals.h"
+
+#include <complex>
+
+#include "estimation/record_fit/loop/line_shapes.h"
+#include "estimation/record_fit/loop/mode_slopes.h"
+#include "model/numerics/complex_products.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+Eigen::VectorXcd Transfer(const LoopPoint& point, const Eigen::VectorXcd& s) {
+  return s.unaryExpr([&](C each) { return AcousticTransfer(point, each); });
+}
+
+Eigen::MatrixXcd TaperedColumns(const Eigen::MatrixXcd& x) {
+  return x.topRows(x.rows() - 1) - x.bottomRows(x.rows() - 1);
+}
+
+Eigen::VectorXcd ByLogTau(const FlamePath& path, const Eigen::VectorXcd& s) {
+  return s.unaryExpr([&](C each) { return path.ByLogTau(each); });
+}
+
+Eigen::VectorXcd ByLogRho(const FlamePath& path, const Eigen::VectorXcd& s) {
+  return s.unaryExpr([&](C each) { return path.ByLogRho(each); });
+}
+
+Eigen::VectorXcd LineFactors(const Eigen::VectorXcd& s, const Eigen::VectorXcd& errors) {
+  Eigen::VectorXcd out;
+  LineShapes(s, errors.size()).Factors(errors, &out);
+  return out;
+}
+
+// R Q and what the record's ends leave, before the taper.
+Eigen::VectorXcd AnswerOfAcoustics(const RecordSpectra& record, const LoopPoint& point) {
+  LoopPoint ends = point;
+  for (LoopMode& mode : ends.modes) {
+    mode.a = mode.g;
+    mode.b = mode.h;
+  }
+  return Transfer(point, record.edge_s).cwiseProduct(record.heat_release) +
+         Transfer(ends, record.edge_s);
+}
+
+Eigen::MatrixXcd TransferColumns(const PointStructure& structure, const LoopPoint& point,
+                                 const Eigen::VectorXcd& s) {
+  Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(s.size(), structure.Acoustics());
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      ForEachSlope(structure, point, k, s[i],
+                   [&](Eigen::Index j, C of_r, C) { out(i, j) += of_r; });
+    }
+  }
+  return out;
+}
+
+// Of R Q + T.
+Eigen::MatrixXcd PressureColumns(const PointStructure& structure, const LoopPoint& point,
+                                 const Eigen::VectorXcd& s, const Eigen::VectorXcd& heat_release) {
+  Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(s.size(), structure.Acoustics());
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      ForEachSlope(structure, point, k, s[i], [&](Eigen::Index j, C of_r, C of_t) {
+        out(i, j) += Times(of_r, heat_release[i]) + of_t;
+      });
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point) {
+  LoopResiduals out;
+  out.r = Transfer(point, record.s);
+  const double slope = record.slopes.dot(point.flame);
+  out.f = slope * point.path.At(record.s).cwiseProduct(record.input);
+  if (point.acoustic_lines.size() + point.flame_lines.size() > 0) {
+    out.line_factors = LineFactors(record.s, point.acoustic_lines)
+                           .cwiseProduct(LineFactors(record.s, point.flame_lines));
+  }
+  return out;
+}
+
+LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
+                          const LoopPoint& point) {
+  LoopResiduals out = TransfersOf(record, point);
+  out.acoustic = Tapered(record.pressure -
+                         AnswerOfAcoustics(record, point)
+                             .cwiseProduct(LineFactors(record.edge_s, point.acoustic_lines)));
+  out.flame = Tapered(record.heat_release -
+                      point.path.At(record.edge_s)
+                          .cwiseProduct(record.flame * point.flame)
+                          .cwiseProduct(LineFactors(record.edge_s, point.flame_lines)));
+  SetNoise(record, structure, point, &out);
+  return out;
+}
+
+void SetNoise(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
+              LoopResiduals* residuals) {
+  residuals->spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
+  for (std::size_t j = 0; j < structure.noise.size(); ++j) {
+    residuals->spectra.col(static_cast<Eigen::Index>(j)) =
+        LoopNoiseSpectrum(record.position, point.noise[j]);
+  }
+  residuals->background_ratio = point.background_ratio;
+}
+
+LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
+                              const LoopPoint& point) {
+  LoopDerivatives out;
+  out.r = TransferColumns(structure, point, record.s);
+  Eigen::MatrixXcd of_pressure =
+      PressureColumns(structure, point, record.edge_s, record.heat_release);
+  if (structure.acoustic_lines > 0) {
+    of_pressure = LineFactors(record.edge_s, point.acoustic_lines).asDiagonal() * of_pressure;
+    of_pressure.rightCols(structure.AcousticLines()) =
+        LineShapes(record.edge_s, structure.acoustic_lines)
+            .Columns(AnswerOfAcoustics(record, point));
+  }
+  out.acoustic = -TaperedColumns(of_pressure);
+  const Eigen::Index flame = point.flame.size();
+  const Eigen::Index delays = structure.Delays();
+  const Eigen::Index of_flame = delays + flame + structure.FlameLines();
+  const Eigen::VectorXcd path = point.path.At(record.s).cwiseProduct(record.input);
+  out.f.setZero(record.bins(), of_flame);
+  const Eigen::VectorXcd sloped = record.slopes.dot(point.flame) * path;
+  out.f.col(0) = sloped.cwiseProduct(ByLogTau(point.path, record.s));
+  if (delays > 1) out.f.col(1) = sloped.cwiseProduct(ByLogRho(point.path, record.s));
+  out.f.middleCols(delays, flame) = path * record.slopes.transpose();
+  const Eigen::VectorXcd factors = LineFactors(record.edge_s, point.flame_lines);
+  const Eigen::MatrixXcd delayed =
+      point.path.At(record.edge_s).cwiseProduct(factors).asDiagonal() * record.flame;
+  const Eigen::VectorXcd answer = delayed * point.flame;
+  out.flame.resize(record.bins(), of_flame);
+  out.flame.col(0) = -Tapered(answer.cwiseProduct(ByLogTau(point.path, record.edge_s)));
+  if (delays > 1) {
+    out.flame.col(1) = -Tapered(answer.cwiseProduct(ByLogRho(point.path, record.edge_s)));
+  }
+  out.flame.middleCols(delays, flame) = -TaperedColumns(delayed);
+  out.flame.rightCols(structure.FlameLines()) = -TaperedColumns(
+      LineShapes(record.edge_s, structure.flame_lines).Columns(answer.cwiseQuotient(factors)));
+  for (const NoiseTerm& term : structure.noise) {
+    out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));
+  }
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,24 @@
+// What an operating point's loop leaves of its record, with the slopes by all parameters
+// (loop_point.h).
+#ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_RESIDUALS_H_
+#define HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_RESIDUALS_H_
+
+#include "estimation/record_fit/loop/loop_point.h"
+#include "estimation/record_fit/spectra/record_spectra.h"
+#include "estimation/record_fit/whittle/whittle.h"
+
+namespace howl {
+
+// R, F and the lines' factors on the record's bins, without the rest of the residuals.
+LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point);
+LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
+                          const LoopPoint& point);
+// The noise of `point` in the place of what the residuals have.
+void SetNoise(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
+              LoopResiduals* residuals);
+LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
+                              const LoopPoint& point);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_RESIDUALS_H_
