@@ -40,7 +40,8 @@ class Loop {
       s += step;
       if (!std::isfinite(std::abs(s))) return std::nullopt;
       if (std::abs(step) > kConverged) continue;
-      if (std::abs(std::log2(s.imag())) > 0.5) return std::nullopt;
+      // No logarithm of a root on the real axis is within it.
+      if (!(std::abs(std::log2(s.imag())) <= 0.5)) return std::nullopt;
       return Root{s, std::abs(At(C(0.0, s.imag())))};
     }
     return std::nullopt;
