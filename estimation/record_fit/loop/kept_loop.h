@@ -54,8 +54,8 @@ class KeptLoop {
 
   const RecordSpectra& record_;
   const PointStructure& structure_;
-  LineShapes lines_;       // before the taper
-  LineShapes band_lines_;  // on the record's bins
+  LineShapes lines_;                            // before the taper
+  LineShapes band_lines_;                       // on the record's bins
   Eigen::MatrixXd flame_real_, flame_imag_;     // b_k
   std::vector<Eigen::MatrixXd> noise_columns_;  // one a source
   Eigen::VectorXd parameters_;

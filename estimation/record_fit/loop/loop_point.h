@@ -19,8 +19,8 @@
 //   E_A: R Q becomes (1 + sum_h W_h) R Q,   E_B: the flame's answer becomes (1 + sum_h W_h) of it
 //   W_h = 2 r (s Re d_h - h Im d_h) / (s^2 + 2 r s + h^2),   which is d_h at s = j h
 //
-// r, kLineReach, is half its width. W_h is a filter that looks back only, as the loop itself does. It
-// is an error of the mean alone: R and F, which small signals see, and with them the noise's
+// r, kLineReach, is half its width. W_h is a filter that looks back only, as the loop itself does.
+// It is an error of the mean alone: R and F, which small signals see, and with them the noise's
 // directions, are without it; the Jacobian is of the residuals, and has it (return_difference.h).
 //
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g

@@ -13,8 +13,8 @@ namespace howl {
 // Calls `take` with the index of each parameter that moves mode k, dR and dT by it at s, T being
 // what the record's ends leave.
 template <typename Take>
-void ForEachSlope(const PointStructure& structure, const LoopPoint& point, Eigen::Index k, std::complex<double> s,
-                  const Take& take) {
+void ForEachSlope(const PointStructure& structure, const LoopPoint& point, Eigen::Index k,
+                  std::complex<double> s, const Take& take) {
   using C = std::complex<double>;
   const LoopMode& mode = point.modes[static_cast<std::size_t>(k)];
   const Eigen::Index dampings = structure.Frequencies();

@@ -48,8 +48,8 @@ inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std:
   const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
   const PointPrior prior = PriorOf(structure, spectra);
   IdentifiedLoop out;
-  // As one point by itself is fitted (records_fit.h): from starts, then at its most likely delay and
-  // places of modes.
+  // As one point by itself is fitted (records_fit.h): from starts, then at its most likely delay
+  // and places of modes.
   out.fit = FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, starts, 1));
   out.fit = BestByDelay(spectra, structure, prior, std::move(out.fit));
   out.fit = BestByModes(spectra, structure, prior, std::move(out.fit));
