@@ -39,10 +39,12 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
 std::string OnsetText(const RecordSolution& solution, const std::string& operating_parameter) {
   const Onset& onset = solution.onset;
   if (!onset.at.available) {
-    return solution.fitted.size() == 2
-               ? "where small oscillations begin to grow, two points cannot tell: nothing shows "
-                 "whether\n  their loop gains lie on a straight line\n"
-               : "";
+    if (solution.fitted.size() != 2) return "";
+    return Wrapped(
+               "where small oscillations begin to grow, two points cannot tell: nothing shows "
+               "whether their loop gains lie on a straight line",
+               2) +
+           "\n";
   }
   if (!std::isfinite(onset.frequency_hz.value)) {
     return "where small oscillations begin to grow, a straight line through these loop gains "

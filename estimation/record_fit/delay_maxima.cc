@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t kDelays = 8;
 constexpr double kSame = 0.25;  // radians of the cycle: a quarter of a period at the band's end
-// To within a nat or so of the maximum, which tells maxima apart.
-constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
 constexpr int kMostScans = 3;
 
 // The maxima of different delays, that of `parameters` with them, the most likely first.

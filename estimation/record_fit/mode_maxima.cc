@@ -9,15 +9,13 @@
 namespace howl {
 namespace {
 
-// To within a nat or so of the maximum, which tells maxima apart.
-constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
 constexpr int kMostScans = 4;
 
 // Parameters with one of the modes elsewhere.
 std::vector<Eigen::VectorXd> Elsewhere(const RecordSpectra& record, const PointStructure& structure,
-                                       const PointPrior& prior, const Eigen::VectorXd& parameters) {
+                                       const PointPrior& prior, const PoleStarts& starts,
+                                       const Eigen::VectorXd& parameters) {
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  const PoleStarts starts(record, structure);
   std::vector<StartPole> here;
   for (const LoopMode& mode : point.modes) here.push_back({mode.omega, mode.xi});
   std::vector<Eigen::VectorXd> out;
@@ -38,9 +36,11 @@ std::vector<Eigen::VectorXd> Elsewhere(const RecordSpectra& record, const PointS
 PointFit BestByModes(const RecordSpectra& record, const PointStructure& structure,
                      const PointPrior& prior, PointFit fit) {
   if (structure.ratio) return fit;
+  const PoleStarts starts(record, structure);
   for (int scan = 0; scan < kMostScans; ++scan) {
     const double before = fit.log_posterior;
-    for (const Eigen::VectorXd& start : Elsewhere(record, structure, prior, fit.parameters)) {
+    for (const Eigen::VectorXd& start :
+         Elsewhere(record, structure, prior, starts, fit.parameters)) {
       PointFit other = FitPoint(record, structure, prior, start, kToTheMaximum);
       if (other.log_posterior > fit.log_posterior) fit = std::move(other);
     }

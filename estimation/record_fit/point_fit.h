@@ -22,6 +22,9 @@ struct PointFitOptions {
   double converged = 1e-3;  // nats that the next step would gain
 };
 
+// To within a nat or so of the maximum, which tells maxima apart.
+inline constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
+
 struct PointFit {
   Eigen::VectorXd parameters;
   double log_likelihood = 0.0;

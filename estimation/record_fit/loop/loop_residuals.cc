@@ -94,18 +94,13 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
                       point.path.At(record.edge_s)
                           .cwiseProduct(record.flame * point.flame)
                           .cwiseProduct(LineFactors(record.edge_s, point.flame_lines)));
-  SetNoise(record, structure, point, &out);
-  return out;
-}
-
-void SetNoise(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
-              LoopResiduals* residuals) {
-  residuals->spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
+  out.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
   for (std::size_t j = 0; j < structure.noise.size(); ++j) {
-    residuals->spectra.col(static_cast<Eigen::Index>(j)) =
+    out.spectra.col(static_cast<Eigen::Index>(j)) =
         LoopNoiseSpectrum(record.position, point.noise[j]);
   }
-  residuals->background_ratio = point.background_ratio;
+  out.background_ratio = point.background_ratio;
+  return out;
 }
 
 LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,

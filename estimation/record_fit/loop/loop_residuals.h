@@ -13,9 +13,6 @@ namespace howl {
 LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point);
 LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
                           const LoopPoint& point);
-// The noise of `point` in the place of what the residuals have.
-void SetNoise(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
-              LoopResiduals* residuals);
 LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
                               const LoopPoint& point);
 

@@ -66,8 +66,9 @@ double AddBandWeights(const RecordSpectra& record, const LoopResiduals& at, doub
     const C loop = Times(at.r[i], at.f[i]);
     const C over =
         -2.0 * (1.0 - of_beside) * record.share[i] * Reciprocal(1.0 - Times(loop, factor));
-    weights->r[i] += Times(Times(over, factor), at.f[i]);
-    weights->f[i] += Times(Times(over, factor), at.r[i]);
+    const C by_transfers = Times(over, factor);
+    weights->r[i] += Times(by_transfers, at.f[i]);
+    weights->f[i] += Times(by_transfers, at.r[i]);
     if (at.line_factors.size() > 0) weights->line_factors[i] = Times(over, loop);
   }
   return of_beside;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 
+#include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/point_likelihood.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
@@ -52,6 +53,16 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
     for (Eigen::Index h = 0; h < point.flame_lines.size(); ++h) point.flame_lines[h] = C(-0.3, 0.1);
     const Eigen::VectorXd at = ToParameters(structure, point);
     const Eigen::VectorXd gradient = PointLikelihood(spectra, structure).Gradient(at);
+    // Without the determinant, by the matrices of derivatives that an information needs.
+    const Eigen::VectorXd of_whittle =
+        WhittleScore(structure.noise, spectra.share, ResidualsOf(spectra, structure, point),
+                     DerivativesOf(spectra, structure, point))
+            .gradient;
+    const auto whittle = [&](const Eigen::VectorXd& parameters) {
+      return WhittleLogLikelihood(
+          structure.noise, spectra.share,
+          ResidualsOf(spectra, structure, ToPoint(structure, spectra.flame.cols(), parameters)));
+    };
     const double scale = gradient.cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < at.size(); ++i) {
       constexpr double kStep = 1e-5;
@@ -63,6 +74,9 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
           (LogLikelihood(spectra, structure, above) - LogLikelihood(spectra, structure, below)) /
           (2.0 * kStep);
       EXPECT_NEAR(gradient[i], difference, 1e-6 * scale + 1e-4 * std::abs(difference))
+          << "parameter " << i << " of " << at.size();
+      const double of_whittle_alone = (whittle(above) - whittle(below)) / (2.0 * kStep);
+      EXPECT_NEAR(of_whittle[i], of_whittle_alone, 1e-6 * scale + 1e-4 * std::abs(of_whittle_alone))
           << "parameter " << i << " of " << at.size();
     }
   }
