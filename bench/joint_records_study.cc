@@ -22,15 +22,15 @@
 #include <vector>
 
 #include "bench/load_rig.h"
+#include "bench/loop_base.h"
 #include "bench/record_structures.h"
-#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/held_out/common_ceiling.h"
+#include "diagnosis/held_out/octave_gaps.h"
 #include "diagnosis/held_out/places_left.h"
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "estimation/joint_records/fitted_loop.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/records_fit.h"
-#include "io/config/reading/config_reading.h"
 
 namespace howl {
 namespace {
@@ -83,7 +83,12 @@ void PrintPoint(const std::string& name, const PointStructure& structure,
   std::printf(" | tau %.3f ms +-%.1f%%",
               1e3 * point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz),
               half(structure.Delay()));
-  if (structure.Delays() > 1) std::printf(" rho %.2f", point.path.rho);
+  if (structure.HasSpread()) std::printf(" rho %.2f", point.path.rho);
+  if (structure.second_path) {
+    std::printf(" share %.2f+-%.2f later %.3f ms", point.path.second->share,
+                0.01 * half(structure.SecondPath()),
+                1e3 * point.path.second->lambda / (2.0 * std::numbers::pi * record.scale.cycle_hz));
+  }
   for (Eigen::Index h = 0; h < point.acoustic_lines.size(); ++h) {
     std::printf("%s %.2f@%.0f", h ? "" : " | d", std::abs(point.acoustic_lines[h]),
                 180.0 / std::numbers::pi * std::arg(point.acoustic_lines[h]));
@@ -96,17 +101,37 @@ void PrintPoint(const std::string& name, const PointStructure& structure,
   std::printf("%s\n", fit.converged ? "" : " (not converged)");
 }
 
-void PrintTable(const std::vector<std::string>& names, const std::vector<Row>& rows) {
+// A row a point: p from q, octave after octave, then q from p; gaps, with shares of 2 % and more.
+void PrintOctaves(const std::vector<OctaveGap>& gaps) {
+  std::string point;
+  LoopBlock block = LoopBlock::kAcoustics;
+  for (const OctaveGap& gap : gaps) {
+    if (gap.experiment != point || gap.block != block) {
+      std::printf("\n%-5s %s", gap.experiment.c_str(), LoopBlockName(gap.block).data());
+      point = gap.experiment;
+      block = gap.block;
+    }
+    std::printf(" | %.0f..%.0f %.2f", gap.low_hz, gap.high_hz, gap.gap);
+    if (std::abs(gap.share) >= 0.02) std::printf(" (%.0f %%)", 100.0 * gap.share);
+  }
+  std::printf("\n");
+}
+
+void PrintTable(const LoopRecords& records, const std::vector<double>& cycle_hz,
+                const std::vector<Row>& rows) {
   CommonCeiling ceiling;
   for (const Row& row : rows) ceiling.Lower(row.score);
   const Row* best = &rows[0];
-  std::printf("| structure | flame's input | nats | gap |\n|---|---|---|---|\n");
+  std::printf("| structure | flame's input | nats | gap | floor |\n|---|---|---|---|---|\n");
   for (const Row& row : rows) {
-    std::printf("| %s | %s | %.0f | %.3f |\n", row.structure.c_str(), FlameInputName(row.input),
-                row.nats, ceiling.Gap(row.score));
+    std::printf("| %s | %s | %.0f | %.3f | %.3f |\n", row.structure.c_str(),
+                FlameInputName(row.input), row.nats, ceiling.Gap(row.score),
+                ceiling.Against(row.score).Floor());
     if (row.nats > best->nats) best = &row;
   }
-  for (const Place& place : PlacesLeft(names, ceiling.Against(best->score))) {
+  const HeldOutScore left = ceiling.Against(best->score);
+  PrintOctaves(GapsByOctave(records.names(), cycle_hz, left));
+  for (const Place& place : PlacesLeft(records.names(), left)) {
     std::printf("left: %s, %.0f to %.0f Hz, share %.2f at", LoopBlockName(place.block).data(),
                 place.low_hz, place.high_hz, place.share);
     for (const std::string& name : place.experiments) std::printf(" %s", name.c_str());
@@ -117,11 +142,7 @@ void PrintTable(const std::vector<std::string>& names, const std::vector<Row>& r
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
-  const std::vector<CutRecord> cuts = MakeCutRecords(rig);
-  std::vector<LoopRecord> loops;
-  for (std::size_t e = 0; e < rig.size(); ++e) {
-    loops.push_back({rig[e].name, rig[e].phi, cuts[e].at.cycle_frequency_hz, rig[e].record});
-  }
+  const std::vector<LoopRecord> loops = LoopRecordsOf(rig);
   const LoopRecords records(loops, 0);
   std::vector<Row> rows;
   std::vector<double> first;
@@ -158,7 +179,9 @@ int Run(int argc, char** argv) {
       poorer = std::move(fit.fit);
     }
   }
-  PrintTable(records.names(), rows);
+  std::vector<double> cycle_hz;
+  for (const LoopRecord& loop : loops) cycle_hz.push_back(loop.cycle_hz);
+  PrintTable(records, cycle_hz, rows);
   return 0;
 }
 

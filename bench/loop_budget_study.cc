@@ -10,25 +10,11 @@
 #include <vector>
 
 #include "bench/load_rig.h"
-#include "diagnosis/cuts/make_cut_records.h"
+#include "bench/loop_base.h"
 #include "diagnosis/loop_budget/loop_budget.h"
-#include "estimation/joint_records/record_loop_spec.h"
-#include "io/config/reading/config_reading.h"
 
 namespace howl {
 namespace {
-
-LoopForm BaseOf(const Config& config) {
-  RecordLoopSpec spec;
-  spec.ratio = 3.0;
-  spec.own_damping = false;
-  spec.complex_residues = false;
-  if (config.record_loop) spec = *config.record_loop;
-  LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
-  out.structure.noise = LeastNoise();
-  out.structure.acoustic_lines = out.structure.flame_lines = 0;
-  return out;
-}
 
 void PrintPlaces(const Budget& budget) {
   for (const Place& place : budget.left) {
@@ -43,15 +29,10 @@ int Run(int argc, char** argv) {
   const auto begun = std::chrono::steady_clock::now();
   const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
-  const std::vector<CutRecord> cuts = MakeCutRecords(rig);
-  std::vector<LoopRecord> records;
-  for (std::size_t e = 0; e < rig.size(); ++e) {
-    records.push_back({rig[e].name, rig[e].phi, cuts[e].at.cycle_frequency_hz, rig[e].record});
-  }
-  const LoopDiagnosis found = DiagnoseLoops(records, BaseOf(config), {});
+  const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(rig), LoopBaseOf(config), {});
   const Budget& budget = *found.diagnosis.budget;
-  std::printf("gap %.3f, left %.3f: %.2f of it\n", budget.gap_before, budget.gap_left,
-              budget.gap_left / budget.gap_before);
+  std::printf("gap %.3f, left %.3f: %.2f of it; floor %.3f\n", budget.gap_before, budget.gap_left,
+              budget.gap_left / budget.gap_before, budget.floor);
   for (const BudgetEntry& entry : budget.entries) {
     std::printf(
         "%-24s gap %.3f to %.3f  lost without: %8.1f nats, gap %.3f, halves %.0f %.0f, "

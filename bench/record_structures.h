@@ -50,6 +50,8 @@ inline std::vector<NamedStructure> RecordStructures() {
   out.push_back({"acoustics' lines", loop});
   loop.delay_spread = DelaySpread::kGamma;
   out.push_back({"spread delays", loop});
+  loop.second_path = true;
+  out.push_back({"two paths", loop});
   loop.modes = 3;
   out.push_back({"three modes", loop});
   loop.modes = 4;

@@ -6,38 +6,15 @@
 // half in time, the rig the second; neighbours: every other operating point is the reference.
 #include <cstdio>
 #include <cstring>
-#include <functional>
 #include <string>
 
+#include "bench/known_effects.h"
 #include "bench/load_rig.h"
 #include "bench/measured_rig.h"
 #include "io/config/reading/config_reading.h"
 
 namespace howl {
 namespace {
-
-struct Known {
-  std::string effect;
-  std::string strength;
-  std::function<void(MeasuredRig*)> put;
-};
-
-std::vector<Known> KnownEffects() {
-  return {
-      {"none", "", [](MeasuredRig*) {}},
-      {"q_sensor_lowpass", "300 Hz", [](MeasuredRig* rig) { LowPassQ(rig, 300.0); }},
-      {"q_sensor_lowpass", "1000 Hz", [](MeasuredRig* rig) { LowPassQ(rig, 1000.0); }},
-      {"channel_skew", "0.6 ms", [](MeasuredRig* rig) { SkewQ(rig, 6e-4); }},
-      {"channel_skew", "0.2 ms", [](MeasuredRig* rig) { SkewQ(rig, 2e-4); }},
-      {"p_clipping", "0.7", [](MeasuredRig* rig) { ClipSignal(rig, Channel::kPressure, 0.7); }},
-      {"p_clipping", "0.9", [](MeasuredRig* rig) { ClipSignal(rig, Channel::kPressure, 0.9); }},
-      {"q_clipping", "0.7", [](MeasuredRig* rig) { ClipSignal(rig, Channel::kHeatRelease, 0.7); }},
-      {"q_clipping", "0.9", [](MeasuredRig* rig) { ClipSignal(rig, Channel::kHeatRelease, 0.9); }},
-      {"mains_hum", "0.10", [](MeasuredRig* rig) { HumInQ(rig, 0.10); }},
-      {"mains_hum", "0.03", [](MeasuredRig* rig) { HumInQ(rig, 0.03); }},
-      {"crosstalk_p_to_q", "0.30", [](MeasuredRig* rig) { CrosstalkToQ(rig, 0.30); }},
-      {"crosstalk_p_to_q", "0.10", [](MeasuredRig* rig) { CrosstalkToQ(rig, 0.10); }}};
-}
 
 // Those in a cycle: the amplitude of p is above a fifth of the largest.
 MeasuredRig Cycling(const MeasuredRig& all) {
@@ -68,7 +45,7 @@ void Study(const MeasuredRig& all, const std::string& mode, const std::string& o
   }
   std::printf("%s: reference of %zu, rig of %zu operating points\n", mode.c_str(), reference.size(),
               rig.size());
-  for (const Known& known : KnownEffects()) {
+  for (const KnownEffect& known : KnownEffects()) {
     if (!only.empty() && known.effect != only) continue;
     MeasuredRig touched = rig;
     known.put(&touched);

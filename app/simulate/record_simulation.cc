@@ -44,9 +44,15 @@ constexpr double kBytesPerStep = 100.0;
 
 // Its flame and noise are those that the records show: what states others must not be passed over.
 void RequireTaken(const Config& config) {
-  if (config.record_loop && config.record_loop->delay_spread != DelaySpread::kNone) {
-    throw UserError(config.source.string(), config.model_line, "model.delay_spread",
-                    "is not taken by simulate, which has one delay, expected none");
+  if (config.record_loop) {
+    const RecordLoopSpec& loop = *config.record_loop;
+    const auto fail = [&](const char* key, const char* expected) {
+      throw UserError(
+          config.source.string(), config.model_line, key,
+          std::string("is not taken by simulate, which has one delay, expected ") + expected);
+    };
+    if (loop.delay_spread != DelaySpread::kNone) fail("model.delay_spread", "none");
+    if (loop.second_path) fail("model.delay_paths", "1");
   }
   const LocatedMember* const simulate = config.tree.Find("simulate");
   if (simulate == nullptr) return;

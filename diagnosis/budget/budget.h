@@ -7,8 +7,8 @@
 // the odds against any of so many items, and foretells what was left out better (held_out.h). An
 // item that no longer pays once the others are there is dropped.
 //
-// The gap is that of held_out.h; all structures are measured against the least ceiling that any of
-// them gives (prediction_gap.h).
+// The gap is that of held_out.h; all structures are measured against the ceiling of that which
+// leaves least (prediction_gap.h).
 #ifndef HOWL_DIAGNOSIS_BUDGET_BUDGET_H_
 #define HOWL_DIAGNOSIS_BUDGET_BUDGET_H_
 
@@ -20,6 +20,7 @@
 
 #include "diagnosis/fit/estimated_parameter.h"
 #include "diagnosis/fit/fit_memory.h"
+#include "diagnosis/held_out/octave_gaps.h"
 #include "diagnosis/records/cut_record.h"
 
 namespace howl {
@@ -42,7 +43,9 @@ struct Budget {
   std::vector<BudgetEntry> entries;
   double gap_before = 0.0;
   double gap_left = 0.0;
+  double floor = 0.0;       // of a loop of records: of the gap that is left (held_out_score.h)
   std::vector<Place> left;  // where: acoustics for p given q, flame for q given p
+  std::vector<OctaveGap> left_by_octave;  // of a loop of records alone
   // Relative errors that the model still needs, of p given q and of q given p.
   double acoustic_error = 0.0;
   double flame_error = 0.0;

@@ -58,7 +58,26 @@ void AddBands(const PredictedSignals& signals, const Eigen::VectorXcd& error,
   }
 }
 
+void AddSpreadOf(const Eigen::VectorXcd& change, const Eigen::VectorXd& own_power,
+                 const PredictedSignals& signals, double weight,
+                 std::vector<BandErrors>::iterator band) {
+  const Eigen::VectorXd square =
+      (signals.share.array() > 0.0).select(change.cwiseAbs2().cwiseQuotient(own_power), 0.0);
+  const Eigen::Index width = Bins(signals, kWidth);
+  for (Eigen::Index from = 0; from + width <= signals.share.size(); from += width) {
+    (band++)->spread += weight * square.segment(from, width).sum();
+  }
+}
+
 }  // namespace
+
+void AddSpread(const PredictedSignals& signals, const PredictedSignals& moved, double weight,
+               std::vector<BandErrors>* bands) {
+  AddSpreadOf(moved.pressure_error - signals.pressure_error, signals.pressure_power, signals,
+              weight, bands->begin());
+  AddSpreadOf(moved.heat_release_error - signals.heat_release_error, signals.heat_release_power,
+              signals, weight, bands->begin() + static_cast<std::ptrdiff_t>(bands->size() / 2));
+}
 
 void SetPredictionErrors(const Eigen::Vector2cd& residuals, const Eigen::Matrix2cd& w,
                          std::complex<double> r, std::complex<double> f, Eigen::Index bin,

@@ -2,7 +2,8 @@
 //
 // What a free smooth transfer from the other signal takes off a prediction's error could have been
 // predicted. It is estimated in the neighbourhood of each bin, the bin itself left out, and what
-// then remains is the ceiling: of several structures' the least counts for all (common_ceiling.h).
+// then remains is the ceiling, of which structures that are compared have one in common
+// (common_ceiling.h).
 #ifndef HOWL_DIAGNOSIS_HELD_OUT_BAND_ERRORS_H_
 #define HOWL_DIAGNOSIS_HELD_OUT_BAND_ERRORS_H_
 
@@ -18,6 +19,7 @@ struct BandErrors {
   double high_hz = 0.0;
   double error = 0.0;
   double ceiling = 0.0;
+  double spread = 0.0;  // what errors of the structure's parameters add to `error`, on average
 };
 
 // One record's bins, a row each.
@@ -41,8 +43,12 @@ void SetPredictionErrors(const Eigen::Vector2cd& residuals, const Eigen::Matrix2
                          std::complex<double> r, std::complex<double> f, Eigen::Index bin,
                          PredictedSignals* signals);
 
-// The bands of p, then those of q.
+// The bands of p, then those of q. Their spread is nothing yet.
 std::vector<BandErrors> ErrorsOverBands(const PredictedSignals& signals);
+
+// Adds |moved - signals|^2 / S of the predictions' errors, times `weight`, to the bands' spread.
+void AddSpread(const PredictedSignals& signals, const PredictedSignals& moved, double weight,
+               std::vector<BandErrors>* bands);
 
 }  // namespace howl
 

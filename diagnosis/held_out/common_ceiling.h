@@ -1,9 +1,11 @@
-// Scores of several structures against one ceiling: in each band of each record's halves the least
-// that any of them gives.
+// Scores of several structures against one ceiling. Of each operating point and signal it is that
+// of the structure whose free transfers leave least over all bands together: the least of each band
+// by itself would be the luckiest of so many estimates, and a gap where there is none.
 #ifndef HOWL_DIAGNOSIS_HELD_OUT_COMMON_CEILING_H_
 #define HOWL_DIAGNOSIS_HELD_OUT_COMMON_CEILING_H_
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "diagnosis/held_out/held_out_score.h"
@@ -18,7 +20,14 @@ class CommonCeiling {
   double Gap(const HeldOutScore& score) const;
 
  private:
-  std::vector<std::array<std::vector<double>, 2>> least_;  // in the order of a score's bands
+  // Of one point and signal: the ceilings of its bands in either half, and the mean of their
+  // logarithms.
+  struct Least {
+    std::array<std::vector<double>, 2> ceilings;
+    double mean_log = std::numeric_limits<double>::infinity();
+  };
+
+  std::vector<std::array<Least, 2>> least_;
 };
 
 }  // namespace howl

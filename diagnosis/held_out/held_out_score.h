@@ -4,6 +4,10 @@
 //   gap^2 = mean over signals and bands of error / ceiling - 1
 //
 // Negative where predictions are better than the ceiling, which a free transfer's own error allows.
+// The floor is the gap of a right structure, whose parameters have the errors that half a record
+// leaves them:
+//
+//   floor^2 = mean over signals and bands of spread / ceiling
 #ifndef HOWL_DIAGNOSIS_HELD_OUT_HELD_OUT_SCORE_H_
 #define HOWL_DIAGNOSIS_HELD_OUT_HELD_OUT_SCORE_H_
 
@@ -23,6 +27,7 @@ struct HeldOutScore {
   double Nats() const { return Nats(0) + Nats(1); }
   double Gap(std::size_t half) const;
   double Gap() const;
+  double Floor() const;
 };
 
 }  // namespace howl

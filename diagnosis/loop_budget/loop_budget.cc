@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "diagnosis/held_out/common_ceiling.h"
+#include "diagnosis/held_out/octave_gaps.h"
 #include "diagnosis/held_out/places_left.h"
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "diagnosis/loop_budget/loop_item_parameters.h"
@@ -27,14 +28,32 @@ std::size_t Better(const LoopFit& with, const LoopFit& without) {
   return out;
 }
 
-LinesLeft LinesOf(const LoopRecords& records, const LoopFit& best, const LoopFit& with) {
+// Of the errors of one cut: what they gain where they are added last, or lose where they go.
+LinesLeft LinesOf(const LoopRecords& records, const LoopFound& found, const LoopFit& with,
+                  int PointStructure::*lines) {
   const SharedUnits units(with.model.structure, records.Whole(with.model, 0), with.fit.reference);
-  return {with.Density() - best.Density(), with.fit.law.spread[units.errors().front().first],
-          Better(with, best)};
+  const ErrorGroup& group =
+      lines == &PointStructure::acoustic_lines ? units.errors().front() : units.errors().back();
+  const double size = with.fit.law.spread[group.first];
+  for (std::size_t i = 0; i < found.steps.size(); ++i) {
+    if (found.steps[i].item.lines != lines) continue;
+    return {found.best.Density() - found.without[i].Density(), size,
+            Better(found.best, found.without[i])};
+  }
+  return {with.Density() - found.best.Density(), size, Better(with, found.best)};
 }
 
-Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
-                const LoopBudgetOptions& options) {
+// Without errors at the cycle's lines, the best loop has at most this density.
+double DensityWithoutLines(const LoopFound& found) {
+  double out = found.best.Density();
+  for (std::size_t i = 0; i < found.steps.size(); ++i) {
+    if (found.steps[i].item.lines != nullptr) out = std::min(out, found.without[i].Density());
+  }
+  return out;
+}
+
+Budget BudgetOf(const LoopRecords& records, const std::vector<double>& cycle_hz,
+                const LoopFound& found, const LoopBudgetOptions& options) {
   const HeldOutScore base = ScoreHeldOut(records, found.base, "base/", options);
   const HeldOutScore best = ScoreHeldOut(records, found.best, "best/", options);
   std::vector<HeldOutScore> after;
@@ -73,7 +92,10 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     if (step.item.kind == LoopItemKind::kMode) ++mode;
     out.entries.push_back(std::move(entry));
   }
-  if (out.gap_left > 0.0) out.left = PlacesLeft(records.names(), ceiling.Against(best));
+  const HeldOutScore left = ceiling.Against(best);
+  if (out.gap_left > 0.0) out.left = PlacesLeft(records.names(), left);
+  out.floor = left.Floor();
+  out.left_by_octave = GapsByOctave(records.names(), cycle_hz, left);
   return out;
 }
 
@@ -85,15 +107,17 @@ std::string Joined(const Budget& budget) {
 
 void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
-  const double lines = std::max(out->acoustics.nats, out->flame.nats);
-  const bool unknown = lines > std::log(kOddsOfUnknown);
-  const bool any = !found.steps.empty();
+  const double gained = std::max(out->acoustics.nats, out->flame.nats);
+  const bool unknown = gained > std::log(kOddsOfUnknown);
+  const bool any = std::ranges::any_of(
+      found.steps, [](const LoopStep& step) { return step.item.lines == nullptr; });
   diagnosis.kind = unknown ? VerdictKind::kUnknown
                    : any   ? VerdictKind::kEffect
                            : VerdictKind::kNone;
   if (diagnosis.kind == VerdictKind::kEffect) diagnosis.effect = Joined(*diagnosis.budget);
-  const double best = found.best.Density();
-  const double with_lines = best + lines;
+  const double best = DensityWithoutLines(found);
+  const bool lines_stay = best < found.best.Density();
+  const double with_lines = lines_stay ? found.best.Density() : best + gained;
   const double base = found.base.Density();
   const double most = std::max({with_lines, best, base});
   const std::array<double, 3> odds = {std::exp(with_lines - most),
@@ -136,17 +160,20 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
                             const LoopBudgetOptions& options) {
   const LoopRecords records(all, options.threads);
   const LoopFound found = SearchLoopBudget(records, base, options);
+  std::vector<double> cycle_hz;
+  for (const LoopRecord& each : all) cycle_hz.push_back(each.cycle_hz);
   LoopDiagnosis out;
   out.base = base;
   out.best = found.best.model;
-  out.acoustics = LinesOf(records, found.best, found.with_acoustic_lines);
-  out.flame = LinesOf(records, found.best, found.with_flame_lines);
+  out.acoustics =
+      LinesOf(records, found, found.with_acoustic_lines, &PointStructure::acoustic_lines);
+  out.flame = LinesOf(records, found, found.with_flame_lines, &PointStructure::flame_lines);
   Diagnosis& diagnosis = out.diagnosis;
-  diagnosis.budget = BudgetOf(records, found, options);
+  diagnosis.budget = BudgetOf(records, cycle_hz, found, options);
   diagnosis.where = diagnosis.budget->left;
   diagnosis.gap_before = diagnosis.budget->gap_before;
   diagnosis.gap_after = diagnosis.budget->gap_left;
-  diagnosis.gap_floor = std::numeric_limits<double>::quiet_NaN();
+  diagnosis.gap_floor = diagnosis.budget->floor;
   diagnosis.budget->acoustic_error = out.acoustics.size;
   diagnosis.budget->flame_error = out.flame.size;
   TakeVerdict(found, &out);

@@ -2,10 +2,10 @@
 // freedoms the config's loop lacks, one after the other, how much each explains, and what is left.
 //
 // The verdict names all that was added, in that order; `none` where nothing pays. It is `unknown`
-// where free errors at the cycle's lines (loop_point.h), of the acoustics or of the flame, foretell
-// records better still, by more than chance: the best loop then is not the rig's. The probabilities
-// are those of the base, of the best loop, and of that with such errors, by the densities of what
-// was left out.
+// where free errors at the cycle's lines (loop_point.h), of the acoustics or of the flame, pay
+// where nothing else does: the best loop then is not the rig's. The probabilities are those of the
+// base, of the best loop without such errors, and of that with them, by the densities of what was
+// left out.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
 
@@ -17,9 +17,10 @@
 
 namespace howl {
 
-// Free errors of a cut of the best loop at the cycle's lines.
+// Free errors of a cut at the cycle's lines: what they gain beside the best loop, or what it loses
+// without them.
 struct LinesLeft {
-  double nats = 0.0;  // gained with them, of what was left out
+  double nats = 0.0;  // of what was left out
   double size = 0.0;  // relative: what the law of the points has (parameter_law.h)
   std::size_t experiments_better = 0;
 };

@@ -1,15 +1,20 @@
 #include "diagnosis/loop_budget/loop_held_out.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/unit_seed.h"
+#include "model/noise/random_stream.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
 
+constexpr int kDraws = 8;
+constexpr double kStep = 1e-3;           // of a draw
 constexpr Eigen::Index kPowerReach = 4;  // bins to either side, of smoothed powers
 
 // With what the modes hold at this record's ends: E_A is linear in it, so that one step is exact.
@@ -29,8 +34,8 @@ Eigen::VectorXd WithTransientsOf(const RecordSpectra& record, const PointStructu
   return parameters;
 }
 
-std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructure& structure,
-                                 const Eigen::VectorXd& parameters) {
+PredictedSignals SignalsOf(const RecordSpectra& record, const PointStructure& structure,
+                           const Eigen::VectorXd& parameters) {
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   const LoopResiduals residuals = ResidualsOf(record, structure, point);
   PredictedSignals signals;
@@ -49,7 +54,28 @@ std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructu
     SetPredictionErrors({residuals.acoustic[i], residuals.flame[i]}, w, residuals.r[i],
                         residuals.f[i], i, &signals);
   }
-  return ErrorsOverBands(signals);
+  return signals;
+}
+
+// The spread is that of parameters drawn from what the other half tells of them, to first order:
+// what moves a prediction but little is taken to move it in proportion.
+std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructure& structure,
+                                 const Eigen::VectorXd& at, const Eigen::MatrixXd& information,
+                                 std::uint64_t seed) {
+  const PredictedSignals signals = SignalsOf(record, structure, at);
+  std::vector<BandErrors> out = ErrorsOverBands(signals);
+  const Eigen::LLT<Eigen::MatrixXd> root(information);
+  RandomStream random(seed);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Eigen::VectorXd step(at.size());
+    for (double& each : step) each = random.Normal();
+    root.matrixU().solveInPlace(step);
+    // What this half holds at its ends is its own.
+    step.segment(structure.Transfer(), structure.Transients()).setZero();
+    AddSpread(signals, SignalsOf(record, structure, at + kStep * step),
+              1.0 / (kStep * kStep * kDraws), &out);
+  }
+  return out;
 }
 
 }  // namespace
@@ -76,7 +102,8 @@ HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const 
     const Eigen::VectorXd at = WithTransientsOf(here, structure, prior[e], of_other.parameters);
     out.nats[e][half] =
         LogLikelihood(here, structure, at) + records.LogJacobianOfHalf(fit.model, e, half);
-    out.errors[e][half] = ErrorsOf(here, structure, at);
+    out.errors[e][half] = ErrorsOf(here, structure, at, of_other.information,
+                                   UnitSeed(options.seed, "errors of parameters", i));
   });
   return out;
 }

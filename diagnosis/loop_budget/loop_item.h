@@ -3,15 +3,21 @@
 //   p_sensor_noise, q_sensor_noise   the sensor's noise is coloured (the base's is white)
 //   duct_noise                       a source in the duct that q does not show
 //   background_noise                 one that both channels show without the loop
+//   noise_shape                      spectra of sources have twice as many coefficients: peaks half
+//                                    an octave wide
 //   mode_detuning                    the modes' frequencies are free of the base's ratio
 //   own_damping                      each mode has its own
 //   complex_residues                 p is measured elsewhere than the flame is, or there is flow
 //   acoustic_mode                    one more mode; it may be added repeatedly
 //   delay_dispersion                 delays are spread, normally (flame_path.h)
 //   gamma_delays                     or as behind a chain of lags
+//   second_delay_path                a share of the flame answers later
 //   flame_input_pressure, _velocity  the flame answers to another signal than the base's
 //   ID of the catalogue              an instrument of q with one parameter, which all points share
 //                                    (loop_instrument.h)
+//   acoustic_line_errors, flame_line_errors
+//                                    free errors at the cycle's lines (loop_point.h): no cause, but
+//                                    what stands in its place where none is known
 //
 // Of the others each operating point has its own values, about a law that all of them tell
 // (parameter_law.h).
@@ -22,26 +28,28 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_instrument.h"
 #include "estimation/record_fit/loop/loop_point.h"
+#include "model/effects/effect.h"
 
 namespace howl {
 
-struct LoopForm {
-  PointStructure structure;
-  FlameInput flame_input = FlameInput::kPressureRate;
-  std::vector<LoopInstrument> instruments;
-};
+// Coefficients of a source's logarithm over the band's: as many as show peaks an octave wide of a
+// source that the loop shapes, and half an octave more of a sensor's.
+inline constexpr Eigen::Index kSourceCoefficients = 6;
+inline constexpr Eigen::Index kSensorCoefficients = 4;
 
 enum class LoopItemKind : std::uint8_t {
   kNoise,
+  kNoiseShape,
   kDetuning,
   kOwnDamping,
   kComplexResidues,
   kMode,
   kDelaySpread,
+  kSecondPath,
   kFlameInput,
-  kInstrument
+  kInstrument,
+  kLineErrors
 };
 
 struct LoopItem {
@@ -51,23 +59,15 @@ struct LoopItem {
   DelaySpread spread = DelaySpread::kNone;       // of kDelaySpread
   FlameInput input = FlameInput::kPressureRate;  // of kFlameInput
   EffectPointer instrument = nullptr;            // of kInstrument: one form of the effect
+  int PointStructure::*lines = nullptr;          // of kLineErrors
 };
-
-// The least noise that a rig has: combustion's, coloured, and white noise of both sensors.
-std::vector<NoiseTerm> LeastNoise();
 
 std::vector<std::string> LoopItemIds();
 // In keys of finished units (fit_units.h): forms of one effect are different items.
 std::string KeyOf(const LoopItem& item);
 
-// All that may be added to `model` now, of a search that began at `base`.
-std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);
-
-// An instrument comes at its null.
-LoopForm With(LoopForm model, const LoopItem& item);
-// `model` has the item, which `base` has not. Modes that were added need frequencies and dampings
-// of their own: without either they go as well.
-LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base);
+// Forms of an instrument are items of their own.
+const std::vector<LoopItem>& AllLoopItems();
 
 }  // namespace howl
 

@@ -57,6 +57,8 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
         return RelativeAmplitude(record, fit.model.structure, point, item.noise.source);
       });
       break;
+    case LoopItemKind::kNoiseShape:
+      break;
     case LoopItemKind::kDetuning:
       add("ratio", "", [](const RecordSpectra&, const LoopPoint& point) {
         return point.modes[1].omega / point.modes[0].omega;
@@ -80,9 +82,24 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
         return point.path.rho * point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz);
       });
       break;
+    case LoopItemKind::kSecondPath:
+      add("share", "",
+          [](const RecordSpectra&, const LoopPoint& point) { return point.path.second->share; });
+      add("extra_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
+        return point.path.second->lambda / (2.0 * std::numbers::pi * record.scale.cycle_hz);
+      });
+      break;
     case LoopItemKind::kFlameInput:
       add("tau_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
         return point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz);
+      });
+      break;
+    case LoopItemKind::kLineErrors:
+      add("rms", "", [&](const RecordSpectra&, const LoopPoint& point) {
+        const Eigen::VectorXcd& errors = item.lines == &PointStructure::acoustic_lines
+                                             ? point.acoustic_lines
+                                             : point.flame_lines;
+        return std::sqrt(errors.cwiseAbs2().mean());
       });
       break;
     case LoopItemKind::kInstrument:

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_item.h"
+#include "diagnosis/loop_budget/loop_form.h"
 #include "estimation/joint_records/records_fit.h"
 
 namespace howl {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -15,9 +17,15 @@ namespace {
 constexpr double kOdds = 20.0;  // that an item comes in by chance, to one
 constexpr double kOddsOfClass = 50.0;
 constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain most
-constexpr std::size_t kMostItems = 16;
-constexpr std::size_t kMostRefits = 3;
-constexpr double kRest = 3.0;  // nats: odds of 20 to 1
+constexpr std::size_t kMostItems = 24;
+
+// What comes only where nothing of an earlier one pays.
+enum class Stage : std::uint8_t { kNoise, kCauses, kLineErrors };
+
+Stage StageOf(const LoopItem& item) {
+  if (item.kind == LoopItemKind::kNoise) return Stage::kNoise;
+  return item.kind == LoopItemKind::kLineErrors ? Stage::kLineErrors : Stage::kCauses;
+}
 
 class Search {
  public:
@@ -28,9 +36,6 @@ class Search {
 
  private:
   LoopFit FitBase() const;
-  // Fitted anew from where it stands, as long as that finds better. Each further item's fit looks
-  // at other delays under the law anew: what it found by that alone would count as the item's.
-  LoopFit AtRest(LoopFit fit, const std::string& key) const;
   // No value where nothing pays any more.
   std::optional<LoopStep> Next(const LoopFit& from, std::size_t step) const;
   std::vector<LoopTrial> Try(const LoopFit& from, const std::vector<LoopItem>& items,
@@ -53,34 +58,23 @@ LoopFit Search::FitBase() const {
   return Scored(records_, base_, FitRecords(points, base_.structure, fit_options), fit_options);
 }
 
-LoopFit Search::AtRest(LoopFit fit, const std::string& key) const {
-  for (std::size_t i = 0; i < kMostRefits; ++i) {
-    const StartRows here = StartsWith(records_, fit, fit.model).rows;
-    LoopFit again =
-        FitLoopFrom(records_, fit.model, here, key + "again/" + std::to_string(i) + "/", options_);
-    const double gain = again.Density() - fit.Density();
-    VLOG(1) << key << "again: " << gain << " nats";
-    if (gain > 0.0) fit = std::move(again);
-    if (gain < kRest) break;
-  }
-  return fit;
-}
-
 std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) const {
   std::vector<LoopItem> items = LoopItems(from.model, base_);
   std::erase_if(items, [&](const LoopItem& item) {
     return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
   });
-  // Noise by itself comes first.
-  const auto last = std::stable_partition(items.begin(), items.end(), [](const LoopItem& item) {
-    return item.kind == LoopItemKind::kNoise;
-  });
-  const std::vector<LoopItem> noise(items.begin(), last);
   const std::string key = "step/" + std::to_string(step) + "/";
-  std::vector<LoopTrial> trials = Try(from, noise, key);
-  if (std::optional<LoopStep> of_noise = BestOf(trials, from, {}, key)) return of_noise;
-  for (LoopTrial& trial : Try(from, {last, items.end()}, key)) trials.push_back(std::move(trial));
-  return BestOf(std::move(trials), from, noise, key);
+  std::vector<LoopTrial> trials;
+  std::vector<LoopItem> tried;
+  for (const Stage stage : {Stage::kNoise, Stage::kCauses, Stage::kLineErrors}) {
+    std::vector<LoopItem> now;
+    std::ranges::copy_if(items, std::back_inserter(now),
+                         [&](const LoopItem& item) { return StageOf(item) == stage; });
+    for (LoopTrial& trial : Try(from, now, key)) trials.push_back(std::move(trial));
+    if (std::optional<LoopStep> found = BestOf(trials, from, tried, key)) return found;
+    tried.insert(tried.end(), now.begin(), now.end());
+  }
+  return std::nullopt;
 }
 
 std::vector<LoopTrial> Search::Try(const LoopFit& from, const std::vector<LoopItem>& items,
@@ -153,6 +147,7 @@ LoopFit Search::Without(const LoopFit& from, const std::vector<LoopStep>& steps,
 }
 
 LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const {
+  if (from.model.structure.*lines > 0) return from;
   LoopForm model = from.model;
   model.structure.*lines = kCycleLines;
   return FitLoopFrom(records_, model, StartsWith(records_, from, model).rows, key, options_);
@@ -160,12 +155,11 @@ LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const
 
 LoopFound Search::Run() const {
   LoopFound out;
-  out.base = AtRest(FitBase(), "base/");
+  out.base = FitBase();
   out.best = out.base;
   for (std::size_t step = 0; step < kMostItems; ++step) {
     std::optional<LoopStep> next = Next(out.best, step);
     if (!next) break;
-    next->after = AtRest(std::move(next->after), "step/" + std::to_string(step) + "/rest/");
     out.best = next->after;
     out.steps.push_back(std::move(*next));
   }

@@ -4,8 +4,9 @@
 // points give, summed (records_fit.h); of one point alone its evidence. An item comes in where it
 // raises the score by more than the odds against any of so many, and goes where the score without
 // it is no lower. Noise comes before all else, as long as any of it pays: what a poor noise leaves
-// over passes for effects. Errors at the cycle's lines come last: were they there from the
-// beginning, they would hide what the lines tell of the flame.
+// over passes for effects. Errors at the cycle's lines come where nothing else pays: were they
+// there from the beginning, they would hide what the lines tell of the flame. What pays beside them
+// then is looked for as before.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
 
@@ -28,7 +29,8 @@ struct LoopFound {
   LoopFit best;
   // Of each step, `best` without its item, all else fitted anew.
   std::vector<LoopFit> without;
-  // `best` with errors at the cycle's lines (loop_point.h), of acoustics or of flame.
+  // `best` with errors at the cycle's lines (loop_point.h), of acoustics or of flame; `best` itself
+  // where it has them.
   LoopFit with_acoustic_lines;
   LoopFit with_flame_lines;
 };

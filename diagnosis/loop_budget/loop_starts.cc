@@ -39,7 +39,7 @@ LoopStarts WithOtherInput(const LoopRecords& records, const LoopForm& form,
     for (std::size_t i = 0; i < kDelaysTried; ++i) {
       LoopPoint& point = points[e];
       point.path.tau = delays[std::min(i, delays.size() - 1)];
-      if (structure.Delays() > 1) point.path.rho = kLittleSpread;
+      if (structure.HasSpread()) point.path.rho = kLittleSpread;
       point.flame = FlameStart(record, point.path);
       out.rows[i].push_back(ToParameters(structure, point));
     }
@@ -80,8 +80,10 @@ LoopStarts StartsWithout(const LoopRecords& records, const LoopFit& from, const 
     }
     point.noise = NoiseIn(from.model.structure, point.noise, without.structure);
     if (without.structure.delay_spread == DelaySpread::kNone) {
-      point.path = {DelaySpread::kNone, point.path.tau};
+      point.path.spread = DelaySpread::kNone;
+      point.path.rho = 0.0;
     }
+    if (!without.structure.second_path) point.path.second.reset();
     point.acoustic_lines.conservativeResize(without.structure.acoustic_lines);
     point.flame_lines.conservativeResize(without.structure.flame_lines);
   }

@@ -21,7 +21,11 @@ std::vector<std::string> ParameterLabels(const PointStructure& structure, Eigen:
   add("d_real", structure.acoustic_lines);
   add("d_imaginary", structure.acoustic_lines);
   add("tau", 1);
-  add("rho", structure.Delays() - 1);
+  if (structure.HasSpread()) add("rho", 1);
+  if (structure.second_path) {
+    add("share", 1);
+    add("lambda", 1);
+  }
   add("c", flame);
   add("e_real", structure.flame_lines);
   add("e_imaginary", structure.flame_lines);

@@ -108,9 +108,16 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
   out.tau_s =
       FromLogarithm(std::log(point.path.tau), covariance(structure.Delay(), structure.Delay()),
                     1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz));
-  if (structure.Delays() > 1) {
+  if (structure.HasSpread()) {
     out.delay_spread = FromLogarithm(std::log(point.path.rho),
                                      covariance(structure.Delay() + 1, structure.Delay() + 1), 1.0);
+  }
+  if (structure.second_path) {
+    const Eigen::Index at = structure.SecondPath();
+    out.second_path = {
+        {point.path.second->share, std::sqrt(covariance(at, at))},
+        FromLogarithm(std::log(point.path.second->lambda), covariance(at + 1, at + 1),
+                      1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz))};
   }
   out.acoustic_lines = LinesOf(point.acoustic_lines, structure.AcousticLine(), covariance);
   out.flame_lines =

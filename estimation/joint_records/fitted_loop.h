@@ -48,6 +48,12 @@ struct OtherDelay {
   double nats_below = 0.0;
 };
 
+// A share of the flame that answers later (flame_path.h).
+struct FittedSecondPath {
+  Estimate share;
+  Estimate extra_s;
+};
+
 struct FittedLoop {
   double cycle_hz = 0.0;          // about which the band lies
   std::complex<double> transfer;  // R at the cycle
@@ -55,6 +61,7 @@ struct FittedLoop {
   Estimate tau_s;
   // Standard deviation of the delays over their mean; 0: not spread.
   Estimate delay_spread;
+  std::optional<FittedSecondPath> second_path;
   std::vector<FittedLineError> acoustic_lines;
   std::vector<FittedLineError> flame_lines;
   SmallSignalLoop small_signal;

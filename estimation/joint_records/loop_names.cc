@@ -39,7 +39,8 @@ std::string ModelLine(const PointStructure& structure, FlameInput input) {
   out << ", damping: " << (structure.own_damping ? "own" : "shared")
       << ", residue: " << (structure.complex_residues ? "complex" : "real")
       << ", flame_input: " << FlameInputName(input)
-      << ", delay_spread: " << DelaySpreadName(structure.delay_spread) << "}";
+      << ", delay_spread: " << DelaySpreadName(structure.delay_spread)
+      << ", delay_paths: " << (structure.second_path ? 2 : 1) << "}";
   return out.str();
 }
 

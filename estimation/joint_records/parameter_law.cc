@@ -22,9 +22,24 @@ constexpr double kTypicalError = 0.01;
 constexpr double kLargestError = 1.0;
 constexpr double kPriorDegrees = 1.0;  // of freedom, of s^2
 constexpr int kIterations = 300;
-constexpr double kConverged = 1e-4;  // of the largest change of ln s
+constexpr double kConverged = 1e-4;  // of the largest change of ln s, and of m and b over s
 
 }  // namespace
+
+Eigen::MatrixX2d ParameterLaw::MoveTo(const ParameterLaw& next) const {
+  Eigen::MatrixX2d out(mean.size(), 2);
+  out << (next.mean - mean).cwiseQuotient(next.spread),
+      (next.trend - trend).cwiseQuotient(next.spread);
+  return out;
+}
+
+ParameterLaw ParameterLaw::Toward(const ParameterLaw& next, const Eigen::VectorXd& share) const {
+  ParameterLaw out = next;
+  out.mean = mean + share.cwiseProduct(next.mean - mean);
+  out.trend = trend + share.cwiseProduct(next.trend - trend);
+  out.spread = spread.array() * (next.spread.array() / spread.array()).pow(share.array());
+  return out;
+}
 
 PointPrior ParameterLaw::PriorAt(double z) const { return {mean + z * trend, spread, {}}; }
 
@@ -102,6 +117,10 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
       const Eigen::Vector2d law_of_i =
           covariance * Eigen::Vector2d(sum[i] / square + base.mean[i] / (deviation * deviation),
                                        sum_z[i] / square);
+      // A spread that stands at its limit stands before mean and trend do.
+      change = std::max(
+          change, (law_of_i - Eigen::Vector2d(law.mean[i], law.trend[i])).cwiseAbs().maxCoeff() /
+                      law.spread[i]);
       law.mean[i] = law_of_i[0];
       law.trend[i] = law_of_i[1];
       law.covariance[static_cast<std::size_t>(i)] = covariance;
@@ -111,7 +130,9 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
         squares +=
             variance[e][i] + x.dot(covariance * x) + std::pow(value[e][i] - law_of_i.dot(x), 2);
       }
-      const double spread = std::sqrt(squares / (count + kPriorDegrees));
+      // Points of one rig differ by no more than rigs do: a parameter of which the records tell
+      // nothing would else widen its own prior from round to round.
+      const double spread = std::min(std::sqrt(squares / (count + kPriorDegrees)), deviation);
       change = std::max(change, std::abs(std::log(spread / law.spread[i])));
       law.spread[i] = spread;
     }

@@ -5,10 +5,12 @@
 //   its deviation
 //
 // for each parameter by itself. m and b have normal priors; s^2 is scaled inverse chi-squared with
-// one degree of freedom, so that what the points have in common may come near to being the same.
-// What a record tells is normal about its most likely parameters (Laplace). The posteriors of the
-// u_e, of (m, b) and of s^2 are taken as independent (mean-field variational Bayes, Attias 2000;
-// the random effects of Laird & Ware 1982), each in turn given the others until they stand still.
+// one degree of freedom, so that what the points have in common may come near to being the same; s
+// is at most the deviation of a point's prior when nothing is known of the others: points of one
+// rig differ by no more than rigs do. What a record tells is normal about its most likely
+// parameters (Laplace). The posteriors of the u_e, of (m, b) and of s^2 are taken as independent
+// (mean-field variational Bayes, Attias 2000; the random effects of Laird & Ware 1982), each in
+// turn given the others until they stand still.
 //
 // Errors of the model, of one kind and without a unit, have m = b = 0 and one s together, at most
 // one: how far the model errs is a property of the rig, which all its lines and points tell.
@@ -40,6 +42,10 @@ struct ParameterLaw {
   // Of each parameter: how many values told of its s.
   Eigen::VectorXd values;
 
+  // By how much mean and trend of each parameter, a row each, differ in `next`, in its spreads.
+  Eigen::MatrixX2d MoveTo(const ParameterLaw& next) const;
+  // The law on the way to `next`, of each parameter so far as `share` says, from 0 to 1.
+  ParameterLaw Toward(const ParameterLaw& next, const Eigen::VectorXd& share) const;
   // Of a point that was among those from which the law was estimated.
   PointPrior PriorAt(double z) const;
   // Of another point: Student's density, with one degree of freedom more than there were points.

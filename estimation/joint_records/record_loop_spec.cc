@@ -17,6 +17,7 @@ PointStructure StructureOf(const RecordLoopSpec& spec, int modes) {
   out.own_damping = spec.own_damping;
   out.complex_residues = spec.complex_residues;
   out.delay_spread = spec.delay_spread;
+  out.second_path = spec.second_path;
   if (spec.line_errors) out.acoustic_lines = out.flame_lines = kCycleLines;
   out.noise = {{LoopNoise::kCombustion, kOfTurbulence},
                {LoopNoise::kPressureSensor, kOfSensors},

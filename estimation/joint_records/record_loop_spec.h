@@ -20,6 +20,7 @@ struct RecordLoopSpec {
   FlameInput flame_input = FlameInput::kPressureRate;
   bool choose_flame_input = false;  // by what the data say of the three
   DelaySpread delay_spread = DelaySpread::kNone;
+  bool second_path = false;
   bool line_errors = true;  // loop_point.h
 };
 

@@ -4,62 +4,19 @@
 
 #include <utility>
 
+#include "estimation/joint_records/law_rounds.h"
 #include "estimation/joint_records/records_fitter.h"
 #include "estimation/parallel.h"
-#include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/fit_under_prior.h"
-#include "estimation/record_fit/mode_maxima.h"
 
 namespace howl {
-namespace {
-
-constexpr int kRounds = 12;
-// In which each point looks at other delays and places of modes under the law.
-constexpr int kRoundsOfSearch = 2;
-
-RecordsFit FitWith(const RecordsFitter& fitter, const std::vector<OperatingPoint>& points,
-                   const PointStructure& structure, const StartRows& starts,
-                   const RecordsFitOptions& options) {
-  RecordsFit out;
-  out.structure = structure;
-  out.reference = ReferenceOf(points);
-  out.z = Standardised(points);
-  out.points = fitter.Best(starts, options);
-  for (std::size_t e = 0; e < points.size(); ++e) out.prior.push_back(fitter.base(e));
-  const bool alone = points.size() == 1;
-  for (int round = 0; round < kRounds; ++round) {
-    const ParameterLaw law = fitter.Law(fitter.Evidence(out.points, out.prior));
-    const bool converged = round >= kRoundsOfSearch && fitter.Stands(out.law, law);
-    out.law = law;
-    RunUnits(points.size(), options.threads, [&](std::size_t e) {
-      out.prior[e] = alone ? fitter.PriorOfErrors(law) : fitter.Prior(e, law.PriorAt(out.z[e]));
-      const bool early = round < kRoundsOfSearch;
-      out.points[e] = KeptFit(
-          options.units, UnitKey(options, "round", static_cast<std::size_t>(round), e), [&] {
-            PointFit fit = FitUnder(points[e].record, structure, out.prior[e],
-                                    out.points[e].parameters, !alone && early);
-            if (!early) return fit;
-            fit = BestByDelay(points[e].record, structure, out.prior[e], std::move(fit));
-            return BestByModes(points[e].record, structure, out.prior[e], std::move(fit));
-          });
-    });
-    VLOG(1) << "round " << round << " of the law of the parameters";
-    if (converged) break;
-  }
-  return out;
-}
-
-}  // namespace
-
 std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,
                                        const RecordsFit& fit, int threads) {
   const RecordsFitter fitter(points, fit.structure, fit.reference, fit.z, threads);
   const std::vector<ParameterEvidence> evidence = fitter.Evidence(fit.points, fit.prior);
   std::vector<PointPrior> out(points.size());
   RunUnits(points.size(), threads, [&](std::size_t e) {
-    std::vector<ParameterEvidence> others = evidence;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(e));
-    out[e] = fitter.Prior(e, fitter.Law(others).PredictionAt(fit.z[e]));
+    out[e] = fitter.Prior(e, fitter.LawOfOthers(evidence, e).PredictionAt(fit.z[e]));
   });
   return out;
 }
@@ -73,7 +30,7 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
   if (poorer != nullptr) {
     for (auto& row : fitter.FromPoorer(*poorer)) starts.push_back(std::move(row));
   }
-  return FitWith(fitter, points, structure, starts, options);
+  return FitUnderLaw(fitter, points, starts, options);
 }
 
 StartRows StartsInRicher(const std::vector<OperatingPoint>& points, const RecordsFit& poorer,
@@ -88,7 +45,7 @@ RecordsFit FitRecordsFrom(const std::vector<OperatingPoint>& points,
   CHECK(!points.empty());
   const RecordsFitter fitter(points, structure, ReferenceOf(points), Standardised(points),
                              options.threads);
-  return FitWith(fitter, points, structure, starts, options);
+  return FitUnderLaw(fitter, points, starts, options);
 }
 
 std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,

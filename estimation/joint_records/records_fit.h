@@ -7,9 +7,9 @@
 //
 // A mode of one point must be the same mode at the others. The loop found at each point (at up to
 // four) in turn is where all points begin, and the one from which all together become most likely
-// gives the modes their order; under the law each point then takes the delay of its most likely
-// maximum (delay_maxima.h), which the points tell one another. Where a poorer structure was fitted
-// before, all points begin as well with what it found there.
+// gives the modes their order; each point then looks for other maxima under what the others say of
+// it (law_rounds.h). Where a poorer structure was fitted before, all points begin as well with what
+// it found there.
 //
 // The work grows as the number of points does, and points run in parallel. One point by itself is
 // fitted under its own prior, but for the size of its errors, which is estimated.

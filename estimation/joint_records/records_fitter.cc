@@ -20,7 +20,9 @@ constexpr int kIterationsOfCandidate = 30;
 constexpr double kLeastTold = 0.1;  // of what the prior tells
 constexpr double kRounding = 1e-12;
 constexpr double kErrorsConverged = 0.05;  // of ln s
-constexpr double kConverged = 0.02;  // of a parameter's spread, the largest move of the law's mean
+// Of a parameter's spread, the largest move of the law's mean: as much as a fit leaves open that
+// has converged to a thousandth of a nat.
+constexpr double kConverged = 0.05;
 
 double GeometricMean(const std::vector<OperatingPoint>& points, auto value) {
   double sum = 0.0;
@@ -163,7 +165,7 @@ StartRows RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
   for (const std::size_t from : Drawn()) {
     const std::vector<LoopMode> further = FurtherModes(points_[from].record, poorer.structure,
                                                        poorer.points[from].parameters, structure_);
-    std::vector<Eigen::VectorXd>& row = out.emplace_back();
+    std::vector<Eigen::VectorXd> row;
     for (std::size_t e = 0; e < size(); ++e) {
       const RecordScale& at = points_[e].record.scale;
       const RecordScale& of = points_[from].record.scale;
@@ -175,6 +177,14 @@ StartRows RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
       }
       row.push_back(InRicherStructure(points_[e].record, poorer.structure,
                                       poorer.points[e].parameters, structure_, here));
+    }
+    out.push_back(row);
+    if (structure_.second_path && !poorer.structure.second_path) {
+      for (std::size_t i = 1; i < kLambdas.size(); ++i) {
+        for (Eigen::VectorXd& start : row)
+          start[structure_.SecondPath() + 1] = std::log(kLambdas[i]);
+        out.push_back(row);
+      }
     }
     if (further.empty()) break;
   }

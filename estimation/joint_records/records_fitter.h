@@ -33,6 +33,7 @@ class RecordsFitter {
   }
 
   std::size_t size() const { return points_.size(); }
+  const PointStructure& structure() const { return structure_; }
   const PointPrior& base(std::size_t e) const { return base_[e]; }
   PointPrior Prior(std::size_t e, const PointPrior& common) const {
     return units_[e].FromCommon(common, base_[e]);
@@ -50,6 +51,10 @@ class RecordsFitter {
   std::vector<PointFit> Best(const StartRows& starts, const RecordsFitOptions& options) const;
   ParameterLaw Law(const std::vector<ParameterEvidence>& evidence) const {
     return FitParameterLaw(evidence, common_base_, units_[0].errors());
+  }
+  ParameterLaw LawOfOthers(std::vector<ParameterEvidence> evidence, std::size_t e) const {
+    evidence.erase(evidence.begin() + static_cast<std::ptrdiff_t>(e));
+    return Law(evidence);
   }
   std::vector<ParameterEvidence> Evidence(const std::vector<PointFit>& fits,
                                           const std::vector<PointPrior>& priors) const;

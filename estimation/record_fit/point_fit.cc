@@ -28,9 +28,10 @@ constexpr double kLeastCosine =
     1e-8;  // of a correction's denominator (Nocedal & Wright 2006, 6.26)
 constexpr std::size_t kMostToCompare = 4;
 constexpr int kIterationsToCompare = 30;
-constexpr double kSameDelay = 0.03;  // of ln tau
+constexpr double kSameDelay = 0.03;  // of a path's parameters
 constexpr std::size_t kMostDelays = 3;
 constexpr double kDifference = 1e-5;  // of the prior's deviation
+constexpr double kAboveLeast = 1.02;  // of delays that fits begin with
 constexpr int kMostHalvings = 20;     // of a start's flame
 
 struct Quadratic {
@@ -112,15 +113,19 @@ void CorrectAlong(const Eigen::VectorXd& step, const Eigen::VectorXd& fall_of_gr
 std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
                                          const Eigen::VectorXd& best,
                                          const std::vector<PointFit>& fits) {
-  std::vector<double> known = {best[structure.Delay()]};
+  const auto path_of = [&](const Eigen::VectorXd& parameters) {
+    return parameters.segment(structure.Delay(), structure.Delays()).eval();
+  };
+  std::vector<Eigen::VectorXd> known = {path_of(best)};
   std::vector<Eigen::VectorXd> out;
   for (const PointFit& fit : fits) {
-    const double log_tau = fit.parameters[structure.Delay()];
-    if (std::ranges::any_of(known, [&](double x) { return std::abs(x - log_tau) < kSameDelay; })) {
-      continue;
-    }
+    const Eigen::VectorXd path = path_of(fit.parameters);
+    const auto same = [&](const Eigen::VectorXd& other) {
+      return (other - path).cwiseAbs().maxCoeff() < kSameDelay;
+    };
+    if (std::ranges::any_of(known, same)) continue;
     if (out.size() == kMostDelays) break;
-    known.push_back(log_tau);
+    known.push_back(path);
     Eigen::VectorXd crossed = best;
     const Eigen::Index flame = best.size() - structure.Delay() - structure.NoiseParameters();
     crossed.segment(structure.Delay(), flame) = fit.parameters.segment(structure.Delay(), flame);
@@ -129,15 +134,27 @@ std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
   return out;
 }
 
-// With so weak a flame that the loop is a possible one.
+// With a delay that the band tells, and so weak a flame that the loop is a possible one.
 Eigen::VectorXd Possible(const RecordSpectra& record, const PointStructure& structure,
                          Eigen::VectorXd parameters) {
   const Eigen::Index flame = record.flame.cols();
+  double& log_tau = parameters[structure.Delay()];
+  log_tau = std::max(log_tau, std::log(kAboveLeast * LeastDelay(record)));
   for (int i = 0; i < kMostHalvings; ++i) {
     if (std::isfinite(LogDeterminant(record, ToPoint(structure, flame, parameters)))) break;
     parameters.segment(structure.Flame(), flame) *= 0.5;
   }
   return parameters;
+}
+
+// Of a start from which no step leads on: a fit that any other is better than.
+PointFit NothingTold(const PointPrior& prior, Eigen::VectorXd parameters) {
+  PointFit out;
+  out.parameters = std::move(parameters);
+  out.log_likelihood = out.log_posterior = out.log_evidence =
+      -std::numeric_limits<double>::infinity();
+  out.information = prior.deviation.array().square().inverse().matrix().asDiagonal();
+  return out;
 }
 
 // What the quadratic about the present parameters consists of.
@@ -168,6 +185,10 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   int corrections = 0;
   Source source = Source::kInformation;
   Quadratic here = posterior.Expand(out.parameters);
+  if (!std::isfinite(out.log_posterior) || !here.gradient.allFinite() ||
+      !here.information.allFinite()) {
+    return NothingTold(prior, std::move(out.parameters));
+  }
   while (out.iterations < options.iterations && damping < kMostDamping) {
     ++out.iterations;
     const Eigen::MatrixXd information = Positive(here.information);
@@ -188,12 +209,14 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     const Eigen::VectorXd there = out.parameters + step.cwiseProduct(prior.deviation);
     const double value = posterior.Value(there);
     const double gain = value - out.log_posterior;
-    const bool taken = gain > 0.0;
+    // Where spectra leave the range of numbers the likelihood may still have a value, and no slope.
     Quadratic next;
+    if (std::isfinite(value)) next.gradient = posterior.Gradient(there);
+    const bool possible = std::isfinite(value) && next.gradient.allFinite();
+    const bool taken = gain > 0.0 && possible;
     if (source == Source::kInformation && foretold >= kNear) {
       if (taken) next = posterior.Expand(there);
-    } else if (std::isfinite(value)) {
-      next.gradient = posterior.Gradient(there);
+    } else if (possible) {
       next.information = here.information;
       CorrectAlong(step, here.gradient - next.gradient, &next.information);
       here.information = next.information;

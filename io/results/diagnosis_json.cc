@@ -34,6 +34,19 @@ Json WhereJson(const std::vector<Place>& places) {
   return where;
 }
 
+Json OctavesJson(const std::vector<OctaveGap>& octaves) {
+  Json out = Json::array();
+  for (const OctaveGap& each : octaves) {
+    out.push_back({{"experiment", each.experiment},
+                   {"block", LoopBlockName(each.block)},
+                   {"octave", each.octave},
+                   {"band_hz", {each.low_hz, each.high_hz}},
+                   {"gap", each.gap},
+                   {"share", each.share}});
+  }
+  return out;
+}
+
 Json MapJson(const Diagnosis& diagnosis) {
   Json map = Json::array();
   for (const GapCell& cell : diagnosis.map) {
@@ -149,6 +162,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
     json["budget"] = BudgetJson(budget);
     json["left"] = {{"gap", NumberOrNull(budget.gap_left)},
                     {"where", WhereJson(budget.left)},
+                    {"octaves", OctavesJson(budget.left_by_octave)},
                     {"model_error",
                      {{"p_from_q", NumberOrNull(budget.acoustic_error)},
                       {"q_from_p", NumberOrNull(budget.flame_error)}}}};

@@ -24,6 +24,7 @@ Json FormJson(const LoopForm& form) {
           {"residue", structure.complex_residues ? "complex" : "real"},
           {"flame_input", FlameInputName(form.flame_input)},
           {"delay_spread", DelaySpreadName(structure.delay_spread)},
+          {"delay_paths", structure.second_path ? 2 : 1},
           {"noise", noise}};
 }
 

@@ -57,6 +57,12 @@ Json NoiseJson(const FittedLoop& loop) {
   return noise;
 }
 
+Json SecondPathJson(const FittedLoop& loop) {
+  if (!loop.second_path) return nullptr;
+  return {{"share", EstimateJson(loop.second_path->share)},
+          {"extra_s", EstimateJson(loop.second_path->extra_s)}};
+}
+
 Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
   const FittedLoop& loop = solution.fitted[e];
   // The keys that every solution has are those of the mode next to the cycle.
@@ -82,6 +88,7 @@ Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
             {"growth_rate_1_s", EstimateJson(small.growth_rate_1_s)},
             {"loop_gain", EstimateJson(small.loop_gain)}}},
           {"delay_spread", EstimateJson(loop.delay_spread)},
+          {"second_path", SecondPathJson(loop)},
           {"line_errors",
            {{"acoustics", LinesJson(loop.acoustic_lines)}, {"flame", LinesJson(loop.flame_lines)}}},
           {"other_delays", OtherDelaysJson(solution.other_delays[e])},

@@ -29,6 +29,7 @@ Diagnosis Example() {
   effect.equals = {"flame_lowpass"};
   effect.parameters = {{"sigma_s", 1e-4, 0.9e-4, 1.1e-4, "s"}};
   budget.entries = {noise, effect};
+  budget.left_by_octave = {{"exp2", LoopBlock::kFlame, -1, 70.0, 140.0, 0.4, 0.6}};
   budget.left = {{LoopBlock::kFlame, 100.0, 240.0, {"exp2"}, 0.7}};
   diagnosis.budget = budget;
   return diagnosis;
@@ -49,6 +50,13 @@ TEST(BudgetOutput, JsonHasTheContractsKeys) {
   EXPECT_EQ(effect["parameters"]["sigma_s"]["lo"], 0.9e-4);
   EXPECT_EQ(json["left"]["gap"], 0.3);
   EXPECT_EQ(json["left"]["where"][0]["block"], "flame");
+  const auto& octave = json["left"]["octaves"][0];
+  EXPECT_EQ(octave["experiment"], "exp2");
+  EXPECT_EQ(octave["block"], "flame");
+  EXPECT_EQ(octave["octave"], -1);
+  EXPECT_EQ(octave["band_hz"], (nlohmann::ordered_json{70.0, 140.0}));
+  EXPECT_EQ(octave["gap"], 0.4);
+  EXPECT_EQ(octave["share"], 0.6);
 }
 
 TEST(BudgetOutput, NoBudgetNoKeys) {

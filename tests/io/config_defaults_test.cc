@@ -50,6 +50,7 @@ Defaults StructDefaults() {
       {"model.residue", Dump("real")},
       {"model.flame_input", Dump("pressure_rate")},
       {"model.delay_spread", Dump("none")},
+      {"model.delay_paths", Dump(1)},
       {"model.line_errors", Dump(RecordLoopSpec().line_errors)},
       {"model.harmonic_ratio", Dump(config.model.harmonic_ratio)},
       {"residuals.unreliable_weight", Dump(config.residuals.unreliable_weight)},

@@ -52,19 +52,21 @@ TEST(ConfigRecordLoop, ReadsTheModelLineOfALoop) {
   structure.ratio = 3.0;
   structure.own_damping = structure.complex_residues = false;
   structure.delay_spread = DelaySpread::kGamma;
+  structure.second_path = true;
   const std::string line = ModelLine(structure, FlameInput::kPressureRate);
   const RecordLoopSpec spec = *Read(line.substr(8, line.size() - 9)).record_loop;
   EXPECT_EQ(spec.ratio, 3.0);
   EXPECT_FALSE(spec.own_damping);
   EXPECT_FALSE(spec.complex_residues);
   EXPECT_EQ(spec.delay_spread, DelaySpread::kGamma);
+  EXPECT_TRUE(spec.second_path);
 }
 
 TEST(ConfigRecordLoop, ThePapersLoopIsNoOther) {
   for (const std::string model :
        {"modes: 1", "modes: 2", "modes: 2, harmonic_ratio: 2.8", "modes: 2, ratio: 2.8",
         "modes: 2, damping: shared, residue: real, flame_input: pressure_rate",
-        "modes: 1, delay_spread: none, line_errors: true"}) {
+        "modes: 1, delay_spread: none, delay_paths: 1, line_errors: true"}) {
     EXPECT_FALSE(Read(model, LoopsTaken::kPapers).record_loop) << model;
   }
   EXPECT_EQ(Read("modes: 2, ratio: 2.8").model.harmonic_ratio, 2.8);
@@ -87,6 +89,7 @@ TEST(ConfigRecordLoop, EachKeyStatesARicherLoop) {
   EXPECT_EQ(Read("flame_input: pressure").record_loop->flame_input, FlameInput::kPressure);
   EXPECT_EQ(Read("delay_spread: gamma").record_loop->delay_spread, DelaySpread::kGamma);
   EXPECT_EQ(Read("delay_spread: normal").record_loop->delay_spread, DelaySpread::kNormal);
+  EXPECT_TRUE(Read("delay_paths: 2").record_loop->second_path);
   EXPECT_TRUE(three.line_errors);
   EXPECT_FALSE(Read("modes: 3, line_errors: false").record_loop->line_errors);
   // What else reads the config takes two modes at most.

@@ -65,9 +65,10 @@ LoopGradient BesideBandGradient(const RecordSpectra& record, const PointStructur
   const auto by_path = [&](C by_log, C fall_by_log) {
     return bins * (tail.ByConstant() * by_log + tail.ByFall() * fall_by_log).real();
   };
-  out.loop[structure.Delay()] += by_path(point.path.ByLogTau(s), point.path.FallByLogTau(s));
-  if (structure.Delays() > 1) {
-    out.loop[structure.Delay() + 1] += by_path(point.path.ByLogRho(s), point.path.FallByLogRho(s));
+  const PathFall fall = point.path.Fall(s);
+  for (Eigen::Index i = 0; i < structure.Delays(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out.loop[structure.Delay() + i] += by_path(tail.loop.slopes.by[k], fall.by[k]);
   }
   return out;
 }

@@ -131,22 +131,21 @@ void KeptLoop::MoveAnswer() {
 }
 
 void KeptLoop::MovePath() {
-  path_.Set(point_.path, record_.s);
+  const auto parameters = static_cast<std::size_t>(structure_.Delays());
+  path_.Set(point_.path, parameters, record_.s);
   for (Eigen::Index i = 0; i < record_.bins(); ++i) {
     path_.at[i] = Times(path_.at[i], record_.input[i]);
   }
-  edge_path_.Set(point_.path, record_.edge_s);
+  edge_path_.Set(point_.path, parameters, record_.edge_s);
 }
 
-void KeptLoop::Path::Set(const FlamePath& path, const Eigen::VectorXcd& s) {
+void KeptLoop::Path::Set(const FlamePath& path, std::size_t parameters, const Eigen::VectorXcd& s) {
   at.resize(s.size());
-  by_log_tau.resize(s.size());
-  by_log_rho.resize(s.size());
+  for (std::size_t k = 0; k < parameters; ++k) by[k].resize(s.size());
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     const PathSlopes slopes = path.WithSlopes(s[i]);
     at[i] = slopes.at;
-    by_log_tau[i] = slopes.by_log_tau;
-    by_log_rho[i] = slopes.by_log_rho;
+    for (std::size_t k = 0; k < parameters; ++k) by[k][i] = slopes.by[k];
   }
 }
 

@@ -8,6 +8,7 @@
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_KEPT_LOOP_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "estimation/record_fit/loop/line_shapes.h"
@@ -32,8 +33,9 @@ class KeptLoop {
  private:
   // Of one grid of frequencies: the record's bins, or the transform's.
   struct Path {
-    void Set(const FlamePath& path, const Eigen::VectorXcd& s);
-    Eigen::VectorXcd at, by_log_tau, by_log_rho;
+    void Set(const FlamePath& path, std::size_t parameters, const Eigen::VectorXcd& s);
+    Eigen::VectorXcd at;
+    std::array<Eigen::VectorXcd, kMostPathParameters> by;
   };
   // 1 / (s^2 + 2 xi omega s + omega^2) on both grids.
   struct ModeGrids {

@@ -118,11 +118,11 @@ void KeptLoop::SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out)
   C of_slope = 0.0;
   for (Eigen::Index i = 0; i < record_.bins(); ++i) of_slope += Times(weights.f[i], path_.at[i]);
   out->segment(structure_.Flame(), flame) += of_slope.real() * record_.slopes;
-  (*out)[structure_.Delay()] = Sum(weights.f, residuals_.f, path_.by_log_tau) +
-                               Sum(edge_weights_, arriving_, edge_path_.by_log_tau);
-  if (structure_.Delays() < 2) return;
-  (*out)[structure_.Delay() + 1] = Sum(weights.f, residuals_.f, path_.by_log_rho) +
-                                   Sum(edge_weights_, arriving_, edge_path_.by_log_rho);
+  for (Eigen::Index i = 0; i < structure_.Delays(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    (*out)[structure_.Delay() + i] =
+        Sum(weights.f, residuals_.f, path_.by[k]) + Sum(edge_weights_, arriving_, edge_path_.by[k]);
+  }
 }
 
 }  // namespace howl

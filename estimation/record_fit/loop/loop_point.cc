@@ -51,7 +51,11 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
       ComplexOf(parameters.segment(structure.AcousticLine(), structure.AcousticLines()));
   Eigen::Index next = structure.Delay();
   out.path = {structure.delay_spread, std::exp(parameters[next++])};
-  if (structure.Delays() > 1) out.path.rho = std::exp(parameters[next++]);
+  if (structure.HasSpread()) out.path.rho = std::exp(parameters[next++]);
+  if (structure.second_path) {
+    out.path.second = SecondPath{parameters[next], std::exp(parameters[next + 1])};
+    next += 2;
+  }
   out.flame = parameters.segment(next, flame);
   next += flame;
   out.flame_lines = ComplexOf(parameters.segment(next, structure.FlameLines()));
@@ -88,7 +92,11 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).h;
   add_lines(point.acoustic_lines, structure.AcousticLines());
   out[next++] = std::log(point.path.tau);
-  if (structure.Delays() > 1) out[next++] = std::log(point.path.rho);
+  if (structure.HasSpread()) out[next++] = std::log(point.path.rho);
+  if (structure.second_path) {
+    out[next++] = point.path.second->share;
+    out[next++] = std::log(point.path.second->lambda);
+  }
   add(point.flame);
   add_lines(point.flame_lines, structure.FlameLines());
   for (const Eigen::VectorXd& source : point.noise) add(source);

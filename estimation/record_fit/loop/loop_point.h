@@ -2,7 +2,7 @@
 //
 //   R = sum_k (a_k s + b_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
 //   F = D(s) V(s) sum_k c_k slope_k,   E_B = Q - D(s) sum_k c_k b_k      record_spectra.h
-//   D = e^(-tau s), or that of spread delays                                    flame_path.h
+//   D = e^(-tau s), or that of spread delays or of two paths                    flame_path.h
 //   ln S_j = sum_k n_jk T_k                                                       noise_sources.h
 //   E_A = P - R Q - sum_k (g_k s + h_k omega_k) / (s^2 + 2 xi_k omega_k s + omega_k^2)
 //
@@ -25,8 +25,8 @@
 //
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
 // and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared), real and
-// imaginary parts of d; ln tau, where delays are spread ln rho; c; those of e; n; where there is a
-// background its ratio.
+// imaginary parts of d; the path's (flame_path.h); c; those of e; n; where there is a background
+// its ratio.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
 
@@ -52,6 +52,7 @@ struct PointStructure {
   bool own_damping = true;
   bool complex_residues = true;
   DelaySpread delay_spread = DelaySpread::kNone;
+  bool second_path = false;  // of the flame's answer
   std::vector<NoiseTerm> noise;
   // Multiples of the cycle's frequency at which acoustics and flame may err.
   int acoustic_lines = 0;
@@ -70,9 +71,11 @@ struct PointStructure {
   Eigen::Index Acoustics() const { return AcousticLine() + AcousticLines(); }
   // With the background's ratio.
   Eigen::Index NoiseParameters() const;
-  // The index of ln tau; where delays are spread ln rho follows.
+  bool HasSpread() const { return delay_spread != DelaySpread::kNone; }
+  // The index of ln tau, of how many parameters the path has, and of a second path's share.
   Eigen::Index Delay() const { return Acoustics(); }
-  Eigen::Index Delays() const { return delay_spread == DelaySpread::kNone ? 1 : 2; }
+  Eigen::Index Delays() const { return 1 + (HasSpread() ? 1 : 0) + (second_path ? 2 : 0); }
+  Eigen::Index SecondPath() const { return Delay() + (HasSpread() ? 2 : 1); }
   // The index of the flame's first coefficient.
   Eigen::Index Flame() const { return Delay() + Delays(); }
   // Those of the flame's first line and of the first source of noise, and how many parameters there

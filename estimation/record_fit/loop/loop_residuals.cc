@@ -19,12 +19,9 @@ Eigen::MatrixXcd TaperedColumns(const Eigen::MatrixXcd& x) {
   return x.topRows(x.rows() - 1) - x.bottomRows(x.rows() - 1);
 }
 
-Eigen::VectorXcd ByLogTau(const FlamePath& path, const Eigen::VectorXcd& s) {
-  return s.unaryExpr([&](C each) { return path.ByLogTau(each); });
-}
-
-Eigen::VectorXcd ByLogRho(const FlamePath& path, const Eigen::VectorXcd& s) {
-  return s.unaryExpr([&](C each) { return path.ByLogRho(each); });
+// Of the logarithm of the path's answer, by its parameter k.
+Eigen::VectorXcd PathSlope(const FlamePath& path, Eigen::Index k, const Eigen::VectorXcd& s) {
+  return s.unaryExpr([&](C each) { return path.WithSlopes(each).by[static_cast<std::size_t>(k)]; });
 }
 
 Eigen::VectorXcd LineFactors(const Eigen::VectorXcd& s, const Eigen::VectorXcd& errors) {
@@ -122,17 +119,17 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   const Eigen::VectorXcd path = point.path.At(record.s).cwiseProduct(record.input);
   out.f.setZero(record.bins(), of_flame);
   const Eigen::VectorXcd sloped = record.slopes.dot(point.flame) * path;
-  out.f.col(0) = sloped.cwiseProduct(ByLogTau(point.path, record.s));
-  if (delays > 1) out.f.col(1) = sloped.cwiseProduct(ByLogRho(point.path, record.s));
+  for (Eigen::Index k = 0; k < delays; ++k) {
+    out.f.col(k) = sloped.cwiseProduct(PathSlope(point.path, k, record.s));
+  }
   out.f.middleCols(delays, flame) = path * record.slopes.transpose();
   const Eigen::VectorXcd factors = LineFactors(record.edge_s, point.flame_lines);
   const Eigen::MatrixXcd delayed =
       point.path.At(record.edge_s).cwiseProduct(factors).asDiagonal() * record.flame;
   const Eigen::VectorXcd answer = delayed * point.flame;
   out.flame.resize(record.bins(), of_flame);
-  out.flame.col(0) = -Tapered(answer.cwiseProduct(ByLogTau(point.path, record.edge_s)));
-  if (delays > 1) {
-    out.flame.col(1) = -Tapered(answer.cwiseProduct(ByLogRho(point.path, record.edge_s)));
+  for (Eigen::Index k = 0; k < delays; ++k) {
+    out.flame.col(k) = -Tapered(answer.cwiseProduct(PathSlope(point.path, k, record.edge_s)));
   }
   out.flame.middleCols(delays, flame) = -TaperedColumns(delayed);
   out.flame.rightCols(structure.FlameLines()) = -TaperedColumns(

@@ -1,6 +1,7 @@
 #include "estimation/record_fit/loop/loop_tail.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "model/numerics/complex_products.h"
 #include "model/numerics/dilogarithm.h"
@@ -19,9 +20,13 @@ void LoopAt::AddSlopes(const PointStructure& structure, const LoopPoint& point, 
                        Eigen::VectorXd* out) const {
   AddAcousticSlopes(structure, point, s, Times(by, path), out);
   const C by_log = Times(by, u);
-  (*out)[structure.Delay()] += Times(by_log, slopes.by_log_tau).real();
-  if (structure.Delays() < 2) return;
-  (*out)[structure.Delay() + 1] += Times(by_log, slopes.by_log_rho).real();
+  for (Eigen::Index i = 0; i < structure.Delays(); ++i) {
+    (*out)[structure.Delay() + i] += Times(by_log, slopes.by[static_cast<std::size_t>(i)]).real();
+  }
+}
+
+double LeastDelay(const RecordSpectra& record) {
+  return std::numbers::pi / record.s[record.bins() - 1].imag();
 }
 
 double SumOfResidues(const LoopPoint& point) {
@@ -32,17 +37,19 @@ double SumOfResidues(const LoopPoint& point) {
 
 LoopTail::LoopTail(const RecordSpectra& record, const LoopPoint& point)
     : loop(record, point, 2.0 * record.s[record.bins() - 1]),
+      least_delay(LeastDelay(record)),
       u(record.slopes.dot(point.flame) * loop.u) {
   if (record.flame_input == FlameInput::kPressureRate) {
     constant = record.slopes.dot(point.flame) * SumOfResidues(point) * point.path.At(loop.s);
   }
   const double falls = record.flame_input == FlameInput::kVelocity ? 2.0 : 1.0;
-  const C turns = C(0.0, 1.0) * point.path.Fall(loop.s);
+  const C turns = C(0.0, 1.0) * point.path.Fall(loop.s).at;
   of_constant = 1.0 / turns;
   of_rest = 1.0 / (falls / loop.s.imag() + turns);
 }
 
 bool LoopTail::Possible(const FlamePath& path) const {
+  if (path.tau < least_delay) return false;
   if (path.spread == DelaySpread::kGamma && !(path.rho < 1.0)) return false;
   return std::abs(u) < 1.0 && std::abs(constant) < 1.0;
 }

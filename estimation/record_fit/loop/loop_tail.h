@@ -30,7 +30,7 @@ struct LoopAt {
 struct LoopTail {
   LoopTail(const RecordSpectra& record, const LoopPoint& point);
 
-  // Else the loop grows at all frequencies from there on.
+  // Else the loop grows at all frequencies from there on, or its delay is none that the band tells.
   bool Possible(const FlamePath& path) const;
   std::complex<double> Value() const;
   // Of Value by ln K, by ln U, and by l.
@@ -38,12 +38,20 @@ struct LoopTail {
   std::complex<double> ByLoop() const;
   std::complex<double> ByFall() const;
 
-  LoopAt loop;                          // at omega_2
+  LoopAt loop;  // at omega_2
+  double least_delay;
   std::complex<double> u;               // with the flame's slope in it
   std::complex<double> constant = 0.0;  // K
   std::complex<double> of_constant;     // 1 / j l
   std::complex<double> of_rest;         // 1 / (m / omega_2 + j l)
 };
+
+// The delay by which the loop turns half a turn over the record's band. A shorter one cannot be
+// told from an answer at once, which mixes p and q within a sample: over the band ln |D| may then
+// have one sign throughout, and the likelihood is as good as the model's word for what the loop
+// does where there are no records. With any longer one ln |1 - K e^(-tau s)| has a mean of zero
+// over the band.
+double LeastDelay(const RecordSpectra& record);
 
 // What K is proportional to.
 double SumOfResidues(const LoopPoint& point);

@@ -23,6 +23,8 @@ constexpr double kLogTau = 1.1;
 // From a tenth of the delay to as much as the delay.
 constexpr double kMeanLogRho = -1.2;
 constexpr double kLogRho = 0.8;
+// Two paths that answer alike, and up to twice as strongly against one another.
+constexpr double kSecondShare = 1.0;
 constexpr double kFlame = 3.0;  // of recorded q's mean square
 // Where a search begins: its size is estimated (parameter_law.h).
 constexpr double kLineError = 0.3;
@@ -68,8 +70,19 @@ Eigen::VectorXd PointPrior::Slope(const Eigen::VectorXd& parameters) const {
 }
 
 Eigen::VectorXd PointPrior::Within(const Eigen::VectorXd& parameters) const {
-  return parameters.cwiseMax(mean - kMostDeviations * deviation)
-      .cwiseMin(mean + kMostDeviations * deviation);
+  Eigen::VectorXd reach = kMostDeviations * deviation;
+  for (Eigen::Index i = 0; i < degrees.size(); ++i) {
+    // Where Student's density has fallen as far.
+    const double n = degrees[i];
+    if (!std::isfinite(n)) continue;
+    reach[i] =
+        deviation[i] * std::sqrt(n * std::expm1(kMostDeviations * kMostDeviations / (n + 1.0)));
+  }
+  return parameters.cwiseMax(mean - reach).cwiseMin(mean + reach);
+}
+
+PointPrior PointPrior::NormalAt(const Eigen::VectorXd& parameters) const {
+  return {mean, deviation.cwiseQuotient(Precision(parameters).cwiseSqrt()), {}};
 }
 
 PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record) {
@@ -88,7 +101,11 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
   add(structure.Transients(), 0.0, kHeld * record.OneSample());
   add(structure.AcousticLines(), 0.0, kLineError);
   add(1, std::log(kMeanTau), kLogTau);
-  if (structure.Delays() > 1) add(1, kMeanLogRho, kLogRho);
+  if (structure.HasSpread()) add(1, kMeanLogRho, kLogRho);
+  if (structure.second_path) {
+    add(1, 0.0, kSecondShare);
+    add(1, std::log(kMeanTau), kLogTau);
+  }
   const double bins = static_cast<double>(record.bins());
   add(flame, 0.0, kFlame * std::sqrt(Tapered(record.heat_release).squaredNorm() / bins));
   add(structure.FlameLines(), 0.0, kLineError);

@@ -24,6 +24,8 @@ struct PointPrior {
   // Of the log density by z, and the precision of the normal density with the same slope there.
   Eigen::VectorXd Slope(const Eigen::VectorXd& parameters) const;
   Eigen::VectorXd Precision(const Eigen::VectorXd& parameters) const;
+  // The normal density that has the same slope there.
+  PointPrior NormalAt(const Eigen::VectorXd& parameters) const;
   // The nearest parameters with which a search may begin: beyond, the density is 0 to rounding.
   Eigen::VectorXd Within(const Eigen::VectorXd& parameters) const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -17,6 +18,8 @@ constexpr int kDelays = 64;
 constexpr double kMostCycles = 1.25;  // of delay
 constexpr std::size_t kBestDelays = 3;
 constexpr double kRho = 0.2;  // spread of delays
+// Of a second path, either way.
+constexpr double kSecondShare = 0.3;
 constexpr double kEulersGamma = 0.5772156649015329;
 constexpr double kQuiet = 0.1;  // share of bins
 constexpr double kWellDamped = 0.1;
@@ -43,11 +46,13 @@ class Starts {
 
   std::vector<double> Delays(std::size_t count) const;
   FlamePath Path(double tau) const;
-  Eigen::VectorXd At(std::vector<LoopMode> modes, double tau) const;
+  // Where there is a second path, one for each of its delays.
+  std::vector<FlamePath> Paths(double tau) const;
+  Eigen::VectorXd At(std::vector<LoopMode> modes, const FlamePath& path) const;
   StartSolution Flame(const FlamePath& path) const;
 
  private:
-  double LogLeft(double tau) const;
+  double LogLeft(const FlamePath& path) const;
   void RaiseNoise(LoopPoint* point) const;
   Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
 
@@ -59,7 +64,20 @@ class Starts {
 };
 
 FlamePath Starts::Path(double tau) const {
-  return {structure_.delay_spread, tau, structure_.Delays() > 1 ? kRho : 0.0};
+  return {structure_.delay_spread, tau, structure_.HasSpread() ? kRho : 0.0};
+}
+
+std::vector<FlamePath> Starts::Paths(double tau) const {
+  if (!structure_.second_path) return {Path(tau)};
+  std::vector<FlamePath> out;
+  for (const double lambda : kLambdas) {
+    FlamePath against = Path(tau);
+    FlamePath along = against;
+    against.second = SecondPath{-kSecondShare, lambda};
+    along.second = SecondPath{kSecondShare, lambda};
+    out.push_back(LogLeft(along) < LogLeft(against) ? along : against);
+  }
+  return out;
 }
 
 StartSolution Starts::Flame(const FlamePath& path) const {
@@ -71,10 +89,10 @@ StartSolution Starts::Flame(const FlamePath& path) const {
 // The mean logarithm of what the flame leaves of q, smoothed: but for a constant, how likely noise
 // of that spectrum is. Where there is little noise the right delay stands out by orders of
 // magnitude in bins which hold little of q's power.
-double Starts::LogLeft(double tau) const {
-  const Eigen::VectorXcd delay = Path(tau).At(record_.s);
+double Starts::LogLeft(const FlamePath& path) const {
+  const Eigen::VectorXcd delay = path.At(record_.s);
   const Eigen::VectorXcd left =
-      heat_release_ - delay.cwiseProduct(flame_ * Flame(Path(tau)).coefficients);
+      heat_release_ - delay.cwiseProduct(flame_ * Flame(path).coefficients);
   return SmoothPower(left, kStartReach).array().log().mean();
 }
 
@@ -83,7 +101,7 @@ std::vector<double> Starts::Delays(std::size_t count) const {
   std::vector<double> left(kDelays);
   for (std::size_t i = 0; i < kDelays; ++i) {
     tau[i] = 2.0 * std::numbers::pi * kMostCycles * (static_cast<double>(i) + 0.5) / kDelays;
-    left[i] = LogLeft(tau[i]);
+    left[i] = LogLeft(Path(tau[i]));
   }
   std::vector<std::pair<double, double>> minima;
   // Without the ends: what q tells of p at once, through the acoustics, leaves least at no delay.
@@ -105,10 +123,10 @@ Eigen::VectorXd Starts::LogSpectrum(const Eigen::VectorXd& power, Eigen::Index t
   return SolveSymmetric(basis.transpose() * basis, basis.transpose() * values);
 }
 
-Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, double tau) const {
+Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, const FlamePath& path) const {
   LoopPoint point;
   point.modes = std::move(modes);
-  point.path = Path(tau);
+  point.path = path;
   point.flame = Flame(point.path).coefficients;
   PointStructure quiet = structure_;
   quiet.noise.clear();
@@ -198,7 +216,9 @@ std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointSt
   std::vector<Eigen::VectorXd> out;
   for (const std::vector<StartPole>& each : from) {
     for (const double tau : delays) {
-      out.push_back(prior.Within(starts.At(poles.WithResidues(each), tau)));
+      for (const FlamePath& path : starts.Paths(tau)) {
+        out.push_back(prior.Within(starts.At(poles.WithResidues(each), path)));
+      }
     }
   }
   return out;

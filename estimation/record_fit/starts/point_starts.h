@@ -5,13 +5,20 @@
 #define HOWL_ESTIMATION_RECORD_FIT_STARTS_POINT_STARTS_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "estimation/record_fit/loop/loop_point.h"
 #include "estimation/record_fit/loop/point_prior.h"
 
 namespace howl {
+
+// By how much a second path may be later (flame_path.h), in radians of the cycle: a quarter, a half
+// and a whole of its period.
+inline constexpr std::array kLambdas = {0.5 * std::numbers::pi, std::numbers::pi,
+                                        2.0 * std::numbers::pi};
 
 // At least four; `count` in all, the further ones with poles that are drawn.
 std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointStructure& structure,

@@ -11,6 +11,7 @@ namespace howl {
 namespace {
 
 constexpr double kLittleSpread = 0.1;  // rho
+constexpr double kLittleShare = 0.1;   // of a second path
 constexpr double kHardlyShows = 4.0;   // nats below the least of the others
 
 const NoiseTerm* TermOf(const PointStructure& structure, LoopNoise source) {
@@ -25,7 +26,8 @@ bool Contains(const PointStructure& rich, const PointStructure& poor) {
   if (rich.ratio && rich.modes != poor.modes) return false;
   if (poor.own_damping && !rich.own_damping) return false;
   if (poor.complex_residues && !rich.complex_residues) return false;
-  if (poor.Delays() > 1 && rich.delay_spread != poor.delay_spread) return false;
+  if (poor.HasSpread() && rich.delay_spread != poor.delay_spread) return false;
+  if (poor.second_path && !rich.second_path) return false;
   if (rich.acoustic_lines < poor.acoustic_lines || rich.flame_lines < poor.flame_lines)
     return false;
   return std::ranges::all_of(poor.noise, [&](const NoiseTerm& term) {
@@ -54,8 +56,13 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
   CHECK(Contains(rich, poor));
   CHECK_EQ(static_cast<int>(further.size()), rich.modes - poor.modes);
   LoopPoint point = ToPoint(poor, record.flame.cols(), parameters);
-  if (rich.delay_spread != poor.delay_spread)
-    point.path = {rich.delay_spread, point.path.tau, kLittleSpread};
+  if (rich.delay_spread != poor.delay_spread) {
+    point.path.spread = rich.delay_spread;
+    point.path.rho = kLittleSpread;
+  }
+  if (rich.second_path && !poor.second_path) {
+    point.path.second = SecondPath{kLittleShare, kLambdas[0]};
+  }
   point.modes.insert(point.modes.end(), further.begin(), further.end());
   double least = 0.0;
   for (const Eigen::VectorXd& source : point.noise) least = std::min(least, source[0]);

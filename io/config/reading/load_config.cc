@@ -40,7 +40,7 @@ Config LoadConfig(const std::filesystem::path& path, LoopsTaken loops) {
         file, config.model_line, "model",
         "states a loop that howl fit, simulate, predict and diagnose take, expected modes: 1 or 2, "
         "ratio: a number, damping: shared, residue: real, flame_input: pressure_rate, "
-        "delay_spread: none");
+        "delay_spread: none, delay_paths: 1");
   }
   return config;
 }

@@ -70,13 +70,17 @@ void ReadRecordLoop(const ConfigCursor& model, Config& config) {
   word.clear();
   model.Read("delay_spread", word);
   spec.delay_spread = DelaySpreadNamed(word);
+  int paths = 1;
+  model.Read("delay_paths", paths);
+  spec.second_path = paths == 2;
   model.Read("line_errors", spec.line_errors);
   config.model.modes = std::min(spec.modes, kPapersMostModes);
   config.model.harmonic_ratio = spec.ratio.value_or(config.model.harmonic_ratio);
   const bool papers = spec.modes <= kPapersMostModes && !spec.choose_modes && spec.ratio &&
                       !spec.own_damping && !spec.complex_residues &&
                       spec.flame_input == FlameInput::kPressureRate && !spec.choose_flame_input &&
-                      spec.delay_spread == DelaySpread::kNone && spec.line_errors;
+                      spec.delay_spread == DelaySpread::kNone && !spec.second_path &&
+                      spec.line_errors;
   if (!papers) config.record_loop = spec;
 }
 

@@ -53,6 +53,10 @@ TEST(LoopBudget, OfTheRightLoopHasNothing) {
   EXPECT_EQ(found.diagnosis.kind, VerdictKind::kNone);
   EXPECT_TRUE(found.diagnosis.budget->entries.empty());
   EXPECT_GT(found.diagnosis.probability_none, 0.5);
+  // What is left are errors of the parameters.
+  const Budget& budget = *found.diagnosis.budget;
+  EXPECT_GT(budget.floor, 0.0);
+  EXPECT_LT(budget.gap_left, 1.5 * budget.floor);
 }
 
 // The paper's acoustics for those of the duct: real residues, and the second mode at three times
@@ -137,6 +141,7 @@ TEST(LoopItem, ComesAndGoes) {
     EXPECT_EQ(back.structure.own_damping, base.structure.own_damping);
     EXPECT_EQ(back.structure.complex_residues, base.structure.complex_residues);
     EXPECT_EQ(back.structure.delay_spread, base.structure.delay_spread);
+    EXPECT_EQ(back.structure.second_path, base.structure.second_path);
     EXPECT_EQ(back.structure.NoiseParameters(), base.structure.NoiseParameters());
   }
   // Modes come where they have frequencies and dampings of their own, and go with either.

@@ -58,6 +58,24 @@ std::vector<OperatingPoint>* JointRecords::points_ = nullptr;
 PointStructure* JointRecords::structure_ = nullptr;
 RecordsFit* JointRecords::fit_ = nullptr;
 
+// Begun with one point at another delay and with a wrong mode, the points tell that one where it
+// should be.
+TEST_F(JointRecords, APointThatBeganElsewhereComesToItsPlace) {
+  std::vector<Eigen::VectorXd> row;
+  for (const PointFit& fit : fit_->points) row.push_back(fit.parameters);
+  const Eigen::VectorXd right = row[2];
+  const std::vector<double> delays = DelayStarts((*points_)[2].record, 4);
+  for (const double tau : delays) {
+    if (std::abs(tau - std::exp(right[structure_->Delay()])) < 1.0) continue;
+    row[2][structure_->Delay()] = std::log(tau);
+  }
+  ASSERT_NE(row[2][structure_->Delay()], right[structure_->Delay()]);
+  row[2][1] = std::log(5.0);  // the second mode's frequency: that of the first is at 2.3
+  const RecordsFit again = FitRecordsFrom(*points_, *structure_, {row});
+  EXPECT_NEAR(again.points[2].log_posterior, fit_->points[2].log_posterior, 1.0);
+  EXPECT_LT((again.points[2].parameters - right).head(structure_->Transfer()).norm(), 0.02);
+}
+
 TEST_F(JointRecords, FindsEachPointsLoop) {
   for (std::size_t e = 0; e < kGains.size(); ++e) {
     const ModalLoop truth = DuctAt(kGains[e]);

@@ -43,6 +43,29 @@ TEST(ParameterLaw, IsLeastSquaresOfWhatIsKnownExactly) {
   EXPECT_NEAR(square, squares / 5.0, 1e-3);
 }
 
+// Points of one rig differ by no more than rigs do.
+TEST(ParameterLaw, SpreadHasTheLimitOfTheBase) {
+  std::vector<ParameterEvidence> points;
+  for (const double z : {-1.2, 0.1, 1.1}) points.push_back(Measured(z, 300.0 * z * z, 0.1));
+  EXPECT_EQ(FitParameterLaw(points, Wide(2.0)).spread[0], 2.0);
+}
+
+TEST(ParameterLaw, GoesTowardAnotherByShares) {
+  ParameterLaw from =
+      FitParameterLaw({Measured(-1.0, 1.0, 0.1), Measured(1.0, 1.2, 0.1)}, Wide(1.0));
+  ParameterLaw to = from;
+  to.mean[0] += 0.4;
+  to.trend[0] -= 0.2;
+  to.spread[0] *= 4.0;
+  const ParameterLaw half = from.Toward(to, Eigen::VectorXd::Constant(1, 0.5));
+  EXPECT_NEAR(half.mean[0], from.mean[0] + 0.2, 1e-12);
+  EXPECT_NEAR(half.trend[0], from.trend[0] - 0.1, 1e-12);
+  EXPECT_NEAR(half.spread[0], 2.0 * from.spread[0], 1e-12);
+  const Eigen::MatrixX2d move = from.MoveTo(to);
+  EXPECT_NEAR(move(0, 0), 0.4 / to.spread[0], 1e-12);
+  EXPECT_NEAR(move(0, 1), -0.2 / to.spread[0], 1e-12);
+}
+
 // A point that says nothing has what the others expect of it.
 TEST(ParameterLaw, PointsThatSayNothingChangeLittle) {
   std::vector<ParameterEvidence> points;

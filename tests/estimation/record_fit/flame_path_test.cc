@@ -67,33 +67,69 @@ TEST(FlamePath, IsNormalWhereTheSpreadIsSmall) {
   EXPECT_LT(apart(0.05), 1e-4);
 }
 
+// One of each spread, alone and with a second path.
+std::vector<FlamePath> AllPaths() {
+  std::vector<FlamePath> out;
+  for (const DelaySpread spread : {DelaySpread::kNone, DelaySpread::kNormal, DelaySpread::kGamma}) {
+    for (const bool second : {false, true}) {
+      FlamePath path{spread, 1.1, 0.3};
+      if (second) path.second = SecondPath{-0.4, 0.8};
+      out.push_back(path);
+    }
+  }
+  return out;
+}
+
+// In the order of its parameters; `step` added to parameter k.
+FlamePath Moved(FlamePath path, std::size_t k, double step) {
+  const std::size_t second = path.spread == DelaySpread::kNone ? 1 : 2;
+  if (k == 0) path.tau *= std::exp(step);
+  if (k == 1 && second == 2) path.rho *= std::exp(step);
+  if (path.second && k == second) path.second->share += step;
+  if (path.second && k == second + 1) path.second->lambda *= std::exp(step);
+  return path;
+}
+
 TEST(FlamePath, SlopesAreThoseOfItsLogarithm) {
   constexpr double kStep = 1e-6;
-  for (const DelaySpread spread : {DelaySpread::kNone, DelaySpread::kNormal, DelaySpread::kGamma}) {
+  for (const FlamePath& path : AllPaths()) {
+    const std::size_t parameters =
+        (path.spread == DelaySpread::kNone ? 1 : 2) + (path.second ? 2 : 0);
     for (const C s : {C(0.0, 0.5), C(0.05, 2.0)}) {
-      const auto log_at = [&](double log_tau, double log_rho) {
-        return std::log(FlamePath{spread, std::exp(log_tau), std::exp(log_rho)}.At(s));
-      };
-      const double a = std::log(1.1);
-      const double b = std::log(0.3);
-      const FlamePath path{spread, 1.1, 0.3};
-      const C by_tau = (log_at(a + kStep, b) - log_at(a - kStep, b)) / (2.0 * kStep);
-      const C by_rho = (log_at(a, b + kStep) - log_at(a, b - kStep)) / (2.0 * kStep);
-      EXPECT_LT(std::abs(path.ByLogTau(s) - by_tau), 1e-8);
-      EXPECT_LT(std::abs(path.ByLogRho(s) - by_rho), 1e-8);
-      const auto fall = [&](double log_tau, double log_rho) {
-        return FlamePath{spread, std::exp(log_tau), std::exp(log_rho)}.Fall(s);
-      };
-      const C fall_by_tau = (fall(a + kStep, b) - fall(a - kStep, b)) / (2.0 * kStep);
-      const C fall_by_rho = (fall(a, b + kStep) - fall(a, b - kStep)) / (2.0 * kStep);
-      EXPECT_LT(std::abs(path.FallByLogTau(s) - fall_by_tau), 1e-8);
-      EXPECT_LT(std::abs(path.FallByLogRho(s) - fall_by_rho), 1e-8);
-      // At / Fall is the integral of At from s on: its slope is -At.
-      const auto integral = [&](C at) { return path.At(at) / path.Fall(at); };
+      for (std::size_t k = 0; k < parameters; ++k) {
+        const FlamePath above = Moved(path, k, kStep);
+        const FlamePath below = Moved(path, k, -kStep);
+        EXPECT_LT(std::abs(path.WithSlopes(s).by[k] -
+                           (std::log(above.At(s)) - std::log(below.At(s))) / (2.0 * kStep)),
+                  1e-8);
+        EXPECT_LT(
+            std::abs(path.Fall(s).by[k] - (above.Fall(s).at - below.Fall(s).at) / (2.0 * kStep)),
+            1e-8);
+      }
+    }
+  }
+}
+
+// At / Fall is the integral of At from s on: its slope is -At. Of two paths whose delays are spread
+// the fall is a neighbour's of the frequency.
+TEST(FlamePath, FallsAsItsIntegralDoes) {
+  constexpr double kStep = 1e-6;
+  for (const FlamePath& path : AllPaths()) {
+    if (path.second && path.spread != DelaySpread::kNone) continue;
+    const auto integral = [&](C at) { return path.At(at) / path.Fall(at).at; };
+    for (const C s : {C(0.0, 0.5), C(0.05, 2.0)}) {
       EXPECT_LT(std::abs((integral(s + kStep) - integral(s - kStep)) / (2.0 * kStep) + path.At(s)),
                 1e-8);
     }
   }
+}
+
+TEST(FlamePath, SecondAnswersLater) {
+  const C s(0.1, 1.7);
+  FlamePath path{DelaySpread::kNone, 2.0};
+  const C first = path.At(s);
+  path.second = SecondPath{0.3, 1.5};
+  EXPECT_LT(std::abs(path.At(s) - (0.7 * first + 0.3 * std::exp(-3.5 * s))), 1e-14);
 }
 
 // A record of a linear loop below onset that repeats itself, drawn frequency by frequency. A source
@@ -157,6 +193,35 @@ TEST(FlamePath, SpreadIsFoundInRecords) {
     EXPECT_LT(std::abs(fit.parameters[delay + 1] - std::log(rho)), 4.0 * std[delay + 1]);
     EXPECT_LT(std[delay], 0.05);
     EXPECT_LT(std[delay + 1], 0.3);
+  }
+}
+
+TEST(FlamePath, SecondIsFoundInRecords) {
+  ModalLoop loop = DuctOfModes(2);
+  for (ModalLoop::Mode& mode : loop.modes) mode.xi *= 4.0;
+  loop.slope *= 2.0;
+  const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
+  const double radian_s = 1.0 / (2.0 * std::numbers::pi * cycle_hz);
+  for (const double share : {0.3, -0.4}) {
+    const double lambda = 2.0;
+    const FlamePath path{DelaySpread::kNone, loop.tau_s, 0.0, SecondPath{share, lambda * radian_s}};
+    const RecordSpectra spectra =
+        MakeRecordSpectra(DrawnRecord(loop, path, 1.5, 9), cycle_hz, FlameInput::kPressureRate);
+    PointStructure structure = FreeStructure(2);
+    structure.second_path = true;
+    structure.noise = {{LoopNoise::kCombustion, 2}, {LoopNoise::kDuct, 2}};
+    const PointPrior prior = PriorOf(structure, spectra);
+    const PointFit fit =
+        FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, 8, 1));
+    EXPECT_TRUE(fit.converged);
+    const Eigen::VectorXd std = fit.Covariance().diagonal().cwiseSqrt();
+    const Eigen::Index delay = structure.Delay();
+    const Eigen::Index second = structure.SecondPath();
+    EXPECT_LT(std::abs(fit.parameters[delay] - std::log(loop.tau_s / radian_s)), 4.0 * std[delay]);
+    EXPECT_LT(std::abs(fit.parameters[second] - share), 4.0 * std[second]);
+    EXPECT_LT(std::abs(fit.parameters[second + 1] - std::log(lambda)), 4.0 * std[second + 1]);
+    EXPECT_LT(std[second], 0.1);
+    EXPECT_LT(std[second + 1], 0.2);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/return_difference.h"
@@ -22,7 +23,7 @@ double ByItself(const RecordSpectra& record, const PointStructure& structure,
          LogDeterminant(record, point);
 }
 
-class KeptParts : public testing::TestWithParam<DelaySpread> {};
+class KeptParts : public testing::TestWithParam<std::tuple<DelaySpread, bool>> {};
 
 TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
   const ModalLoop loop = DuctOfModes(2);
@@ -30,7 +31,7 @@ TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
       MakeRecordSpectra(SimulateModalLoop(loop, 0.5, 1), 203.0, FlameInput::kPressureRate);
   for (const bool tied : {false, true}) {
     PointStructure structure = FreeStructure(2);
-    structure.delay_spread = GetParam();
+    std::tie(structure.delay_spread, structure.second_path) = GetParam();
     structure.acoustic_lines = tied ? 0 : 3;
     structure.flame_lines = 4;
     if (tied) structure.ratio = 2.2;
@@ -62,9 +63,10 @@ TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllSpreads, KeptParts,
-                         testing::Values(DelaySpread::kNone, DelaySpread::kNormal,
-                                         DelaySpread::kGamma));
+INSTANTIATE_TEST_SUITE_P(AllPaths, KeptParts,
+                         testing::Combine(testing::Values(DelaySpread::kNone, DelaySpread::kNormal,
+                                                          DelaySpread::kGamma),
+                                          testing::Bool()));
 
 }  // namespace
 }  // namespace howl

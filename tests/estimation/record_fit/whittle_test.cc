@@ -26,9 +26,10 @@ PointStructure TiedStructure() {
   return structure;
 }
 
-PointStructure ErringStructure(DelaySpread spread) {
+PointStructure ErringStructure(DelaySpread spread, bool second_path = false) {
   PointStructure structure = FreeStructure(2);
   structure.delay_spread = spread;
+  structure.second_path = second_path;
   structure.acoustic_lines = 3;
   structure.flame_lines = 4;
   return structure;
@@ -40,7 +41,8 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
   const RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
   for (PointStructure structure :
        {FreeStructure(2), TiedStructure(), ErringStructure(DelaySpread::kNone),
-        ErringStructure(DelaySpread::kNormal), ErringStructure(DelaySpread::kGamma)}) {
+        ErringStructure(DelaySpread::kNormal), ErringStructure(DelaySpread::kGamma),
+        ErringStructure(DelaySpread::kNone, true), ErringStructure(DelaySpread::kNormal, true)}) {
     structure.noise.push_back({LoopNoise::kDuct, 2});
     structure.noise.push_back({LoopNoise::kBackground, 2});
     const PointPrior prior = PriorOf(structure, spectra);

@@ -1,0 +1,177 @@
+#include "diagnosis/loop_budget/loop_form.h"
+
+#include <algorithm>
+
+#include "estimation/joint_records/record_loop_spec.h"
+
+namespace howl {
+namespace {
+
+// Of a source that has any shape.
+Eigen::Index Fine(Eigen::Index coefficients) { return coefficients > 1 ? 2 * coefficients : 1; }
+
+NoiseTerm TermIn(const LoopForm& model, NoiseTerm term) {
+  if (model.fine_noise) term.coefficients = Fine(term.coefficients);
+  return term;
+}
+
+const NoiseTerm* TermOf(const LoopForm& model, LoopNoise source) {
+  const auto at = std::ranges::find(model.structure.noise, source, &NoiseTerm::source);
+  return at == model.structure.noise.end() ? nullptr : &*at;
+}
+
+bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& base) {
+  const PointStructure& now = model.structure;
+  switch (item.kind) {
+    case LoopItemKind::kNoise: {
+      const NoiseTerm* const term = TermOf(model, item.noise.source);
+      return term == nullptr || term->coefficients < item.noise.coefficients;
+    }
+    case LoopItemKind::kNoiseShape:
+      return !model.fine_noise;
+    case LoopItemKind::kDetuning:
+      return now.ratio.has_value() && now.modes > 1;
+    case LoopItemKind::kOwnDamping:
+      return !now.own_damping && now.modes > 1;
+    case LoopItemKind::kComplexResidues:
+      return !now.complex_residues;
+    case LoopItemKind::kMode:
+      // One more of modes that are tied to one another would have no frequency of its own.
+      return !now.ratio && now.own_damping && now.modes < kMostModes;
+    case LoopItemKind::kDelaySpread:
+      return now.delay_spread == DelaySpread::kNone;
+    case LoopItemKind::kSecondPath:
+      return !now.second_path;
+    case LoopItemKind::kFlameInput:
+      return model.flame_input == base.flame_input && item.input != base.flame_input;
+    case LoopItemKind::kInstrument:
+      return std::ranges::none_of(model.instruments, [&](const LoopInstrument& each) {
+        return each.effect->id() == item.instrument->id();
+      });
+    case LoopItemKind::kLineErrors:
+      return now.*item.lines == 0;
+  }
+  return false;
+}
+
+void SetNoise(const NoiseTerm& term, std::vector<NoiseTerm>* noise) {
+  const auto at = std::ranges::find(*noise, term.source, &NoiseTerm::source);
+  if (at == noise->end()) {
+    noise->push_back(term);
+  } else {
+    *at = term;
+  }
+  // A background's ratio is the last parameter.
+  std::ranges::stable_sort(*noise, {}, &NoiseTerm::source);
+}
+
+}  // namespace
+
+std::vector<NoiseTerm> LeastNoise() {
+  return {{LoopNoise::kCombustion, kSourceCoefficients},
+          {LoopNoise::kPressureSensor, 1},
+          {LoopNoise::kHeatReleaseSensor, 1}};
+}
+
+std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
+  std::vector<LoopItem> out;
+  for (const LoopItem& item : AllLoopItems()) {
+    if (MayBeAdded(item, model, base)) out.push_back(item);
+  }
+  return out;
+}
+
+LoopForm With(LoopForm model, const LoopItem& item) {
+  PointStructure& structure = model.structure;
+  switch (item.kind) {
+    case LoopItemKind::kNoise:
+      SetNoise(TermIn(model, item.noise), &structure.noise);
+      break;
+    case LoopItemKind::kNoiseShape:
+      model.fine_noise = true;
+      for (NoiseTerm& term : structure.noise) term.coefficients = Fine(term.coefficients);
+      break;
+    case LoopItemKind::kDetuning:
+      structure.ratio.reset();
+      break;
+    case LoopItemKind::kOwnDamping:
+      structure.own_damping = true;
+      break;
+    case LoopItemKind::kComplexResidues:
+      structure.complex_residues = true;
+      break;
+    case LoopItemKind::kMode:
+      ++structure.modes;
+      break;
+    case LoopItemKind::kDelaySpread:
+      structure.delay_spread = item.spread;
+      break;
+    case LoopItemKind::kSecondPath:
+      structure.second_path = true;
+      break;
+    case LoopItemKind::kFlameInput:
+      model.flame_input = item.input;
+      break;
+    case LoopItemKind::kInstrument:
+      model.instruments.push_back({item.instrument, item.instrument->parameters()[0].null_value});
+      break;
+    case LoopItemKind::kLineErrors:
+      structure.*item.lines = kCycleLines;
+      break;
+  }
+  return model;
+}
+
+LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base) {
+  PointStructure& structure = model.structure;
+  switch (item.kind) {
+    case LoopItemKind::kNoise:
+      if (const NoiseTerm* const term = TermOf(base, item.noise.source)) {
+        SetNoise(TermIn(model, *term), &structure.noise);
+      } else {
+        std::erase_if(structure.noise,
+                      [&](const NoiseTerm& each) { return each.source == item.noise.source; });
+      }
+      break;
+    case LoopItemKind::kNoiseShape:
+      model.fine_noise = false;
+      for (NoiseTerm& term : structure.noise) {
+        if (term.coefficients > 1) term.coefficients /= 2;
+      }
+      break;
+    case LoopItemKind::kDetuning:
+      structure.ratio = base.structure.ratio;
+      structure.modes = base.structure.modes;
+      break;
+    case LoopItemKind::kOwnDamping:
+      structure.own_damping = false;
+      structure.modes = base.structure.modes;
+      break;
+    case LoopItemKind::kComplexResidues:
+      structure.complex_residues = false;
+      break;
+    case LoopItemKind::kMode:
+      --structure.modes;
+      break;
+    case LoopItemKind::kDelaySpread:
+      structure.delay_spread = DelaySpread::kNone;
+      break;
+    case LoopItemKind::kSecondPath:
+      structure.second_path = false;
+      break;
+    case LoopItemKind::kFlameInput:
+      model.flame_input = base.flame_input;
+      break;
+    case LoopItemKind::kInstrument:
+      std::erase_if(model.instruments, [&](const LoopInstrument& each) {
+        return each.effect->id() == item.instrument->id();
+      });
+      break;
+    case LoopItemKind::kLineErrors:
+      structure.*item.lines = 0;
+      break;
+  }
+  return model;
+}
+
+}  // namespace howl

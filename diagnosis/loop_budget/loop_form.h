@@ -1,0 +1,34 @@
+// The loop that a budget of records has come to, and what an item makes of it (loop_item.h).
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_FORM_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_FORM_H_
+
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_instrument.h"
+#include "diagnosis/loop_budget/loop_item.h"
+#include "estimation/record_fit/loop/loop_point.h"
+
+namespace howl {
+
+struct LoopForm {
+  PointStructure structure;
+  FlameInput flame_input = FlameInput::kPressureRate;
+  std::vector<LoopInstrument> instruments;
+  bool fine_noise = false;  // noise_shape
+};
+
+// The least noise that a rig has: combustion's, coloured, and white noise of both sensors.
+std::vector<NoiseTerm> LeastNoise();
+
+// All that may be added to `model` now, of a search that began at `base`.
+std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);
+
+// An instrument comes at its null.
+LoopForm With(LoopForm model, const LoopItem& item);
+// `model` has the item, which `base` has not. Modes that were added need frequencies and dampings
+// of their own: without either they go as well.
+LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_FORM_H_
