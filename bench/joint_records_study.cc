@@ -13,7 +13,6 @@
 #include <glog/logging.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,6 +23,7 @@
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
 #include "bench/record_structures.h"
+#include "bench/seconds.h"
 #include "diagnosis/held_out/common_ceiling.h"
 #include "diagnosis/held_out/octave_gaps.h"
 #include "diagnosis/held_out/places_left.h"
@@ -44,10 +44,6 @@ struct Row {
   double nats = 0.0;
   HeldOutScore score;
 };
-
-double Seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 bool Asked(const char* variable, const std::string& name) {
   const char* const only = std::getenv(variable);
@@ -80,14 +76,13 @@ void PrintPoint(const std::string& name, const PointStructure& structure,
                 mode.omega * record.scale.cycle_hz, half(structure.ratio ? 0 : k), mode.xi,
                 half(structure.Frequencies() + (structure.own_damping ? k : 0)), mode.a, mode.b);
   }
-  std::printf(" | tau %.3f ms +-%.1f%%",
-              1e3 * point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz),
+  std::printf(" | tau %.3f ms +-%.1f%%", 1e3 * point.path.tau / record.scale.AngularFrequency(),
               half(structure.Delay()));
   if (structure.HasSpread()) std::printf(" rho %.2f", point.path.rho);
   if (structure.second_path) {
     std::printf(" share %.2f+-%.2f later %.3f ms", point.path.second->share,
                 0.01 * half(structure.SecondPath()),
-                1e3 * point.path.second->lambda / (2.0 * std::numbers::pi * record.scale.cycle_hz));
+                1e3 * point.path.second->lambda / record.scale.AngularFrequency());
   }
   for (Eigen::Index h = 0; h < point.acoustic_lines.size(); ++h) {
     std::printf("%s %.2f@%.0f", h ? "" : " | d", std::abs(point.acoustic_lines[h]),
@@ -117,8 +112,7 @@ void PrintOctaves(const std::vector<OctaveGap>& gaps) {
   std::printf("\n");
 }
 
-void PrintTable(const LoopRecords& records, const std::vector<double>& cycle_hz,
-                const std::vector<Row>& rows) {
+void PrintTable(const LoopRecords& records, const std::vector<Row>& rows) {
   CommonCeiling ceiling;
   for (const Row& row : rows) ceiling.Lower(row.score);
   const Row* best = &rows[0];
@@ -130,7 +124,7 @@ void PrintTable(const LoopRecords& records, const std::vector<double>& cycle_hz,
     if (row.nats > best->nats) best = &row;
   }
   const HeldOutScore left = ceiling.Against(best->score);
-  PrintOctaves(GapsByOctave(records.names(), cycle_hz, left));
+  PrintOctaves(GapsByOctave(records.names(), records.cycle_hz(), left));
   for (const Place& place : PlacesLeft(records.names(), left)) {
     std::printf("left: %s, %.0f to %.0f Hz, share %.2f at", LoopBlockName(place.block).data(),
                 place.low_hz, place.high_hz, place.share);
@@ -142,8 +136,7 @@ void PrintTable(const LoopRecords& records, const std::vector<double>& cycle_hz,
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
-  const std::vector<LoopRecord> loops = LoopRecordsOf(rig);
-  const LoopRecords records(loops, 0);
+  const LoopRecords records(LoopRecordsOf(rig), 0);
   std::vector<Row> rows;
   std::vector<double> first;
   for (const FlameInput input : kInputs) {
@@ -179,9 +172,7 @@ int Run(int argc, char** argv) {
       poorer = std::move(fit.fit);
     }
   }
-  std::vector<double> cycle_hz;
-  for (const LoopRecord& loop : loops) cycle_hz.push_back(loop.cycle_hz);
-  PrintTable(records, cycle_hz, rows);
+  PrintTable(records, rows);
   return 0;
 }
 

@@ -7,7 +7,6 @@
 // records with each effect in them are diagnosed, as by a user who has taken the budget's advice: a
 // row with what was added, its value and what is lost without it.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -15,14 +14,11 @@
 #include "bench/known_effects.h"
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
+#include "bench/seconds.h"
 #include "diagnosis/loop_budget/loop_budget.h"
 
 namespace howl {
 namespace {
-
-double Seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 void PrintRow(const std::string& what, const LoopDiagnosis& found, double seconds) {
   const Budget& budget = *found.diagnosis.budget;

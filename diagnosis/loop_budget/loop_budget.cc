@@ -52,8 +52,8 @@ double DensityWithoutLines(const LoopFound& found) {
   return out;
 }
 
-Budget BudgetOf(const LoopRecords& records, const std::vector<double>& cycle_hz,
-                const LoopFound& found, const LoopBudgetOptions& options) {
+Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
+                const LoopBudgetOptions& options) {
   const HeldOutScore base = ScoreHeldOut(records, found.base, "base/", options);
   const HeldOutScore best = ScoreHeldOut(records, found.best, "best/", options);
   std::vector<HeldOutScore> after;
@@ -95,7 +95,7 @@ Budget BudgetOf(const LoopRecords& records, const std::vector<double>& cycle_hz,
   const HeldOutScore left = ceiling.Against(best);
   if (out.gap_left > 0.0) out.left = PlacesLeft(records.names(), left);
   out.floor = left.Floor();
-  out.left_by_octave = GapsByOctave(records.names(), cycle_hz, left);
+  out.left_by_octave = GapsByOctave(records.names(), records.cycle_hz(), left);
   return out;
 }
 
@@ -160,8 +160,6 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
                             const LoopBudgetOptions& options) {
   const LoopRecords records(all, options.threads);
   const LoopFound found = SearchLoopBudget(records, base, options);
-  std::vector<double> cycle_hz;
-  for (const LoopRecord& each : all) cycle_hz.push_back(each.cycle_hz);
   LoopDiagnosis out;
   out.base = base;
   out.best = found.best.model;
@@ -169,7 +167,7 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
       LinesOf(records, found, found.with_acoustic_lines, &PointStructure::acoustic_lines);
   out.flame = LinesOf(records, found, found.with_flame_lines, &PointStructure::flame_lines);
   Diagnosis& diagnosis = out.diagnosis;
-  diagnosis.budget = BudgetOf(records, cycle_hz, found, options);
+  diagnosis.budget = BudgetOf(records, found, options);
   diagnosis.where = diagnosis.budget->left;
   diagnosis.gap_before = diagnosis.budget->gap_before;
   diagnosis.gap_after = diagnosis.budget->gap_left;

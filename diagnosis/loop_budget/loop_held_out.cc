@@ -34,10 +34,21 @@ Eigen::VectorXd WithTransientsOf(const RecordSpectra& record, const PointStructu
   return parameters;
 }
 
-PredictedSignals SignalsOf(const RecordSpectra& record, const PointStructure& structure,
-                           const Eigen::VectorXd& parameters) {
+void SetErrors(const RecordSpectra& record, const PointStructure& structure,
+               const Eigen::VectorXd& parameters, PredictedSignals* signals) {
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   const LoopResiduals residuals = ResidualsOf(record, structure, point);
+  signals->pressure_error.resize(record.bins());
+  signals->heat_release_error.resize(record.bins());
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const Eigen::Matrix2cd w = NoiseCovariance(structure.noise, residuals, i).inverse();
+    SetPredictionErrors({residuals.acoustic[i], residuals.flame[i]}, w, residuals.r[i],
+                        residuals.f[i], i, signals);
+  }
+}
+
+// Their errors are none yet.
+PredictedSignals SignalsOf(const RecordSpectra& record) {
   PredictedSignals signals;
   signals.cycle_hz = record.scale.cycle_hz;
   signals.bin_hz = record.bin_hz;
@@ -47,13 +58,6 @@ PredictedSignals SignalsOf(const RecordSpectra& record, const PointStructure& st
   signals.heat_release = Tapered(record.heat_release);
   signals.pressure_power = SmoothPower(signals.pressure, kPowerReach);
   signals.heat_release_power = SmoothPower(signals.heat_release, kPowerReach);
-  signals.pressure_error.resize(record.bins());
-  signals.heat_release_error.resize(record.bins());
-  for (Eigen::Index i = 0; i < record.bins(); ++i) {
-    const Eigen::Matrix2cd w = NoiseCovariance(structure.noise, residuals, i).inverse();
-    SetPredictionErrors({residuals.acoustic[i], residuals.flame[i]}, w, residuals.r[i],
-                        residuals.f[i], i, &signals);
-  }
   return signals;
 }
 
@@ -62,7 +66,9 @@ PredictedSignals SignalsOf(const RecordSpectra& record, const PointStructure& st
 std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructure& structure,
                                  const Eigen::VectorXd& at, const Eigen::MatrixXd& information,
                                  std::uint64_t seed) {
-  const PredictedSignals signals = SignalsOf(record, structure, at);
+  PredictedSignals signals = SignalsOf(record);
+  SetErrors(record, structure, at, &signals);
+  PredictedSignals moved = signals;
   std::vector<BandErrors> out = ErrorsOverBands(signals);
   const Eigen::LLT<Eigen::MatrixXd> root(information);
   RandomStream random(seed);
@@ -72,8 +78,8 @@ std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructu
     root.matrixU().solveInPlace(step);
     // What this half holds at its ends is its own.
     step.segment(structure.Transfer(), structure.Transients()).setZero();
-    AddSpread(signals, SignalsOf(record, structure, at + kStep * step),
-              1.0 / (kStep * kStep * kDraws), &out);
+    SetErrors(record, structure, at + kStep * step, &moved);
+    AddSpread(signals, moved, 1.0 / (kStep * kStep * kDraws), &out);
   }
   return out;
 }

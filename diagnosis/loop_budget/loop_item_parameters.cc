@@ -79,19 +79,19 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
       break;
     case LoopItemKind::kDelaySpread:
       add("sigma_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
-        return point.path.rho * point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz);
+        return point.path.rho * point.path.tau / record.scale.AngularFrequency();
       });
       break;
     case LoopItemKind::kSecondPath:
       add("share", "",
           [](const RecordSpectra&, const LoopPoint& point) { return point.path.second->share; });
       add("extra_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
-        return point.path.second->lambda / (2.0 * std::numbers::pi * record.scale.cycle_hz);
+        return point.path.second->lambda / record.scale.AngularFrequency();
       });
       break;
     case LoopItemKind::kFlameInput:
       add("tau_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
-        return point.path.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz);
+        return point.path.tau / record.scale.AngularFrequency();
       });
       break;
     case LoopItemKind::kLineErrors:

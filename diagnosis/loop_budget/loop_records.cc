@@ -29,7 +29,10 @@ double Jacobian(const LoopForm& form, const RecordSpectra& record) {
 
 LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   CHECK(!records.empty());
-  for (const LoopRecord& each : records) names_.push_back(each.name);
+  for (const LoopRecord& each : records) {
+    names_.push_back(each.name);
+    cycle_hz_.push_back(each.cycle_hz);
+  }
   for (Spectra& spectra : spectra_) {
     spectra.points.resize(records.size());
     spectra.halves.resize(records.size());

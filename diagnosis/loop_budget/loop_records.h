@@ -27,6 +27,7 @@ class LoopRecords {
 
   std::size_t size() const { return names_.size(); }
   const std::vector<std::string>& names() const { return names_; }
+  const std::vector<double>& cycle_hz() const { return cycle_hz_; }
   // As `form` has them, without its instruments.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
@@ -48,6 +49,7 @@ class LoopRecords {
   const Spectra& Of(FlameInput input) const { return spectra_[static_cast<std::size_t>(input)]; }
 
   std::vector<std::string> names_;
+  std::vector<double> cycle_hz_;
   std::array<Spectra, 3> spectra_;
 };
 

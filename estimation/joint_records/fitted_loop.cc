@@ -107,7 +107,7 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
   out.modes = ModesOf(structure, point, covariance, record.scale);
   out.tau_s =
       FromLogarithm(std::log(point.path.tau), covariance(structure.Delay(), structure.Delay()),
-                    1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz));
+                    1.0 / record.scale.AngularFrequency());
   if (structure.HasSpread()) {
     out.delay_spread = FromLogarithm(std::log(point.path.rho),
                                      covariance(structure.Delay() + 1, structure.Delay() + 1), 1.0);
@@ -117,7 +117,7 @@ FittedLoop FittedLoopOf(const RecordSpectra& record, const PointStructure& struc
     out.second_path = {
         {point.path.second->share, std::sqrt(covariance(at, at))},
         FromLogarithm(std::log(point.path.second->lambda), covariance(at + 1, at + 1),
-                      1.0 / (2.0 * std::numbers::pi * record.scale.cycle_hz))};
+                      1.0 / record.scale.AngularFrequency())};
   }
   out.acoustic_lines = LinesOf(point.acoustic_lines, structure.AcousticLine(), covariance);
   out.flame_lines =
@@ -138,7 +138,7 @@ std::vector<OtherDelay> OtherDelaysOf(const RecordSpectra& record, const PointSt
   }
   std::vector<OtherDelay> out;
   for (const DelayMaximum& each : OtherDelayMaxima(record, structure, prior, fit.parameters)) {
-    out.push_back({each.tau / (2.0 * std::numbers::pi * record.scale.cycle_hz), each.nats_below});
+    out.push_back({each.tau / record.scale.AngularFrequency(), each.nats_below});
   }
   return out;
 }

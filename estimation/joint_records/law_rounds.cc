@@ -65,12 +65,10 @@ RecordsFit FitUnderLaw(const RecordsFitter& fitter, const std::vector<OperatingP
   out.points = fitter.Best(starts, options);
   for (std::size_t e = 0; e < points.size(); ++e) out.prior.push_back(fitter.base(e));
   const bool alone = points.size() == 1;
-  int rounds = 0;
   int searches = 0;
   int since_search = 0;
   LawSteps steps;
-  while (true) {
-    const int round = rounds++;
+  for (int round = 0;; ++round) {
     const std::vector<ParameterEvidence> evidence = fitter.Evidence(out.points, out.prior);
     ParameterLaw law = fitter.Law(evidence);
     const bool stands = round > 0 && fitter.Stands(out.law, law);

@@ -4,8 +4,8 @@
 //
 //   common = scale u + shift,   u without unit as in loop_point.h
 //
-//   ln omega: + ln c     ln tau, ln lambda: - ln c     a, b: times c P / Q     ln S_j: + 2 ln(P or
-//   Q) - ln F the background's ratio: times P / Q
+//   ln omega: + ln c     ln tau, ln lambda: - ln c     a, b: times c P / Q
+//   ln S_j: + 2 ln(P or Q) - ln F     the background's ratio: times P / Q
 //
 // c, P, Q and F: the point's cycle, root mean squares of p and q, and sampling rate, over those of
 // the reference. The shape of a spectrum is over the band, which follows the cycle.

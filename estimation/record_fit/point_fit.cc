@@ -56,11 +56,13 @@ class Posterior {
   }
 
   Quadratic Expand(const Eigen::VectorXd& parameters) {
-    Quadratic out;
+    return {Gradient(parameters), Information(parameters)};
+  }
+
+  Eigen::MatrixXd Information(const Eigen::VectorXd& parameters) {
     const auto scale = prior_.deviation.asDiagonal();
-    out.gradient = Gradient(parameters);
-    out.information = scale * likelihood_.Information(parameters) * scale;
-    out.information.diagonal() += prior_.Precision(parameters);
+    Eigen::MatrixXd out = scale * likelihood_.Information(parameters) * scale;
+    out.diagonal() += prior_.Precision(parameters);
     return out;
   }
 
@@ -211,11 +213,12 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     const double gain = value - out.log_posterior;
     // Where spectra leave the range of numbers the likelihood may still have a value, and no slope.
     Quadratic next;
-    if (std::isfinite(value)) next.gradient = posterior.Gradient(there);
-    const bool possible = std::isfinite(value) && next.gradient.allFinite();
+    const bool far = source == Source::kInformation && foretold >= kNear;
+    if (std::isfinite(value) && (gain > 0.0 || !far)) next.gradient = posterior.Gradient(there);
+    const bool possible = next.gradient.size() > 0 && next.gradient.allFinite();
     const bool taken = gain > 0.0 && possible;
-    if (source == Source::kInformation && foretold >= kNear) {
-      if (taken) next = posterior.Expand(there);
+    if (far) {
+      if (taken) next.information = posterior.Information(there);
     } else if (possible) {
       next.information = here.information;
       CorrectAlong(step, here.gradient - next.gradient, &next.information);

@@ -19,9 +19,15 @@ Eigen::MatrixXcd TaperedColumns(const Eigen::MatrixXcd& x) {
   return x.topRows(x.rows() - 1) - x.bottomRows(x.rows() - 1);
 }
 
-// Of the logarithm of the path's answer, by its parameter k.
-Eigen::VectorXcd PathSlope(const FlamePath& path, Eigen::Index k, const Eigen::VectorXcd& s) {
-  return s.unaryExpr([&](C each) { return path.WithSlopes(each).by[static_cast<std::size_t>(k)]; });
+// Of the logarithm of the path's answer, by its parameters, one column each.
+Eigen::MatrixXcd PathSlopesOf(const FlamePath& path, Eigen::Index parameters,
+                              const Eigen::VectorXcd& s) {
+  Eigen::MatrixXcd out(s.size(), parameters);
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    const PathDerivatives by = path.WithSlopes(s[i]).by;
+    for (Eigen::Index k = 0; k < parameters; ++k) out(i, k) = by[static_cast<std::size_t>(k)];
+  }
+  return out;
 }
 
 Eigen::VectorXcd LineFactors(const Eigen::VectorXcd& s, const Eigen::VectorXcd& errors) {
@@ -119,18 +125,15 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   const Eigen::VectorXcd path = point.path.At(record.s).cwiseProduct(record.input);
   out.f.setZero(record.bins(), of_flame);
   const Eigen::VectorXcd sloped = record.slopes.dot(point.flame) * path;
-  for (Eigen::Index k = 0; k < delays; ++k) {
-    out.f.col(k) = sloped.cwiseProduct(PathSlope(point.path, k, record.s));
-  }
+  out.f.leftCols(delays) = sloped.asDiagonal() * PathSlopesOf(point.path, delays, record.s);
   out.f.middleCols(delays, flame) = path * record.slopes.transpose();
   const Eigen::VectorXcd factors = LineFactors(record.edge_s, point.flame_lines);
   const Eigen::MatrixXcd delayed =
       point.path.At(record.edge_s).cwiseProduct(factors).asDiagonal() * record.flame;
   const Eigen::VectorXcd answer = delayed * point.flame;
   out.flame.resize(record.bins(), of_flame);
-  for (Eigen::Index k = 0; k < delays; ++k) {
-    out.flame.col(k) = -Tapered(answer.cwiseProduct(PathSlope(point.path, k, record.edge_s)));
-  }
+  out.flame.leftCols(delays) =
+      -TaperedColumns(answer.asDiagonal() * PathSlopesOf(point.path, delays, record.edge_s));
   out.flame.middleCols(delays, flame) = -TaperedColumns(delayed);
   out.flame.rightCols(structure.FlameLines()) = -TaperedColumns(
       LineShapes(record.edge_s, structure.flame_lines).Columns(answer.cwiseQuotient(factors)));

@@ -37,7 +37,6 @@ double SumOfResidues(const LoopPoint& point) {
 
 LoopTail::LoopTail(const RecordSpectra& record, const LoopPoint& point)
     : loop(record, point, 2.0 * record.s[record.bins() - 1]),
-      least_delay(LeastDelay(record)),
       u(record.slopes.dot(point.flame) * loop.u) {
   if (record.flame_input == FlameInput::kPressureRate) {
     constant = record.slopes.dot(point.flame) * SumOfResidues(point) * point.path.At(loop.s);
@@ -49,7 +48,6 @@ LoopTail::LoopTail(const RecordSpectra& record, const LoopPoint& point)
 }
 
 bool LoopTail::Possible(const FlamePath& path) const {
-  if (path.tau < least_delay) return false;
   if (path.spread == DelaySpread::kGamma && !(path.rho < 1.0)) return false;
   return std::abs(u) < 1.0 && std::abs(constant) < 1.0;
 }

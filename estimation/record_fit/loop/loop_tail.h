@@ -30,7 +30,7 @@ struct LoopAt {
 struct LoopTail {
   LoopTail(const RecordSpectra& record, const LoopPoint& point);
 
-  // Else the loop grows at all frequencies from there on, or its delay is none that the band tells.
+  // Else the loop grows at all frequencies from there on.
   bool Possible(const FlamePath& path) const;
   std::complex<double> Value() const;
   // Of Value by ln K, by ln U, and by l.
@@ -38,8 +38,7 @@ struct LoopTail {
   std::complex<double> ByLoop() const;
   std::complex<double> ByFall() const;
 
-  LoopAt loop;  // at omega_2
-  double least_delay;
+  LoopAt loop;                          // at omega_2
   std::complex<double> u;               // with the flame's slope in it
   std::complex<double> constant = 0.0;  // K
   std::complex<double> of_constant;     // 1 / j l

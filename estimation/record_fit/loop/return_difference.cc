@@ -53,7 +53,9 @@ double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
 double LogDeterminant(const RecordSpectra& record, const LoopPoint& point,
                       const LoopResiduals& at) {
   const LoopTail tail(record, point);
-  if (!tail.Possible(point.path)) return -std::numeric_limits<double>::infinity();
+  if (point.path.tau < LeastDelay(record) || !tail.Possible(point.path)) {
+    return -std::numeric_limits<double>::infinity();
+  }
   return Both(BesideBand(record, point, tail), Within(record, at));
 }
 

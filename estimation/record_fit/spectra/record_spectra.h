@@ -42,6 +42,9 @@ struct RecordScale {
   double heat_release = 1.0;
   double input_range = 0.0;   // largest |v|
   Eigen::MatrixXd functions;  // of the splines, one column each
+
+  // Of the cycle: delays without a unit over it are seconds.
+  double AngularFrequency() const { return 2.0 * std::numbers::pi * cycle_hz; }
 };
 
 struct RecordSpectra {
@@ -66,7 +69,7 @@ struct RecordSpectra {
   // What a state of one unit, that begins with the record, has in its spectrum but for 1 / s.
   double OneSample() const {
     const double samples = sampling_hz / bin_hz;
-    return sampling_hz / (2.0 * std::numbers::pi * scale.cycle_hz) / std::sqrt(samples);
+    return sampling_hz / scale.AngularFrequency() / std::sqrt(samples);
   }
 };
 

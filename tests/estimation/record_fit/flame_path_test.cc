@@ -170,58 +170,67 @@ Record DrawnRecord(const ModalLoop& loop, const FlamePath& path, double seconds,
   return out;
 }
 
-TEST(FlamePath, SpreadIsFoundInRecords) {
+// A duct so damped that p is broad.
+ModalLoop BroadDuct() {
   ModalLoop loop = DuctOfModes(2);
-  for (ModalLoop::Mode& mode : loop.modes) mode.xi *= 4.0;  // so that p is broad
+  for (ModalLoop::Mode& mode : loop.modes) mode.xi *= 4.0;
   loop.slope *= 2.0;
+  return loop;
+}
+
+struct FoundPath {
+  PointStructure structure;
+  PointFit fit;
+  Eigen::VectorXd std;
+};
+
+// In a record of the duct whose flame answers by this path, by a structure that has the like.
+FoundPath FindPath(const ModalLoop& loop, double cycle_hz, const FlamePath& path) {
+  const RecordSpectra spectra =
+      MakeRecordSpectra(DrawnRecord(loop, path, 1.5, 9), cycle_hz, FlameInput::kPressureRate);
+  FoundPath out{FreeStructure(2)};
+  out.structure.delay_spread = path.spread;
+  out.structure.second_path = path.second.has_value();
+  out.structure.noise = {{LoopNoise::kCombustion, 2}, {LoopNoise::kDuct, 2}};
+  const PointPrior prior = PriorOf(out.structure, spectra);
+  out.fit = FitPoint(spectra, out.structure, prior, StartsOf(spectra, out.structure, prior, 8, 1));
+  EXPECT_TRUE(out.fit.converged);
+  out.std = out.fit.Covariance().diagonal().cwiseSqrt();
+  return out;
+}
+
+TEST(FlamePath, SpreadIsFoundInRecords) {
+  const ModalLoop loop = BroadDuct();
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
   for (const DelaySpread spread : {DelaySpread::kNormal, DelaySpread::kGamma}) {
     const double rho = 0.15;
-    const Record record = DrawnRecord(loop, {spread, loop.tau_s, rho}, 1.5, 9);
-    const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
-    PointStructure structure = FreeStructure(2);
-    structure.delay_spread = spread;
-    structure.noise = {{LoopNoise::kCombustion, 2}, {LoopNoise::kDuct, 2}};
-    const PointPrior prior = PriorOf(structure, spectra);
-    const PointFit fit =
-        FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, 8, 1));
-    EXPECT_TRUE(fit.converged);
-    const Eigen::VectorXd std = fit.Covariance().diagonal().cwiseSqrt();
+    const auto [structure, fit, errors] = FindPath(loop, cycle_hz, {spread, loop.tau_s, rho});
     const Eigen::Index delay = structure.Delay();
     const double tau = loop.tau_s * 2.0 * std::numbers::pi * cycle_hz;
-    EXPECT_LT(std::abs(fit.parameters[delay] - std::log(tau)), 4.0 * std[delay]);
-    EXPECT_LT(std::abs(fit.parameters[delay + 1] - std::log(rho)), 4.0 * std[delay + 1]);
-    EXPECT_LT(std[delay], 0.05);
-    EXPECT_LT(std[delay + 1], 0.3);
+    EXPECT_LT(std::abs(fit.parameters[delay] - std::log(tau)), 4.0 * errors[delay]);
+    EXPECT_LT(std::abs(fit.parameters[delay + 1] - std::log(rho)), 4.0 * errors[delay + 1]);
+    EXPECT_LT(errors[delay], 0.05);
+    EXPECT_LT(errors[delay + 1], 0.3);
   }
 }
 
 TEST(FlamePath, SecondIsFoundInRecords) {
-  ModalLoop loop = DuctOfModes(2);
-  for (ModalLoop::Mode& mode : loop.modes) mode.xi *= 4.0;
-  loop.slope *= 2.0;
+  const ModalLoop loop = BroadDuct();
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
   const double radian_s = 1.0 / (2.0 * std::numbers::pi * cycle_hz);
   for (const double share : {0.3, -0.4}) {
     const double lambda = 2.0;
-    const FlamePath path{DelaySpread::kNone, loop.tau_s, 0.0, SecondPath{share, lambda * radian_s}};
-    const RecordSpectra spectra =
-        MakeRecordSpectra(DrawnRecord(loop, path, 1.5, 9), cycle_hz, FlameInput::kPressureRate);
-    PointStructure structure = FreeStructure(2);
-    structure.second_path = true;
-    structure.noise = {{LoopNoise::kCombustion, 2}, {LoopNoise::kDuct, 2}};
-    const PointPrior prior = PriorOf(structure, spectra);
-    const PointFit fit =
-        FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, 8, 1));
-    EXPECT_TRUE(fit.converged);
-    const Eigen::VectorXd std = fit.Covariance().diagonal().cwiseSqrt();
+    const auto [structure, fit, errors] =
+        FindPath(loop, cycle_hz,
+                 {DelaySpread::kNone, loop.tau_s, 0.0, SecondPath{share, lambda * radian_s}});
     const Eigen::Index delay = structure.Delay();
     const Eigen::Index second = structure.SecondPath();
-    EXPECT_LT(std::abs(fit.parameters[delay] - std::log(loop.tau_s / radian_s)), 4.0 * std[delay]);
-    EXPECT_LT(std::abs(fit.parameters[second] - share), 4.0 * std[second]);
-    EXPECT_LT(std::abs(fit.parameters[second + 1] - std::log(lambda)), 4.0 * std[second + 1]);
-    EXPECT_LT(std[second], 0.1);
-    EXPECT_LT(std[second + 1], 0.2);
+    EXPECT_LT(std::abs(fit.parameters[delay] - std::log(loop.tau_s / radian_s)),
+              4.0 * errors[delay]);
+    EXPECT_LT(std::abs(fit.parameters[second] - share), 4.0 * errors[second]);
+    EXPECT_LT(std::abs(fit.parameters[second + 1] - std::log(lambda)), 4.0 * errors[second + 1]);
+    EXPECT_LT(errors[second], 0.1);
+    EXPECT_LT(errors[second + 1], 0.2);
   }
 }
 

@@ -42,6 +42,14 @@ class Jacobian : public testing::Test {
     return sum;
   }
 
+  double Magnitude() const {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < record_.bins(); ++i) {
+      sum += 2.0 * record_.share[i] * std::abs(std::log(std::abs(D(record_.s[i]))));
+    }
+    return sum;
+  }
+
   // Of the root near the cycle, by Newton's method.
   C Root() const {
     C s(0.0, 1.0);
@@ -72,10 +80,7 @@ TEST_F(Jacobian, OfALoopThatDecaysIsTheSumOverTheBand) {
     point_.path.tau = tau;
     for (const double gain : {0.1, 0.3, 0.8}) {
       SetGain(gain);
-      double magnitude = 0.0;
-      for (Eigen::Index i = 0; i < record_.bins(); ++i) {
-        magnitude += 2.0 * record_.share[i] * std::abs(std::log(std::abs(D(record_.s[i]))));
-      }
+      const double magnitude = Magnitude();
       EXPECT_GT(magnitude, 10.0);
       // Beyond an octave above the band |U| falls further by the square of 2.3 / 12.8.
       EXPECT_NEAR(LogDeterminant(record_, point_), InBand(), 0.04 * magnitude)
@@ -91,10 +96,7 @@ TEST_F(Jacobian, OfALoopWithSpreadDelaysIsTheSumOverTheBand) {
       point_.path = {spread, 1.5, rho};
       for (const double gain : {0.1, 0.5}) {
         SetGain(gain);
-        double magnitude = 0.0;
-        for (Eigen::Index i = 0; i < record_.bins(); ++i) {
-          magnitude += 2.0 * record_.share[i] * std::abs(std::log(std::abs(D(record_.s[i]))));
-        }
+        const double magnitude = Magnitude();
         EXPECT_GT(magnitude, 5.0);
         EXPECT_NEAR(LogDeterminant(record_, point_), InBand(), 0.04 * magnitude)
             << gain << " " << rho << " " << static_cast<int>(spread);
@@ -108,10 +110,7 @@ TEST_F(Jacobian, OfALoopWithTwoPathsIsTheSumOverTheBand) {
     for (const double lambda : {0.7, 3.0}) {
       point_.path = {DelaySpread::kNormal, 1.5, 0.3, SecondPath{share, lambda}};
       SetGain(0.4);
-      double magnitude = 0.0;
-      for (Eigen::Index i = 0; i < record_.bins(); ++i) {
-        magnitude += 2.0 * record_.share[i] * std::abs(std::log(std::abs(D(record_.s[i]))));
-      }
+      const double magnitude = Magnitude();
       EXPECT_GT(magnitude, 5.0);
       EXPECT_NEAR(LogDeterminant(record_, point_), InBand(), 0.04 * magnitude)
           << share << " " << lambda;
