@@ -18,15 +18,15 @@ namespace {
 
 using Complex64 = std::complex<double>;
 
-// D1 D2 (1 - k L): entire, with the poles sought as its only zeros. Scaled by omega^4, and left of
-// the imaginary axis by |e^(tau s)| as well, which grows without end there: what is asked of it is
-// its argument.
+// D1 D2 (1 - k L): entire, with the poles sought as its only zeros; of one mode D1 (1 - k L), for
+// D2's zeros are not the loop's then. Scaled by omega^4, and left of the imaginary axis by
+// |e^(tau s)| as well, which grows without end there: what is asked of it is its argument.
 Complex64 Characteristic(const LoopParameters<double>& loop, double slope, Complex64 s) {
   const Acoustics<double>& a = loop.acoustics;
   const double w1 = kRadPerSPerHz * a.omega_hz;
   const double w2 = a.harmonic_ratio * w1;
   const Complex64 d1 = (s * s + 2.0 * w1 * a.xi * s + w1 * w1) / (w1 * w1);
-  const Complex64 d2 = (s * s + 2.0 * w2 * a.xi * s + w2 * w2) / (w1 * w1);
+  const Complex64 d2 = a.M == 0.0 ? 1.0 : (s * s + 2.0 * w2 * a.xi * s + w2 * w2) / (w1 * w1);
   const Complex64 z = s * s / (w1 * w1);
   const Complex64 flame = slope * z * (a.N * d2 + a.M * d1);
   if (s.real() >= 0.0) return d1 * d2 - flame * std::exp(-loop.tau_s * s);
@@ -37,9 +37,7 @@ Complex64 Characteristic(const LoopParameters<double>& loop, double slope, Compl
 // Beyond a bound, so that no zero lies on the contour.
 constexpr double kBeyond = 1e-3;  // of w
 
-// |k| (N + M) of a loop that no data suggest: the poles are near to their limits.
-constexpr double kFeeble = 1e-6;
-constexpr double kOverwhelming = 1e6;
+constexpr int kCellsOfTurn = 8;  // of the delay's turns by one radian
 
 // The loop with time in units of 1 / w: all that follows is free of the frequency.
 LoopParameters<double> InUnitsOfW(LoopParameters<double> loop, double w) {
@@ -151,6 +149,26 @@ std::vector<Complex64> LimitingPoles(const LoopParameters<double>& loop, double 
   return poles;
 }
 
+// Where on the imaginary axis the loop's phase lets it oscillate: near there is a pole, however
+// fast it grows or decays, as long as the delay turns the phase faster than growth does.
+std::vector<Complex64> PhaseCrossingsOf(const LoopParameters<double>& loop, double slope,
+                                        double w_max) {
+  const int cells = kCellsOfTurn * (4 + static_cast<int>(w_max * loop.tau_s));
+  std::vector<Complex64> crossings;
+  double before = 0.0;
+  for (int i = 1; i <= cells; ++i) {
+    const double w = w_max * i / cells;
+    const double phase = std::arg(slope * LoopTransfer(loop, Complex64(0.0, w)).value);
+    // Through zero, not through the branch cut at half a turn.
+    if (i > 1 && (phase <= 0.0) != (before <= 0.0) && std::abs(phase - before) < 3.0) {
+      const double share = before / (before - phase);
+      crossings.emplace_back(0.0, w_max * (i - 1 + share) / cells);
+    }
+    before = phase;
+  }
+  return crossings;
+}
+
 // Change of the characteristic's argument from a to b along a straight line.
 double ArgumentChange(const LoopParameters<double>& loop, double slope, Complex64 a, Complex64 fa,
                       Complex64 b, Complex64 fb, int depth) {
@@ -244,9 +262,10 @@ PoleSet ClosedLoopPoles(const LoopParameters<double>& loop_in_s, double slope_in
     }
     list();
   };
-  const double strength = std::abs(flame_slope) * (loop.acoustics.N + loop.acoustics.M);
-  const bool is_at_limit = strength < kFeeble || strength > kOverwhelming;
-  if (is_at_limit) take_limiting();
+  for (const Complex64& start : PhaseCrossingsOf(loop, flame_slope, 1.1 * w_max)) {
+    take(Newton(loop, flame_slope, start));
+  }
+  take_limiting();
   // A polynomial resolves e^(j w theta) over tau once it has pi points a wave or so.
   int n = 24 + static_cast<int>(w_max * loop.tau_s);
   for (int attempt = 0; attempt < 3 && !set.complete; ++attempt, n += n / 2) {

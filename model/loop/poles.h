@@ -2,14 +2,14 @@
 //
 //   1 = k L(s) = k s G(s) e^(-tau s),   k = Phi'(0)
 //
-// First the eigenvalues of the infinitesimal generator of the delay system, discretised at
-// Chebyshev points (Breda, Maset & Vermiglio 2005): with x the modes' states and w = p' over the
-// past tau seconds, x' = A x + B k w(-tau), dw/dt = dw/dtheta, w(0) = C x + (N + M) k w(-tau).
-// Then Newton on the characteristic equation, to rounding. Then a count by the argument principle
-// over the rectangle growth_min <= Re s <= bound, |Im s| <= frequency_max, where `bound` exceeds
-// the real part of every pole: |k| sup|s G| e^(-tau bound) < 1. If the count and the list differ,
-// the discretisation is refined, and last Newton starts from where the poles tend to as k vanishes
-// and as it grows without end.
+// First Newton on it, to rounding, from where the loop's phase lets it oscillate on the imaginary
+// axis, and from where the poles tend to as k vanishes and as it grows without end. Then a count by
+// the argument principle over the rectangle growth_min <= Re s <= bound, |Im s| <= frequency_max,
+// where `bound` exceeds the real part of every pole: |k| sup|s G| e^(-tau bound) < 1. If the count
+// and the list differ, Newton starts from the eigenvalues of the infinitesimal generator of the
+// delay system, discretised at Chebyshev points (Breda, Maset & Vermiglio 2005), ever finer: with x
+// the modes' states and w = p' over the past tau seconds, x' = A x + B k w(-tau),
+// dw/dt = dw/dtheta, w(0) = C x + (N + M) k w(-tau). They cost fifty times as much.
 //
 // Growth rates in 1/s, frequencies in Hz. What is searched is a share of the first mode's natural
 // frequency w = 2 pi omega, so that the same loop run slower or faster has the same poles for the

@@ -64,6 +64,17 @@ TEST(Poles, CountIsCompleteAtHighGainLowDampingAndLongDelay) {
   }
 }
 
+// The second mode's own poles, at -0.06 of w here, are none of a loop without that mode.
+TEST(Poles, OfOneModeAreCountedWithoutASecond) {
+  for (const double xi : {1e-5, 0.02, 0.045}) {
+    ClosedLoop model = PaperLoop(0.0);
+    model.loop.acoustics.N *= xi / model.loop.acoustics.xi;
+    model.loop.acoustics.xi = xi;
+    const PoleSet set = ClosedLoopPoles(model.loop, model.flame.slope);
+    EXPECT_TRUE(set.complete) << xi << ": " << set.poles.size() << " of " << set.counted;
+  }
+}
+
 TEST(Poles, NeutralChainTendsToItsLine) {
   const ClosedLoop model = PaperLoop(0.415);
   const double line = std::log(-model.flame.slope * 1.415 * 6609.0) / model.loop.tau_s;
