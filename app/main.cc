@@ -20,6 +20,7 @@
 #include "app/process/interruption.h"
 #include "app/process/progress_line.h"
 #include "app/process/standard_streams.h"
+#include "estimation/kept_memory.h"
 #include "estimation/parallel.h"
 #include "io/report/run_file.h"
 #include "io/user_error.h"
@@ -101,6 +102,7 @@ int Run(const std::vector<std::string>& words) {
   running = options.config.string() + ": " + command.name + ": ";
   LogAsAsked();
   AllowThreads(options.threads);
+  KeepFreedMemory();
   ProgressLine progress(command.name, options.quiet);
   ObserveUnits([&](std::size_t done, std::size_t total) { progress.Show(done, total); });
   const std::unique_ptr<OutputClaim> claim =

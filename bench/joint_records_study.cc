@@ -31,6 +31,7 @@
 #include "estimation/joint_records/fitted_loop.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/records_fit.h"
+#include "estimation/kept_memory.h"
 
 namespace howl {
 namespace {
@@ -179,4 +180,7 @@ int Run(int argc, char** argv) {
 }  // namespace
 }  // namespace howl
 
-int main(int argc, char** argv) { return howl::Run(argc, argv); }
+int main(int argc, char** argv) {
+  howl::KeepFreedMemory();
+  return howl::Run(argc, argv);
+}

@@ -12,6 +12,7 @@
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
 #include "diagnosis/loop_budget/loop_budget.h"
+#include "estimation/kept_memory.h"
 
 namespace howl {
 namespace {
@@ -57,4 +58,7 @@ int Run(int argc, char** argv) {
 }  // namespace
 }  // namespace howl
 
-int main(int argc, char** argv) { return howl::Run(argc, argv); }
+int main(int argc, char** argv) {
+  howl::KeepFreedMemory();
+  return howl::Run(argc, argv);
+}

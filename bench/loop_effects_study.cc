@@ -1,13 +1,15 @@
 // Known effects put into measured records, and what the budget of loops names beside what the
 // records lack anyway:
 //
-//   loop_effects_study CONFIG [EXPERIMENT ...]
+//   [EFFECTS=mains_hum,channel_skew] loop_effects_study CONFIG [EXPERIMENT ...]
 //
+// EFFECTS: of known_effects.h, those asked for; all where not given.
 // The budget of the untouched records comes first. Its best loop then is the base from which
 // records with each effect in them are diagnosed, as by a user who has taken the budget's advice: a
 // row with what was added, its value and what is lost without it.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "bench/loop_base.h"
 #include "bench/seconds.h"
 #include "diagnosis/loop_budget/loop_budget.h"
+#include "estimation/kept_memory.h"
 
 namespace howl {
 namespace {
@@ -36,6 +39,12 @@ void PrintRow(const std::string& what, const LoopDiagnosis& found, double second
   std::fflush(stdout);
 }
 
+bool Asked(const std::string& effect) {
+  const char* const only = std::getenv("EFFECTS");
+  return only == nullptr ||
+         ("," + std::string(only) + ",").find("," + effect + ",") != std::string::npos;
+}
+
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
@@ -45,6 +54,7 @@ int Run(int argc, char** argv) {
   for (const KnownEffect& known : KnownEffects()) {
     const std::vector<std::string> ids = LoopItemIds();
     if (known.effect != "none" && std::ranges::find(ids, known.effect) == ids.end()) continue;
+    if (!Asked(known.effect)) continue;
     MeasuredRig touched = rig;
     known.put(&touched);
     begun = Seconds();
@@ -57,4 +67,7 @@ int Run(int argc, char** argv) {
 }  // namespace
 }  // namespace howl
 
-int main(int argc, char** argv) { return howl::Run(argc, argv); }
+int main(int argc, char** argv) {
+  howl::KeepFreedMemory();
+  return howl::Run(argc, argv);
+}

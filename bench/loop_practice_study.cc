@@ -14,6 +14,7 @@
 #include "bench/loop_base.h"
 #include "bench/seconds.h"
 #include "diagnosis/loop_budget/loop_budget.h"
+#include "estimation/kept_memory.h"
 
 namespace howl {
 namespace {
@@ -75,6 +76,7 @@ void PrintCase(const std::filesystem::path& folder) {
 }  // namespace howl
 
 int main(int argc, char** argv) {
+  howl::KeepFreedMemory();
   const std::filesystem::path folder = argv[1];
   std::vector<std::string> cases(argv + 2, argv + argc);
   if (cases.empty()) {

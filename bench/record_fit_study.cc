@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/kept_memory.h"
 #include "tests/estimation/record_fit/identified.h"
 
 namespace howl {
@@ -85,6 +86,7 @@ void Row(int modes, double noise, double sensor_noise, int records, double secon
 }  // namespace howl
 
 int main(int argc, char** argv) {
+  howl::KeepFreedMemory();
   const int records = argc > 1 ? std::atoi(argv[1]) : 40;
   const double seconds = argc > 2 ? std::atof(argv[2]) : 4.0;
   std::vector<int> numbers;

@@ -10,8 +10,12 @@ namespace {
 // Of a source that has any shape.
 Eigen::Index Fine(Eigen::Index coefficients) { return coefficients > 1 ? 2 * coefficients : 1; }
 
+void Refine(NoiseTerm* term) {
+  if (!IsHum(term->source)) term->coefficients = Fine(term->coefficients);
+}
+
 NoiseTerm TermIn(const LoopForm& model, NoiseTerm term) {
-  if (model.fine_noise) term.coefficients = Fine(term.coefficients);
+  if (model.fine_noise) Refine(&term);
   return term;
 }
 
@@ -89,7 +93,7 @@ LoopForm With(LoopForm model, const LoopItem& item) {
       break;
     case LoopItemKind::kNoiseShape:
       model.fine_noise = true;
-      for (NoiseTerm& term : structure.noise) term.coefficients = Fine(term.coefficients);
+      for (NoiseTerm& term : structure.noise) Refine(&term);
       break;
     case LoopItemKind::kDetuning:
       structure.ratio.reset();
@@ -136,7 +140,7 @@ LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base) {
     case LoopItemKind::kNoiseShape:
       model.fine_noise = false;
       for (NoiseTerm& term : structure.noise) {
-        if (term.coefficients > 1) term.coefficients /= 2;
+        if (term.coefficients > 1 && !IsHum(term.source)) term.coefficients /= 2;
       }
       break;
     case LoopItemKind::kDetuning:

@@ -24,13 +24,15 @@ Eigen::VectorXd WithTransientsOf(const RecordSpectra& record, const PointStructu
   const Eigen::Index count = structure.Transients();
   parameters.segment(first, count).setZero();
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  const LoopScore score =
-      WhittleScore(structure.noise, record.share, ResidualsOf(record, structure, point),
-                   DerivativesOf(record, structure, point));
-  Eigen::MatrixXd information = score.information.block(first, first, count, count);
+  const LoopResiduals residuals = ResidualsOf(record, structure, point);
+  const LoopDerivatives derivatives = DerivativesOf(record, structure, point);
+  Eigen::MatrixXd information =
+      WhittleInformation(structure.noise, record.share, residuals, derivatives)
+          .block(first, first, count, count);
   information.diagonal() += prior.deviation.segment(first, count).cwiseAbs2().cwiseInverse();
-  parameters.segment(first, count) =
-      SolveSymmetric(information, score.gradient.segment(first, count));
+  parameters.segment(first, count) = SolveSymmetric(
+      information,
+      WhittleGradient(structure.noise, record.share, residuals, derivatives).segment(first, count));
   return parameters;
 }
 

@@ -52,7 +52,7 @@ class Profile {
     return form;
   }
   ProfilePoint At(double u, const std::vector<Eigen::VectorXd>& starts);
-  Maximum From(ProfilePoint best);
+  Maximum From(ProfilePoint best, double least = -std::numeric_limits<double>::infinity());
 
  private:
   const LoopRecords& records_;
@@ -83,8 +83,9 @@ ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) {
   return out;
 }
 
-// Up, by parabolas through three values each, until they stand closer than the profile's own width.
-Maximum Profile::From(ProfilePoint best) {
+// Up, by ever longer steps and then by parabolas through three values each, until they stand closer
+// than the profile's own width, or until a parabola's top is not worth `least`.
+Maximum Profile::From(ProfilePoint best, double least) {
   double step = kFirstStep * SearchSpan(parameter_);
   double std = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostSteps; ++i) {
@@ -98,22 +99,17 @@ Maximum Profile::From(ProfilePoint best) {
     if (below.nats > best.nats || above.nats > best.nats || !(curvature < 0.0)) {
       best = below.nats > above.nats ? std::move(below) : std::move(above);
       if (best.u <= Low() || best.u >= High()) break;
+      step *= 2.0;
       continue;
     }
     std = 1.0 / std::sqrt(-curvature);
-    if (step <= std) break;
     const double slope = (above.nats - below.nats) / (above.u - below.u);
+    if (step <= std || best.nats - 0.5 * slope * slope / curvature < least) break;
     ProfilePoint vertex = At(u - slope / curvature, best.parameters);
     if (vertex.nats > best.nats) best = std::move(vertex);
     step = std::max(step / 4.0, std);
   }
   return {std::move(best), std};
-}
-
-std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit) {
-  std::vector<Eigen::VectorXd> out;
-  for (const PointFit& point : fit.fit.points) out.push_back(point.parameters);
-  return out;
 }
 
 const LoopInstrument& InstrumentOf(const LoopFit& fit, const LoopItem& item) {
@@ -142,14 +138,15 @@ LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, const L
     ProfilePoint point = profile.At(ToSearch(profile.parameter(), start), ParametersOf(from));
     if (point.nats > best.nats) best = std::move(point);
   }
-  const Maximum maximum = profile.From(std::move(best));
+  double without = 0.0;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    without += from.fit.points[e].log_evidence + records.LogJacobianOfWhole(from.model, e);
+  }
+  const Maximum maximum = profile.From(std::move(best), without);
   LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {maximum.at.parameters}};
   const double span = SearchSpan(profile.parameter());
   const double width = std::sqrt(2.0 * std::numbers::pi) * maximum.std;
-  out.gain = maximum.at.nats + std::log(std::min(width, span) / span);
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    out.gain -= from.fit.points[e].log_evidence + records.LogJacobianOfWhole(from.model, e);
-  }
+  out.gain = maximum.at.nats - without + std::log(std::min(width, span) / span);
   return out;
 }
 
@@ -163,7 +160,7 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
     const Maximum maximum = profile.From(profile.At(before, ParametersOf(fit)));
     if (std::abs(maximum.at.u - before) < kStands * maximum.std) break;
     LoopFit next = FitLoopFrom(records, profile.FormAt(maximum.at.u), {maximum.at.parameters},
-                               of_round, options);
+                               MaximumTaken::kNext, of_round, options);
     if (!(next.Density() > fit.Density())) break;
     fit = std::move(next);
   }

@@ -1,6 +1,7 @@
 #include "diagnosis/loop_budget/loop_item.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/loop_budget/loop_instrument.h"
 
@@ -15,6 +16,10 @@ std::vector<LoopItem> MakeItems() {
        {LoopNoise::kHeatReleaseSensor, kSensorCoefficients}},
       {"duct_noise", LoopItemKind::kNoise, {LoopNoise::kDuct, kSourceCoefficients}},
       {"background_noise", LoopItemKind::kNoise, {LoopNoise::kBackground, kSensorCoefficients}},
+      {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kHeatReleaseHum, kHumCoefficients, 50.0}},
+      {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kHeatReleaseHum, kHumCoefficients, 60.0}},
+      {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kPressureHum, kHumCoefficients, 50.0}},
+      {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kPressureHum, kHumCoefficients, 60.0}},
       {"noise_shape", LoopItemKind::kNoiseShape},
       {"mode_detuning", LoopItemKind::kDetuning},
       {"own_damping", LoopItemKind::kOwnDamping},
@@ -67,6 +72,10 @@ std::vector<std::string> LoopItemIds() {
 }
 
 std::string KeyOf(const LoopItem& item) {
+  if (IsHum(item.noise.source)) {
+    return item.id + "_" + std::string(LoopNoiseName(item.noise.source)) + "_" +
+           std::to_string(std::lround(item.noise.mains_hz));
+  }
   return item.id + (item.instrument ? item.instrument->form().value : "");
 }
 

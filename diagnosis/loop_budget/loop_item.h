@@ -3,6 +3,7 @@
 //   p_sensor_noise, q_sensor_noise   the sensor's noise is coloured (the base's is white)
 //   duct_noise                       a source in the duct that q does not show
 //   background_noise                 one that both channels show without the loop
+//   mains_hum                        lines at multiples of 50 or 60 Hz in one of the channels
 //   noise_shape                      spectra of sources have twice as many coefficients: peaks half
 //                                    an octave wide
 //   mode_detuning                    the modes' frequencies are free of the base's ratio
@@ -37,6 +38,8 @@ namespace howl {
 // source that the loop shapes, and half an octave more of a sensor's.
 inline constexpr Eigen::Index kSourceCoefficients = 6;
 inline constexpr Eigen::Index kSensorCoefficients = 4;
+// Of hum's power over the band: its multiples fall, or rise, with frequency.
+inline constexpr Eigen::Index kHumCoefficients = 2;
 
 enum class LoopItemKind : std::uint8_t {
   kNoise,

@@ -1,5 +1,6 @@
 #include "diagnosis/loop_budget/loop_item_parameters.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +9,8 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/record_fit/whittle/noise_shape.h"
 
 namespace howl {
 namespace {
@@ -20,7 +23,25 @@ double RelativeAmplitude(const RecordSpectra& record, const PointStructure& stru
                          const LoopPoint& point, LoopNoise source) {
   const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
   const auto j = static_cast<std::size_t>(at - structure.noise.begin());
-  const double power = LoopNoiseSpectrum(record.position, point.noise[j]).sum();
+  const double power = NoiseSpectrum(*at, record, point.noise[j]).sum();
+  return std::sqrt(power * record.bin_hz / record.sampling_hz);
+}
+
+// The same of hum, which is no noise but one oscillation: what is expected of it, given the record
+// (Wiener's filter).
+double HumAmplitude(const RecordSpectra& record, const PointStructure& structure,
+                    const LoopPoint& point, LoopNoise source) {
+  const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
+  const Eigen::Index j = at - structure.noise.begin();
+  const LoopResiduals left = ResidualsOf(record, structure, point);
+  double power = 0.0;
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const NoiseDirection u = DirectionOf(source, left.r[i], left.f[i], left.background_ratio);
+    const Eigen::Vector2cd weighed = NoiseCovariance(structure.noise, left, i).inverse() *
+                                     Eigen::Vector2cd(left.acoustic[i], left.flame[i]);
+    power += std::norm(left.spectra(i, j) *
+                       (std::conj(u.acoustic) * weighed[0] + std::conj(u.flame) * weighed[1]));
+  }
   return std::sqrt(power * record.bin_hz / record.sampling_hz);
 }
 
@@ -54,8 +75,13 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
   switch (item.kind) {
     case LoopItemKind::kNoise:
       add("amplitude", "", [&](const RecordSpectra& record, const LoopPoint& point) {
-        return RelativeAmplitude(record, fit.model.structure, point, item.noise.source);
+        const auto amplitude = IsHum(item.noise.source) ? HumAmplitude : RelativeAmplitude;
+        return amplitude(record, fit.model.structure, point, item.noise.source);
       });
+      if (IsHum(item.noise.source)) {
+        add("hz", "Hz",
+            [&](const RecordSpectra&, const LoopPoint&) { return item.noise.mains_hz; });
+      }
       break;
     case LoopItemKind::kNoiseShape:
       break;

@@ -20,11 +20,28 @@ constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain m
 constexpr std::size_t kMostItems = 24;
 
 // What comes only where nothing of an earlier one pays.
-enum class Stage : std::uint8_t { kNoise, kCauses, kLineErrors };
+enum class Stage : std::uint8_t { kHum, kNoise, kCauses, kLineErrors };
 
 Stage StageOf(const LoopItem& item) {
+  if (IsHum(item.noise.source)) return Stage::kHum;
   if (item.kind == LoopItemKind::kNoise) return Stage::kNoise;
   return item.kind == LoopItemKind::kLineErrors ? Stage::kLineErrors : Stage::kCauses;
+}
+
+struct Fitted {
+  std::size_t trial;
+  LoopFit fit;
+};
+
+// The items that would have gained as much as that of this trial.
+std::vector<std::string> EqualsOf(const std::vector<LoopTrial>& trials, std::size_t of) {
+  std::vector<std::string> out;
+  for (const LoopTrial& trial : trials) {
+    const bool same = trial.item.id == trials[of].item.id;
+    const double behind = std::abs(trials[of].gain - trial.gain);
+    if (!same && behind < std::log(kOddsOfClass)) out.push_back(trial.item.id);
+  }
+  return out;
 }
 
 class Search {
@@ -37,7 +54,7 @@ class Search {
  private:
   LoopFit FitBase() const;
   // No value where nothing pays any more.
-  std::optional<LoopStep> Next(const LoopFit& from, std::size_t step) const;
+  std::optional<LoopStep> Next(const LoopFit& from, std::size_t step, bool only_hum_yet) const;
   std::vector<LoopTrial> Try(const LoopFit& from, const std::vector<LoopItem>& items,
                              const std::string& key) const;
   // The best of these trials that pays; those of `fitted` have been found not to.
@@ -58,7 +75,8 @@ LoopFit Search::FitBase() const {
   return Scored(records_, base_, FitRecords(points, base_.structure, fit_options), fit_options);
 }
 
-std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) const {
+std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step,
+                                     bool only_hum_yet) const {
   std::vector<LoopItem> items = LoopItems(from.model, base_);
   std::erase_if(items, [&](const LoopItem& item) {
     return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
@@ -66,7 +84,8 @@ std::optional<LoopStep> Search::Next(const LoopFit& from, std::size_t step) cons
   const std::string key = "step/" + std::to_string(step) + "/";
   std::vector<LoopTrial> trials;
   std::vector<LoopItem> tried;
-  for (const Stage stage : {Stage::kNoise, Stage::kCauses, Stage::kLineErrors}) {
+  for (const Stage stage : {Stage::kHum, Stage::kNoise, Stage::kCauses, Stage::kLineErrors}) {
+    if (stage == Stage::kHum && !only_hum_yet) continue;
     std::vector<LoopItem> now;
     std::ranges::copy_if(items, std::back_inserter(now),
                          [&](const LoopItem& item) { return StageOf(item) == stage; });
@@ -99,33 +118,31 @@ std::optional<LoopStep> Search::BestOf(std::vector<LoopTrial> trials, const Loop
     VLOG(1) << key << trial.item.id << " " << trial.gain << " nats";
   }
   const double least = std::log(kOdds * static_cast<double>(trials.size()));
-  std::optional<LoopFit> best;
-  std::size_t best_trial = 0;
+  std::vector<Fitted> best;
   for (std::size_t i = 0; i < std::min(trials.size(), kMostFitted); ++i) {
     if (!(trials[i].gain > 0.0)) break;
     if (std::ranges::find(fitted, trials[i].item.id, &LoopItem::id) != fitted.end()) continue;
-    LoopFit fit = FitLoopFrom(records_, trials[i].model, trials[i].starts,
-                              key + "fit/" + KeyOf(trials[i].item) + "/", options_);
-    if (trials[i].item.kind == LoopItemKind::kInstrument) {
-      fit = Refined(records_, std::move(fit), trials[i].item, key, options_);
-    }
+    LoopFit fit = FitLoopFrom(records_, trials[i].model, trials[i].starts, MaximumTaken::kNext,
+                              key + "next/" + KeyOf(trials[i].item) + "/", options_);
     VLOG(1) << key << trials[i].item.id << " foretells " << fit.Density() - from.Density()
             << " nats better";
-    if (!(fit.Density() > from.Density() + least)) continue;
-    if (best && fit.Density() <= best->Density()) continue;
-    best = std::move(fit);
-    best_trial = i;
+    best.push_back({i, std::move(fit)});
   }
-  if (!best) return std::nullopt;
-  LoopStep out{trials[best_trial].item, {}, std::move(*best)};
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    const double behind = trials[best_trial].gain - trials[i].gain;
-    const bool same = trials[i].item.id == trials[best_trial].item.id;
-    if (!same && std::abs(behind) < std::log(kOddsOfClass)) {
-      out.equals.push_back(trials[i].item.id);
+  std::ranges::stable_sort(best, std::ranges::greater(),
+                           [](const Fitted& each) { return each.fit.Density(); });
+  for (const Fitted& each : best) {
+    if (!(each.fit.Density() > from.Density())) break;
+    const LoopTrial& trial = trials[each.trial];
+    LoopFit fit = FitLoopFrom(records_, trial.model, {ParametersOf(each.fit)}, MaximumTaken::kBest,
+                              key + "best/" + KeyOf(trial.item) + "/", options_);
+    if (trial.item.kind == LoopItemKind::kInstrument) {
+      fit = Refined(records_, std::move(fit), trial.item, key, options_);
+    }
+    if (fit.Density() > from.Density() + least) {
+      return LoopStep{trial.item, EqualsOf(trials, each.trial), std::move(fit)};
     }
   }
-  return out;
+  return std::nullopt;
 }
 
 // The modes that were added stand behind the base's in the order of their steps.
@@ -142,15 +159,16 @@ LoopFit Search::Without(const LoopFit& from, const std::vector<LoopStep>& steps,
                         const std::string& key) const {
   const LoopForm model = howl::Without(from.model, steps[which].item, base_);
   const LoopStarts starts = StartsWithout(records_, from, model, ModeOf(steps, which, base_));
-  return FitLoopFrom(records_, model, starts.rows, key + "without/" + std::to_string(which) + "/",
-                     options_);
+  return FitLoopFrom(records_, model, starts.rows, MaximumTaken::kBest,
+                     key + "without/" + std::to_string(which) + "/", options_);
 }
 
 LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const {
   if (from.model.structure.*lines > 0) return from;
   LoopForm model = from.model;
   model.structure.*lines = kCycleLines;
-  return FitLoopFrom(records_, model, StartsWith(records_, from, model).rows, key, options_);
+  return FitLoopFrom(records_, model, StartsWith(records_, from, model).rows, MaximumTaken::kBest,
+                     key, options_);
 }
 
 LoopFound Search::Run() const {
@@ -158,7 +176,9 @@ LoopFound Search::Run() const {
   out.base = FitBase();
   out.best = out.base;
   for (std::size_t step = 0; step < kMostItems; ++step) {
-    std::optional<LoopStep> next = Next(out.best, step);
+    const bool only_hum_yet = std::ranges::all_of(
+        out.steps, [](const LoopStep& each) { return StageOf(each.item) == Stage::kHum; });
+    std::optional<LoopStep> next = Next(out.best, step, only_hum_yet);
     if (!next) break;
     out.best = next->after;
     out.steps.push_back(std::move(*next));

@@ -62,6 +62,12 @@ double LoopFit::Density() const {
   return std::accumulate(log_density.begin(), log_density.end(), 0.0);
 }
 
+std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit) {
+  std::vector<Eigen::VectorXd> out;
+  for (const PointFit& point : fit.fit.points) out.push_back(point.parameters);
+  return out;
+}
+
 LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with) {
   if (with.flame_input != from.model.flame_input) {
     return WithOtherInput(records, with, PointsOf(records, from));

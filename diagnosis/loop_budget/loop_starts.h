@@ -18,6 +18,8 @@ struct LoopFit {
   double Density() const;
 };
 
+std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit);
+
 struct LoopStarts {
   StartRows rows;
   // Whether each point may begin at another row: rows of a further mode have that of one point for

@@ -5,6 +5,7 @@
 
 #include "diagnosis/loop_budget/parameter_labels.h"
 #include "estimation/parallel.h"
+#include "estimation/record_fit/mode_maxima.h"
 
 namespace howl {
 namespace {
@@ -53,9 +54,12 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
                            std::to_string(unit.row) + "/" + std::to_string(unit.point);
     fits[i] = KeptFit(options.units, of, [&] {
       const RecordSpectra record = records.Whole(model, unit.point);
-      return FitPoint(record, model.structure,
-                      PriorOfTrial(records, from, model, unit.point, record),
-                      starts[unit.trial].rows[unit.row][unit.point]);
+      const PointPrior prior = PriorOfTrial(records, from, model, unit.point, record);
+      PointFit fit =
+          FitPoint(record, model.structure, prior, starts[unit.trial].rows[unit.row][unit.point]);
+      // Without hum a mode may have taken its line for a resonance, and would keep it.
+      if (!IsHum(items[unit.trial].noise.source)) return fit;
+      return BestByModes(record, model.structure, prior, std::move(fit));
     });
     if (options.progress) options.progress(++done, units.size());
   });
@@ -108,8 +112,9 @@ LoopFit Scored(const LoopRecords& records, const LoopForm& model, RecordsFit fit
 }
 
 LoopFit FitLoopFrom(const LoopRecords& records, const LoopForm& model, const StartRows& starts,
-                    const std::string& key, const LoopBudgetOptions& options) {
-  const RecordsFitOptions fit_options = FitOptionsOf(options, key);
+                    MaximumTaken taken, const std::string& key, const LoopBudgetOptions& options) {
+  RecordsFitOptions fit_options = FitOptionsOf(options, key);
+  fit_options.other_maxima = taken == MaximumTaken::kBest;
   const std::vector<OperatingPoint> points = records.Points(model);
   return Scored(records, model, FitRecordsFrom(points, model.structure, starts, fit_options),
                 fit_options);

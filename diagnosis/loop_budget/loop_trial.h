@@ -4,6 +4,7 @@
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_TRIAL_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_TRIAL_H_
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -46,9 +47,11 @@ RecordsFitOptions FitOptionsOf(const LoopBudgetOptions& options, const std::stri
 LoopFit Scored(const LoopRecords& records, const LoopForm& model, RecordsFit fit,
                const RecordsFitOptions& options);
 
-// All points together.
+// All points together: to the maximum next to `starts`, which is for comparing models that are to
+// be fitted again, or to the best that each point's search for others finds.
+enum class MaximumTaken : std::uint8_t { kNext, kBest };
 LoopFit FitLoopFrom(const LoopRecords& records, const LoopForm& model, const StartRows& starts,
-                    const std::string& key, const LoopBudgetOptions& options);
+                    MaximumTaken taken, const std::string& key, const LoopBudgetOptions& options);
 
 }  // namespace howl
 

@@ -93,9 +93,11 @@ StructureFit StartOf(std::vector<JointBand>* bands, const EffectFit& base,
           coefficients = LogSpectrum(band, duct_power, term.coefficients);
           break;
         case LoopNoise::kPressureSensor:
+        case LoopNoise::kPressureHum:
           coefficients[0] = std::log(SampleQuantile(acoustic_power, kQuiet) / kQuiet);
           break;
         case LoopNoise::kHeatReleaseSensor:
+        case LoopNoise::kHeatReleaseHum:
         case LoopNoise::kBackground:
           coefficients[0] = std::log(SampleQuantile(flame_power, kQuiet) / kQuiet);
           break;

@@ -52,8 +52,8 @@ std::vector<FittedNoise> NoiseOf(const RecordSpectra& record, const PointStructu
   const double highest = std::abs(record.s[record.bins() - 1]);
   for (std::size_t j = 0; j < structure.noise.size(); ++j) {
     const NoiseTerm& term = structure.noise[j];
-    const bool of_p = term.source == LoopNoise::kPressureSensor;
-    const double unit = of_p ? record.scale.pressure : record.scale.heat_release;
+    const double unit =
+        IsOfPressure(term.source) ? record.scale.pressure : record.scale.heat_release;
     const Eigen::VectorXd position = Eigen::VectorXd::LinSpaced(kFrequencies, -1.0, 1.0);
     const Eigen::MatrixXd shapes = ChebyshevColumns(position, term.coefficients);
     const Eigen::MatrixXd block =

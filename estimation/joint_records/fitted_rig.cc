@@ -1,5 +1,7 @@
 #include "estimation/joint_records/fitted_rig.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -105,6 +107,9 @@ void AddNoiseTo(ModalRig* rig, const RecordSpectra& record, const PointStructure
         rig->background = density(scale.heat_release, false);
         rig->background_ratio = point.background_ratio * scale.pressure / scale.heat_release;
         break;
+      case LoopNoise::kPressureHum:
+      case LoopNoise::kHeatReleaseHum:
+        LOG(FATAL) << "no loop that a config states has hum";
     }
   }
 }

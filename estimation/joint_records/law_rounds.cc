@@ -74,7 +74,7 @@ RecordsFit FitUnderLaw(const RecordsFitter& fitter, const std::vector<OperatingP
     const bool stands = round > 0 && fitter.Stands(out.law, law);
     if (round > 0) law = steps.Toward(out.law, law);
     out.law = law;
-    const bool search = round == 0 || stands || since_search == kPatience;
+    const bool search = stands || since_search == kPatience;
     since_search = search ? 0 : since_search + 1;
     std::vector<double> gain(points.size(), 0.0);
     RunUnits(points.size(), options.threads, [&](std::size_t e) {
@@ -88,19 +88,26 @@ RecordsFit FitUnderLaw(const RecordsFitter& fitter, const std::vector<OperatingP
       fit = KeptFit(options.units, UnitKey(options, "round", r, e),
                     [&] { return FitUnder(record, out.structure, prior, fit.parameters, false); });
       if (!search) return;
+      if (!options.other_maxima) {
+        prior = prior.NormalAt(fit.parameters);
+        return;
+      }
       PointFit other = KeptFit(options.units, UnitKey(options, "search", r, e), [&] {
         return OtherMaxima(record, out.structure, prior,
                            FitUnder(record, out.structure, prior, fit.parameters, !alone));
       });
-      gain[e] = other.log_posterior - fit.log_posterior;
-      if (gain[e] > 0.0) fit = std::move(other);
+      if (other.log_posterior > fit.log_posterior) {
+        gain[e] = other.log_posterior - fit.log_posterior;
+        fit = std::move(other);
+      }
       prior = prior.NormalAt(fit.parameters);
     });
     if (!search) continue;
+    if (!options.other_maxima) return out;
     const double found = std::accumulate(gain.begin(), gain.end(), 0.0);
     if (found >= kFound) steps = LawSteps();
     VLOG(1) << "round " << round << " of the law of the parameters: " << found << " nats found";
-    if (++searches == kMostSearches || (searches > 1 && found < kFound)) return out;
+    if (++searches == kMostSearches || found < kFound) return out;
   }
 }
 

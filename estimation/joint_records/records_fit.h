@@ -37,6 +37,8 @@ struct RecordsFitOptions {
   std::size_t starts = 12;  // of each point by itself
   std::uint64_t seed = 1;
   int threads = 0;  // 0: all cores
+  // Whether each point looks for other maxima once the law stands: most of a fit's work.
+  bool other_maxima = true;
   // Where finished fits of single points are; none: nowhere. Keys begin with `key`.
   FitUnits* units = nullptr;
   std::string key = {};

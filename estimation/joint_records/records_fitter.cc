@@ -5,19 +5,18 @@
 #include <limits>
 #include <utility>
 
+#include "estimation/joint_records/record_evidence.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "estimation/unit_seed.h"
-#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
 
 constexpr std::size_t kMostCandidates = 4;
 constexpr int kIterationsOfCandidate = 30;
-constexpr double kLeastTold = 0.1;  // of what the prior tells
 constexpr double kRounding = 1e-12;
 constexpr double kErrorsConverged = 0.05;  // of ln s
 // Of a parameter's spread, the largest move of the law's mean: as much as a fit leaves open that
@@ -28,40 +27,6 @@ double GeometricMean(const std::vector<OperatingPoint>& points, auto value) {
   double sum = 0.0;
   for (const OperatingPoint& point : points) sum += std::log(value(point.record));
   return std::exp(sum / static_cast<double>(points.size()));
-}
-
-// What the record alone tells of the shared parameters, the flame's integrated out.
-ParameterEvidence EvidenceOf(const PointFit& fit, const PointPrior& prior, const SharedUnits& units,
-                             double z) {
-  const Eigen::Index size = units.size();
-  const Eigen::MatrixXd whole = fit.Covariance();
-  Eigen::MatrixXd covariance(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    for (Eigen::Index j = 0; j < size; ++j) {
-      covariance(i, j) =
-          units.scale()[i] * units.scale()[j] * whole(units.IndexOf(i), units.IndexOf(j));
-    }
-  }
-  const PointPrior common = units.ToCommon(prior);
-  const Eigen::VectorXd deviation = common.deviation;
-  // Without the prior, in its units. A direction of which the record tells next to nothing, or in
-  // which its density has a minimum, tells nothing: a force without a curvature has no limit.
-  Eigen::MatrixXd told = deviation.asDiagonal() *
-                         SolveSymmetric(covariance, Eigen::MatrixXd::Identity(size, size)) *
-                         deviation.asDiagonal();
-  told.diagonal().array() -= 1.0;
-  const SymmetricEigen eigen = EigenOfSymmetric(0.5 * (told + told.transpose()));
-  const Eigen::VectorXd kept = (eigen.values.array() > kLeastTold).select(eigen.values, 0.0);
-  const Eigen::MatrixXd turn =
-      eigen.vectors.transpose() * Eigen::MatrixXd(deviation.cwiseInverse().asDiagonal());
-  ParameterEvidence out;
-  out.z = z;
-  out.precision = turn.transpose() * kept.asDiagonal() * turn;
-  // So that with the prior the most likely parameters are the fit's.
-  const Eigen::VectorXd at = units.ToCommon(fit.parameters);
-  const Eigen::VectorXd pull = (kept.array() > 0.0).select((turn * (at - common.mean)).eval(), 0.0);
-  out.information = out.precision * at + turn.transpose() * pull;
-  return out;
 }
 
 }  // namespace

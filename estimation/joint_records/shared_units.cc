@@ -32,7 +32,7 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
   Eigen::Index next = delay + structure.Delays();
   if (structure.second_path) shift_[next - 1] = -std::log(cycle);
   for (const NoiseTerm& term : structure.noise) {
-    const double unit = term.source == LoopNoise::kPressureSensor ? pressure : heat_release;
+    const double unit = IsOfPressure(term.source) ? pressure : heat_release;
     shift_[next] = 2.0 * std::log(unit) - std::log(record.sampling_hz / reference.sampling_hz);
     next += term.coefficients;
   }

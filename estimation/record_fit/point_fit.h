@@ -25,6 +25,10 @@ struct PointFitOptions {
 // To within a nat or so of the maximum, which tells maxima apart.
 inline constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
 
+// Nats that the next step would gain, from which on a fit is near a maximum: steps then learn the
+// curvature, and starts are compared.
+inline constexpr double kNearMaximum = 20.0;
+
 struct PointFit {
   Eigen::VectorXd parameters;
   double log_likelihood = 0.0;

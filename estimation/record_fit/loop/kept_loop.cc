@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "estimation/record_fit/loop/mode_sums.h"
+#include "estimation/record_fit/whittle/noise_shape.h"
 #include "model/numerics/complex_products.h"
 
 namespace howl {
@@ -35,6 +36,7 @@ KeptLoop::KeptLoop(const RecordSpectra& record, const PointStructure& structure)
       modes_(static_cast<std::size_t>(structure.modes)) {
   for (const NoiseTerm& term : structure.noise) {
     noise_columns_.push_back(ChebyshevColumns(record.position, term.coefficients));
+    noise_shapes_.push_back(NoiseShape(term, record));
   }
   residuals_.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
 }
@@ -95,7 +97,7 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
     const Eigen::Index coefficients = structure_.noise[j].coefficients;
     if (Moved(parameters, next, coefficients)) {
       residuals_.spectra.col(static_cast<Eigen::Index>(j)) =
-          (noise_columns_[j] * point_.noise[j]).array().exp();
+          (noise_columns_[j] * point_.noise[j]).array().exp() * noise_shapes_[j].array();
     }
     next += coefficients;
   }

@@ -60,6 +60,7 @@ class KeptLoop {
   LineShapes band_lines_;                       // on the record's bins
   Eigen::MatrixXd flame_real_, flame_imag_;     // b_k
   std::vector<Eigen::MatrixXd> noise_columns_;  // one a source
+  std::vector<Eigen::VectorXd> noise_shapes_;   // noise_shape.h
   Eigen::VectorXd parameters_;
   LoopPoint point_;
   LoopResiduals residuals_;

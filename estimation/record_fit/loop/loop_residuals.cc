@@ -4,6 +4,7 @@
 
 #include "estimation/record_fit/loop/line_shapes.h"
 #include "estimation/record_fit/loop/mode_slopes.h"
+#include "estimation/record_fit/whittle/noise_shape.h"
 #include "model/numerics/complex_products.h"
 
 namespace howl {
@@ -100,7 +101,7 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   out.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
   for (std::size_t j = 0; j < structure.noise.size(); ++j) {
     out.spectra.col(static_cast<Eigen::Index>(j)) =
-        LoopNoiseSpectrum(record.position, point.noise[j]);
+        NoiseSpectrum(structure.noise[j], record, point.noise[j]);
   }
   out.background_ratio = point.background_ratio;
   return out;

@@ -38,9 +38,8 @@ Eigen::VectorXd PointLikelihood::Gradient(const Eigen::VectorXd& parameters) {
 
 Eigen::MatrixXd PointLikelihood::Information(const Eigen::VectorXd& parameters) {
   MoveTo(parameters);
-  return WhittleScore(structure_.noise, record_.share, loop_.residuals(),
-                      DerivativesOf(record_, structure_, loop_.point()))
-      .information;
+  return WhittleInformation(structure_.noise, record_.share, loop_.residuals(),
+                            DerivativesOf(record_, structure_, loop_.point()));
 }
 
 }  // namespace howl

@@ -110,8 +110,7 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
   add(flame, 0.0, kFlame * std::sqrt(Tapered(record.heat_release).squaredNorm() / bins));
   add(structure.FlameLines(), 0.0, kLineError);
   for (const NoiseTerm& term : structure.noise) {
-    const bool of_p = term.source == LoopNoise::kPressureSensor;
-    add(1, MeanLogPower(of_p ? record.pressure : record.heat_release), kLevel);
+    add(1, MeanLogPower(IsOfPressure(term.source) ? record.pressure : record.heat_release), kLevel);
     add(term.coefficients - 1, 0.0, kShape);
   }
   if (HasBackground(structure.noise)) add(1, 0.0, kBackgroundRatio);

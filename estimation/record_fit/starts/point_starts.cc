@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/record_fit/starts/hum_start.h"
 #include "estimation/record_fit/starts/pole_starts.h"
 #include "estimation/record_fit/starts/start_least_squares.h"
 #include "model/numerics/dense_algebra.h"
@@ -149,6 +150,10 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, const FlamePath& path) c
         break;
       case LoopNoise::kBackground:
         c[0] = QuietLevel(left.flame.cwiseAbs2()) - kBelowSensors;
+        break;
+      case LoopNoise::kPressureHum:
+      case LoopNoise::kHeatReleaseHum:
+        c = HumStart(record_, term, left);
         break;
     }
     point.noise.push_back(c);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/record_fit/starts/hum_start.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "estimation/record_fit/starts/pole_starts.h"
 
@@ -66,6 +68,8 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
   point.modes.insert(point.modes.end(), further.begin(), further.end());
   double least = 0.0;
   for (const Eigen::VectorXd& source : point.noise) least = std::min(least, source[0]);
+  const LoopResiduals left =
+      ResidualsOf(record, poor, ToPoint(poor, record.flame.cols(), parameters));
   std::vector<Eigen::VectorXd> noise;
   for (const NoiseTerm& term : rich.noise) {
     Eigen::VectorXd c = Eigen::VectorXd::Zero(term.coefficients);
@@ -76,6 +80,7 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
       point.background_ratio = start.ratio;
       c[0] = start.log_level;
     }
+    if (IsHum(term.source)) c = HumStart(record, term, left);
     for (std::size_t j = 0; j < poor.noise.size(); ++j) {
       if (poor.noise[j].source != term.source) continue;
       c[0] = 0.0;

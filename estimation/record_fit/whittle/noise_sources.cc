@@ -16,6 +16,10 @@ std::string_view LoopNoiseName(LoopNoise source) {
       return "duct_noise";
     case LoopNoise::kBackground:
       return "background";
+    case LoopNoise::kPressureHum:
+      return "p_hum";
+    case LoopNoise::kHeatReleaseHum:
+      return "q_hum";
   }
   return "";
 }

@@ -5,6 +5,7 @@
 //   duct        (R, 0): a source other than the flame, which q does not show
 //   background  (beta - R, 1 - beta F): both channels show it, p beta times as much as q, as they
 //               do what the electronics or the building's mains add
+//   hum of p, of q   as their sensors, at multiples of the mains' frequency alone (noise_shape.h)
 //
 //   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
 //
@@ -26,18 +27,28 @@ enum class LoopNoise : std::uint8_t {
   kPressureSensor,
   kHeatReleaseSensor,
   kDuct,
-  kBackground
+  kBackground,
+  kPressureHum,
+  kHeatReleaseHum
 };
 
-inline constexpr std::size_t kMostNoiseTerms = 5;  // one of each
+inline constexpr std::size_t kMostNoiseTerms = 7;  // one of each
 
 std::string_view LoopNoiseName(LoopNoise source);
 
 struct NoiseTerm {
   LoopNoise source = LoopNoise::kCombustion;
   Eigen::Index coefficients = 1;
+  double mains_hz = 0.0;  // of hum
 };
 
+inline bool IsHum(LoopNoise source) {
+  return source == LoopNoise::kPressureHum || source == LoopNoise::kHeatReleaseHum;
+}
+// Whether its spectrum is in units of |P|^2.
+inline bool IsOfPressure(LoopNoise source) {
+  return source == LoopNoise::kPressureSensor || source == LoopNoise::kPressureHum;
+}
 bool HasBackground(const std::vector<NoiseTerm>& noise);
 
 // u_j at one bin. background_ratio: beta.
@@ -51,8 +62,10 @@ inline NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std:
     case LoopNoise::kCombustion:
       return {0.0, 1.0};
     case LoopNoise::kPressureSensor:
+    case LoopNoise::kPressureHum:
       return {1.0, -f};
     case LoopNoise::kHeatReleaseSensor:
+    case LoopNoise::kHeatReleaseHum:
       return {-r, 1.0};
     case LoopNoise::kDuct:
       return {r, 0.0};
@@ -72,8 +85,10 @@ inline NoiseTurn TurnOf(LoopNoise source, double background_ratio) {
     case LoopNoise::kCombustion:
       return {};
     case LoopNoise::kPressureSensor:
+    case LoopNoise::kPressureHum:
       return {0.0, -1.0};
     case LoopNoise::kHeatReleaseSensor:
+    case LoopNoise::kHeatReleaseHum:
       return {-1.0, 0.0};
     case LoopNoise::kDuct:
       return {1.0, 0.0};

@@ -52,12 +52,8 @@ struct LoopDerivatives {
   std::vector<Eigen::MatrixXd> log_spectra;
 };
 
-// Parameters in the order acoustics, delay and flame, source after source, and where there is a
-// background the ratio at which p and q show it.
-struct LoopScore {
-  Eigen::VectorXd gradient;
-  Eigen::MatrixXd information;
-};
+Eigen::Index WhittleParameters(const std::vector<NoiseTerm>& noise,
+                               const LoopDerivatives& derivatives);
 
 // Sigma at one bin.
 Eigen::Matrix2cd NoiseCovariance(const std::vector<NoiseTerm>& noise, const LoopResiduals& at,
@@ -67,8 +63,13 @@ Eigen::Matrix2cd NoiseCovariance(const std::vector<NoiseTerm>& noise, const Loop
 double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                             const LoopResiduals& at);
 
-LoopScore WhittleScore(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
-                       const LoopResiduals& at, const LoopDerivatives& derivatives);
+// By the parameters in the order acoustics, delay and flame, source after source, and where there
+// is a background the ratio at which p and q show it.
+Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
+                                const LoopResiduals& at, const LoopDerivatives& derivatives);
+Eigen::MatrixXd WhittleInformation(const std::vector<NoiseTerm>& noise,
+                                   const Eigen::VectorXd& share, const LoopResiduals& at,
+                                   const LoopDerivatives& derivatives);
 
 }  // namespace howl
 

@@ -45,6 +45,8 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
         ErringStructure(DelaySpread::kNone, true), ErringStructure(DelaySpread::kNormal, true)}) {
     structure.noise.push_back({LoopNoise::kDuct, 2});
     structure.noise.push_back({LoopNoise::kBackground, 2});
+    structure.noise.push_back({LoopNoise::kPressureHum, 2, 50.0});
+    structure.noise.push_back({LoopNoise::kHeatReleaseHum, 2, 60.0});
     const PointPrior prior = PriorOf(structure, spectra);
     const LoopPoint start =
         ToPoint(structure, spectra.flame.cols(), StartsOf(spectra, structure, prior, 4, 1).back());
@@ -57,9 +59,8 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
     const Eigen::VectorXd gradient = PointLikelihood(spectra, structure).Gradient(at);
     // Without the determinant, by the matrices of derivatives that an information needs.
     const Eigen::VectorXd of_whittle =
-        WhittleScore(structure.noise, spectra.share, ResidualsOf(spectra, structure, point),
-                     DerivativesOf(spectra, structure, point))
-            .gradient;
+        WhittleGradient(structure.noise, spectra.share, ResidualsOf(spectra, structure, point),
+                        DerivativesOf(spectra, structure, point));
     const auto whittle = [&](const Eigen::VectorXd& parameters) {
       return WhittleLogLikelihood(
           structure.noise, spectra.share,
@@ -187,11 +188,12 @@ TEST(Whittle, InformationIsTheCovarianceOfTheScore) {
     Eigen::VectorXcd p;
     Eigen::VectorXcd q;
     loop.Draw(&random, &p, &q);
-    LoopScore score = WhittleScore(LinearLoop::Noise(), share, loop.At(p, q), loop.Slopes(p, q));
-    score.gradient += determinant;
-    mean += score.gradient / kDraws;
-    covariance += score.gradient * score.gradient.transpose() / kDraws;
-    information += score.information / kDraws;
+    const LoopResiduals at = loop.At(p, q);
+    const LoopDerivatives by = loop.Slopes(p, q);
+    const Eigen::VectorXd score = WhittleGradient(LinearLoop::Noise(), share, at, by) + determinant;
+    mean += score / kDraws;
+    covariance += score * score.transpose() / kDraws;
+    information += WhittleInformation(LinearLoop::Noise(), share, at, by) / kDraws;
   }
   for (Eigen::Index a = 0; a < kSize; ++a) {
     const double deviation = std::sqrt(information(a, a) / kDraws);

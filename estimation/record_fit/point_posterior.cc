@@ -1,0 +1,64 @@
+#include "estimation/record_fit/point_posterior.h"
+
+#include <cmath>
+
+#include "model/numerics/dense_algebra.h"
+
+namespace howl {
+namespace {
+
+constexpr double kDifference = 1e-5;  // of the prior's deviation
+constexpr double kLeastCosine =
+    1e-8;  // of a correction's denominator (Nocedal & Wright 2006, 6.26)
+
+}  // namespace
+
+double PointPosterior::Value(const Eigen::VectorXd& parameters) {
+  const double value = likelihood_.Value(parameters);
+  return std::isfinite(value) ? value + prior_.LogDensity(parameters) : value;
+}
+
+Eigen::VectorXd PointPosterior::Gradient(const Eigen::VectorXd& parameters) {
+  return prior_.deviation.cwiseProduct(likelihood_.Gradient(parameters)) + prior_.Slope(parameters);
+}
+
+Eigen::MatrixXd PointPosterior::Information(const Eigen::VectorXd& parameters) {
+  const auto scale = prior_.deviation.asDiagonal();
+  Eigen::MatrixXd out = scale * likelihood_.Information(parameters) * scale;
+  out.diagonal() += prior_.Precision(parameters);
+  return out;
+}
+
+Eigen::MatrixXd PointPosterior::Curvature(const Eigen::VectorXd& parameters) {
+  const Eigen::Index size = parameters.size();
+  const auto gradient = [&](Eigen::Index i, double step) {
+    Eigen::VectorXd moved = parameters;
+    moved[i] += step * prior_.deviation[i];
+    return Gradient(moved);
+  };
+  Eigen::MatrixXd out(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    out.col(i) = (gradient(i, -kDifference) - gradient(i, kDifference)) / (2.0 * kDifference);
+  }
+  return 0.5 * (out + out.transpose());
+}
+
+Eigen::MatrixXd Positive(const Eigen::MatrixXd& information) {
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1.0).cwiseSqrt();
+  const Eigen::VectorXd inverse = scale.cwiseInverse();
+  const SymmetricEigen eigen =
+      EigenOfSymmetric(inverse.asDiagonal() * information * inverse.asDiagonal());
+  if (eigen.values[0] > 1e-9) return information;
+  return scale.asDiagonal() * eigen.vectors * eigen.values.cwiseAbs().cwiseMax(1e-6).asDiagonal() *
+         eigen.vectors.transpose() * scale.asDiagonal();
+}
+
+void CorrectAlong(const Eigen::VectorXd& step, const Eigen::VectorXd& fall_of_gradient,
+                  Eigen::MatrixXd* information) {
+  const Eigen::VectorXd missed = fall_of_gradient - *information * step;
+  const double along = missed.dot(step);
+  if (std::abs(along) < kLeastCosine * missed.norm() * step.norm()) return;
+  *information += missed * missed.transpose() / along;
+}
+
+}  // namespace howl

@@ -1,0 +1,54 @@
+// The log posterior of a point's parameters, in units of the prior's deviations, with its slopes
+// and curvature: what point_fit.h climbs.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_POINT_POSTERIOR_H_
+#define HOWL_ESTIMATION_RECORD_FIT_POINT_POSTERIOR_H_
+
+#include <Eigen/Core>
+
+#include "estimation/record_fit/loop/point_likelihood.h"
+#include "estimation/record_fit/loop/point_prior.h"
+
+namespace howl {
+
+struct Quadratic {
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd information;
+};
+
+class PointPosterior {
+ public:
+  // All three must outlive it.
+  PointPosterior(const RecordSpectra& record, const PointStructure& structure,
+                 const PointPrior& prior)
+      : likelihood_(record, structure), prior_(prior) {}
+
+  // -infinity where the parameters are impossible.
+  double Value(const Eigen::VectorXd& parameters);
+  Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters);
+  // That of whittle.h, and the prior's.
+  Eigen::MatrixXd Information(const Eigen::VectorXd& parameters);
+  Quadratic Expand(const Eigen::VectorXd& parameters) {
+    return {Gradient(parameters), Information(parameters)};
+  }
+  // The curvature itself, by differences of the gradient. Where the model misses what the record
+  // shows it differs from the information, and steps on the latter come near the maximum slowly.
+  Eigen::MatrixXd Curvature(const Eigen::VectorXd& parameters);
+
+ private:
+  PointLikelihood likelihood_;
+  const PointPrior& prior_;
+};
+
+// Far from the maximum the record's share may leave the information without a sign: the steps then
+// take the size of its curvature, as Greenstadt's modified Newton steps do. What has less than the
+// prior tells has that.
+Eigen::MatrixXd Positive(const Eigen::MatrixXd& information);
+
+// The symmetric update of rank one (SR1): what a step has shown of the curvature along it, at the
+// cost of one gradient. It need not have a sign, which the curvature has not either.
+void CorrectAlong(const Eigen::VectorXd& step, const Eigen::VectorXd& fall_of_gradient,
+                  Eigen::MatrixXd* information);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_POINT_POSTERIOR_H_

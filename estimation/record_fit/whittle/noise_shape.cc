@@ -1,0 +1,37 @@
+#include "estimation/record_fit/whittle/noise_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace howl {
+namespace {
+
+// Of the cycle's frequency: as far as its lines reach (loop_point.h).
+constexpr double kBesideCycle = 0.06;
+
+}  // namespace
+
+Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
+  if (!IsHum(term.source)) return Eigen::VectorXd::Ones(record.bins());
+  const double cycle_hz = record.scale.cycle_hz;
+  const Eigen::VectorXd f_hz = cycle_hz * record.s.imag();
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(record.bins());
+  const double highest_hz = f_hz[record.bins() - 1] + term.mains_hz;
+  for (double line_hz = term.mains_hz; line_hz < highest_hz; line_hz += term.mains_hz) {
+    const double of_cycle = line_hz / cycle_hz;
+    if (std::abs(of_cycle - std::round(of_cycle)) < kBesideCycle) continue;
+    for (Eigen::Index i = 0; i < record.bins(); ++i) {
+      const double bins = (f_hz[i] - line_hz) / record.bin_hz;
+      out[i] += 1.0 / std::max(1.0, std::pow(4.0 * bins * bins - 1.0, 2));
+    }
+  }
+  return out;
+}
+
+Eigen::VectorXd NoiseSpectrum(const NoiseTerm& term, const RecordSpectra& record,
+                              const Eigen::VectorXd& coefficients) {
+  const Eigen::VectorXd smooth = LoopNoiseSpectrum(record.position, coefficients);
+  return IsHum(term.source) ? smooth.cwiseProduct(NoiseShape(term, record)) : smooth;
+}
+
+}  // namespace howl

@@ -1,0 +1,28 @@
+// The factor by which a source's spectrum differs from a smooth one. Hum stands at multiples of the
+// mains' frequency alone, as the taper spreads each:
+//
+//   w(f) = sum over n of 1 / max(1, (4 d_n^2 - 1)^2),   d_n: bins from n times the mains' frequency
+//
+// the bound of a line's power under a sine taper (Thomson 1982; Riedel & Sidorenko 1995). Multiples
+// next to one of the cycle's lines tell nothing of hum, and are left out. Of all other sources w is
+// one.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
+#define HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
+
+#include <Eigen/Core>
+
+#include "estimation/record_fit/spectra/record_spectra.h"
+#include "estimation/record_fit/whittle/noise_sources.h"
+
+namespace howl {
+
+// w at the record's bins.
+Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record);
+
+// S_j at the record's bins: w times what noise_sources.h has.
+Eigen::VectorXd NoiseSpectrum(const NoiseTerm& term, const RecordSpectra& record,
+                              const Eigen::VectorXd& coefficients);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
