@@ -10,7 +10,7 @@
 
 namespace howl {
 
-struct Quadratic {
+struct PosteriorSlopes {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
 };
@@ -27,7 +27,7 @@ class PointPosterior {
   Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters);
   // That of whittle.h, and the prior's.
   Eigen::MatrixXd Information(const Eigen::VectorXd& parameters);
-  Quadratic Expand(const Eigen::VectorXd& parameters) {
+  PosteriorSlopes Expand(const Eigen::VectorXd& parameters) {
     return {Gradient(parameters), Information(parameters)};
   }
   // The curvature itself, by differences of the gradient. Where the model misses what the record

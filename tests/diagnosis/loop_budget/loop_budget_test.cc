@@ -70,7 +70,8 @@ TEST(LoopBudget, FindsHumAndItsChannel) {
       const double amplitude = kShare * std::numbers::sqrt2 * RootMeanSquare(signal);
       for (std::size_t i = 0; i < signal.size(); ++i) {
         const double t = static_cast<double>(i) / each.record.sampling_hz;
-        signal[i] += amplitude * std::sin(2.0 * std::numbers::pi * 60.0 * t + each.operating_parameter);
+        signal[i] +=
+            amplitude * std::sin(2.0 * std::numbers::pi * 60.0 * t + each.operating_parameter);
       }
     }
     const LoopDiagnosis found = DiagnoseLoops(
@@ -163,7 +164,8 @@ TEST(LoopItem, ComesAndGoes) {
   base.structure.noise = LeastNoise();
   for (const LoopItem& item : LoopItems(base, base)) {
     const LoopForm with = With(base, item);
-    EXPECT_FALSE(Offered(LoopItems(with, base), item.id)) << item.id;
+    // Hum may come in the other channel too.
+    EXPECT_EQ(Offered(LoopItems(with, base), item.id), IsHum(item.noise.source)) << item.id;
     const LoopForm back = Without(with, item, base);
     EXPECT_EQ(back.flame_input, base.flame_input);
     EXPECT_EQ(back.structure.modes, base.structure.modes);
