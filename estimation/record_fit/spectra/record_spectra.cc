@@ -25,9 +25,6 @@ constexpr double kHighestOfSampling = 0.4;
 constexpr double kFilterEdge = 1.05;   // of the band's upper end
 constexpr double kFilterWidth = 0.25;  // of the edge
 constexpr double kRangeOverLargest = 1.02;
-// Of the cycle: where the record's end meets its beginning the filtered input has a spike, which no
-// flame saw. It is gone after the filter's own memory, half a period.
-constexpr double kEndPeriods = 2.0;
 // Combinations of splines that v hardly reaches are left out.
 constexpr double kLeastOfLargest = 1e-3;
 
@@ -83,14 +80,6 @@ Eigen::VectorXd InputOf(const Eigen::VectorXcd& pressure, FlameInput input, doub
   return Signal(std::move(spectrum), samples);
 }
 
-// The largest size of the input but at the record's ends.
-double LargestInside(const Eigen::VectorXd& v, double bin_of_cycle) {
-  const auto samples_of_period = static_cast<double>(v.size()) * bin_of_cycle;
-  const auto end =
-      std::min(static_cast<Eigen::Index>(kEndPeriods * samples_of_period), v.size() / 4);
-  return v.segment(end, v.size() - 2 * end).cwiseAbs().maxCoeff();
-}
-
 // Functions whose spectra are orthogonal, each with the mean square 1 over the band.
 Eigen::MatrixXd OrthogonalFunctions(const Eigen::MatrixXcd& spectra) {
   Eigen::MatrixXd stacked(2 * spectra.rows(), spectra.cols());
@@ -132,8 +121,7 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
       2.0 * (middle.array() / middle[0]).log() / std::log(middle[band.count - 1] / middle[0]) - 1.0;
   out.share = Eigen::VectorXd::Constant(band.count, kSineTaperShare);
   const Eigen::VectorXd v = InputOf(pressure, input, bin_of_cycle, kFilterEdge * highest, samples);
-  if (scale.input_range == 0.0)
-    scale.input_range = kRangeOverLargest * LargestInside(v, bin_of_cycle);
+  if (scale.input_range == 0.0) scale.input_range = kRangeOverLargest * v.cwiseAbs().maxCoeff();
   const FlameBasis basis(scale.input_range);
   Eigen::MatrixXd splines = basis.Columns(v);
   Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
