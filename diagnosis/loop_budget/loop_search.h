@@ -4,10 +4,10 @@
 // points give, summed (records_fit.h); of one point alone its evidence. An item comes in where it
 // raises the score by more than the odds against any of so many, and goes where the score without
 // it is no lower. Hum is looked for while nothing else has come, which might take its lines for its
-// own. Noise comes before all other causes, as long as any of it pays: what a poor noise leaves over
-// passes for effects. Errors at the cycle's lines come where nothing else pays: were they there from
-// the beginning, they would hide what the lines tell of the flame. What pays beside them then is
-// looked for as before.
+// own. Noise comes before all other causes, as long as any of it pays: what a poor noise leaves
+// over passes for effects. Errors at the cycle's lines come where nothing else pays: were they
+// there from the beginning, they would hide what the lines tell of the flame. What pays beside them
+// then is looked for as before.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
 
