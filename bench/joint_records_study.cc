@@ -15,11 +15,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/asked.h"
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
 #include "bench/record_structures.h"
@@ -45,12 +45,6 @@ struct Row {
   double nats = 0.0;
   HeldOutScore score;
 };
-
-bool Asked(const char* variable, const std::string& name) {
-  const char* const only = std::getenv(variable);
-  return only == nullptr ||
-         ("," + std::string(only) + ",").find("," + name + ",") != std::string::npos;
-}
 
 // The source's level at twice the cycle's frequency, with the factor that bounds it at 95 %.
 void PrintNoise(const FittedLoop& loop) {

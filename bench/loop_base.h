@@ -12,25 +12,17 @@
 
 namespace howl {
 
-// The loop with the least noise that a rig has and without errors at the cycle's lines.
-inline LoopForm BaseOf(const RecordLoopSpec& spec) {
-  LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
-  out.structure.noise = LeastNoise();
-  out.structure.acoustic_lines = out.structure.flame_lines = 0;
-  return out;
-}
-
 inline LoopForm PaperBase() {
   RecordLoopSpec spec;
   spec.ratio = 3.0;
   spec.own_damping = false;
   spec.complex_residues = false;
-  return BaseOf(spec);
+  return LeastForm(spec);
 }
 
 // The loop of the config's model, or the paper's where it states no other.
 inline LoopForm LoopBaseOf(const Config& config) {
-  return config.record_loop ? BaseOf(*config.record_loop) : PaperBase();
+  return config.record_loop ? LeastForm(*config.record_loop) : PaperBase();
 }
 
 inline std::vector<LoopRecord> LoopRecordsOf(const MeasuredRig& rig) {

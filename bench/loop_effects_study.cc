@@ -9,10 +9,11 @@
 // row with what was added, its value and what is lost without it.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "bench/asked.h"
+#include "bench/budget_row.h"
 #include "bench/known_effects.h"
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
@@ -24,25 +25,10 @@ namespace howl {
 namespace {
 
 void PrintRow(const std::string& what, const LoopDiagnosis& found, double seconds) {
-  const Budget& budget = *found.diagnosis.budget;
-  std::printf("%-26s gap %.3f to %.3f |", what.c_str(), budget.gap_before, budget.gap_left);
-  for (const BudgetEntry& entry : budget.entries) {
-    std::printf(" %s (%.0f nats, %zu of %zu", entry.item.c_str(), entry.lost_nats,
-                entry.experiments_better, budget.experiments);
-    for (const EstimatedParameter& p : entry.parameters) {
-      std::printf(", %s %.4g, %.4g .. %.4g", p.name.c_str(), p.value, p.low, p.high);
-    }
-    std::printf(")");
-    for (const std::string& other : entry.equals) std::printf(" = %s", other.c_str());
-  }
+  std::printf("%-26s ", what.c_str());
+  PrintBudget(*found.diagnosis.budget);
   std::printf(" | %.0f s\n", seconds);
   std::fflush(stdout);
-}
-
-bool Asked(const std::string& effect) {
-  const char* const only = std::getenv("EFFECTS");
-  return only == nullptr ||
-         ("," + std::string(only) + ",").find("," + effect + ",") != std::string::npos;
 }
 
 int Run(int argc, char** argv) {
@@ -54,7 +40,7 @@ int Run(int argc, char** argv) {
   for (const KnownEffect& known : KnownEffects()) {
     const std::vector<std::string> ids = LoopItemIds();
     if (known.effect != "none" && std::ranges::find(ids, known.effect) == ids.end()) continue;
-    if (!Asked(known.effect)) continue;
+    if (!Asked("EFFECTS", known.effect)) continue;
     MeasuredRig touched = rig;
     known.put(&touched);
     begun = Seconds();

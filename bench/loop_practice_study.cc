@@ -11,25 +11,17 @@
 #include <string>
 #include <vector>
 
+#include "bench/budget_row.h"
 #include "bench/loop_base.h"
 #include "bench/seconds.h"
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/kept_memory.h"
+#include "io/records/records.h"
 
 namespace howl {
 namespace {
 
-std::vector<double> Column(const std::filesystem::path& path, int column) {
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  std::vector<double> out;
-  while (std::getline(file, line)) {
-    const std::size_t comma = line.find(',');
-    out.push_back(std::stod(column == 0 ? line.substr(0, comma) : line.substr(comma + 1)));
-  }
-  return out;
-}
+constexpr double kSampling_hz = 5000.0;
 
 MeasuredRig ReadCase(const std::filesystem::path& folder) {
   std::ifstream list(folder / "data" / "rig.txt");
@@ -41,8 +33,11 @@ MeasuredRig ReadCase(const std::filesystem::path& folder) {
     double phi = 0.0;
     char name[64];
     if (std::sscanf(line.c_str(), "%d %lf %63s", &number, &phi, name) != 3) continue;
-    const std::filesystem::path path = folder / "data" / name;
-    out.push_back({path.stem(), phi, {5000.0, Column(path, 0), Column(path, 1)}});
+    RecordSpec spec;
+    spec.file = folder / "data" / name;
+    spec.heat_release = "q";
+    spec.sampling_hz = kSampling_hz;
+    out.push_back({spec.file.stem(), phi, LoadRecord(spec, spec.file, 0)});
   }
   return out;
 }
@@ -53,20 +48,10 @@ void PrintCase(const std::filesystem::path& folder) {
   const MeasuredRig rig = ReadCase(folder);
   const double begun = Seconds();
   const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(rig), PaperBase(), {});
-  const Budget& budget = *found.diagnosis.budget;
-  std::printf("%s %-24s %s | %s gap %.3f to %.3f |", folder.filename().c_str(),
+  std::printf("%s %-24s %s | %s ", folder.filename().c_str(),
               truth["effect"].get<std::string>().c_str(), truth["effect_parameters"].dump().c_str(),
-              found.diagnosis.kind == VerdictKind::kUnknown ? "unknown" : "", budget.gap_before,
-              budget.gap_left);
-  for (const BudgetEntry& entry : budget.entries) {
-    std::printf(" %s (%.0f nats, %zu of %zu", entry.item.c_str(), entry.lost_nats,
-                entry.experiments_better, budget.experiments);
-    for (const EstimatedParameter& p : entry.parameters) {
-      std::printf(", %s %.4g, %.4g .. %.4g", p.name.c_str(), p.value, p.low, p.high);
-    }
-    std::printf(")");
-    for (const std::string& other : entry.equals) std::printf(" = %s", other.c_str());
-  }
+              found.diagnosis.kind == VerdictKind::kUnknown ? "unknown" : "");
+  PrintBudget(*found.diagnosis.budget);
   std::printf(" | lines %.1f %.1f | %.0f s\n", found.acoustics.nats, found.flame.nats,
               Seconds() - begun);
   std::fflush(stdout);

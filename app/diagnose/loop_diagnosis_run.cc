@@ -31,8 +31,7 @@ void RefuseOthers(const Options& options) {
   }
 }
 
-// The config's loop with the least noise that a rig has, and no errors: what more there is, is
-// found.
+// The config's loop, of which nothing is to be chosen.
 LoopForm BaseOf(const Config& config) {
   const RecordLoopSpec& spec = *config.record_loop;
   const auto refuse = [&](const char* key, const char* expected) {
@@ -44,10 +43,7 @@ LoopForm BaseOf(const Config& config) {
   if (spec.choose_flame_input) {
     refuse("model: flame_input", "is auto, expected one of them: diagnose tries the others");
   }
-  LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
-  out.structure.noise = LeastNoise();
-  out.structure.acoustic_lines = out.structure.flame_lines = 0;
-  return out;
+  return LeastForm(spec);
 }
 
 }  // namespace

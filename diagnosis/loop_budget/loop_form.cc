@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "estimation/joint_records/record_loop_spec.h"
-
 namespace howl {
 namespace {
 
@@ -75,6 +73,13 @@ std::vector<NoiseTerm> LeastNoise() {
   return {{LoopNoise::kCombustion, kSourceCoefficients},
           {LoopNoise::kPressureSensor, 1},
           {LoopNoise::kHeatReleaseSensor, 1}};
+}
+
+LoopForm LeastForm(const RecordLoopSpec& spec) {
+  LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
+  out.structure.noise = LeastNoise();
+  out.structure.acoustic_lines = out.structure.flame_lines = 0;
+  return out;
 }
 
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {

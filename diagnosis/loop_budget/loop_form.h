@@ -6,6 +6,7 @@
 
 #include "diagnosis/loop_budget/loop_instrument.h"
 #include "diagnosis/loop_budget/loop_item.h"
+#include "estimation/joint_records/record_loop_spec.h"
 #include "estimation/record_fit/loop/loop_point.h"
 
 namespace howl {
@@ -19,6 +20,10 @@ struct LoopForm {
 
 // The least noise that a rig has: combustion's, coloured, and white noise of both sensors.
 std::vector<NoiseTerm> LeastNoise();
+
+// The loop that `spec` states with that noise, and without errors at the cycle's lines: a search
+// finds what more there is.
+LoopForm LeastForm(const RecordLoopSpec& spec);
 
 // All that may be added to `model` now, of a search that began at `base`.
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);

@@ -17,31 +17,31 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-// The root mean square of what a source adds to its signal, over that of the signal: each bin of a
-// tapered spectrum stands for both signs of its frequency, and the taper doubles the power.
-double RelativeAmplitude(const RecordSpectra& record, const PointStructure& structure,
-                         const LoopPoint& point, LoopNoise source) {
-  const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
-  const auto j = static_cast<std::size_t>(at - structure.noise.begin());
-  const double power = NoiseSpectrum(*at, record, point.noise[j]).sum();
-  return std::sqrt(power * record.bin_hz / record.sampling_hz);
-}
-
-// The same of hum, which is no noise but one oscillation: what is expected of it, given the record
-// (Wiener's filter).
-double HumAmplitude(const RecordSpectra& record, const PointStructure& structure,
-                    const LoopPoint& point, LoopNoise source) {
-  const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
-  const Eigen::Index j = at - structure.noise.begin();
+// Of hum, which is no noise but one oscillation: what is expected of it, given the record (Wiener's
+// filter). j: of the sources.
+double HumPower(const RecordSpectra& record, const PointStructure& structure,
+                const LoopPoint& point, std::size_t j) {
+  const LoopNoise source = structure.noise[j].source;
   const LoopResiduals left = ResidualsOf(record, structure, point);
   double power = 0.0;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const NoiseDirection u = DirectionOf(source, left.r[i], left.f[i], left.background_ratio);
     const Eigen::Vector2cd weighed = NoiseCovariance(structure.noise, left, i).inverse() *
                                      Eigen::Vector2cd(left.acoustic[i], left.flame[i]);
-    power += std::norm(left.spectra(i, j) *
+    power += std::norm(left.spectra(i, static_cast<Eigen::Index>(j)) *
                        (std::conj(u.acoustic) * weighed[0] + std::conj(u.flame) * weighed[1]));
   }
+  return power;
+}
+
+// The root mean square of what a source adds to its signal, over that of the signal: each bin of a
+// tapered spectrum stands for both signs of its frequency, and the taper doubles the power.
+double RelativeAmplitude(const RecordSpectra& record, const PointStructure& structure,
+                         const LoopPoint& point, LoopNoise source) {
+  const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
+  const auto j = static_cast<std::size_t>(at - structure.noise.begin());
+  const double power = IsHum(source) ? HumPower(record, structure, point, j)
+                                     : NoiseSpectrum(*at, record, point.noise[j]).sum();
   return std::sqrt(power * record.bin_hz / record.sampling_hz);
 }
 
@@ -75,12 +75,11 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
   switch (item.kind) {
     case LoopItemKind::kNoise:
       add("amplitude", "", [&](const RecordSpectra& record, const LoopPoint& point) {
-        const auto amplitude = IsHum(item.noise.source) ? HumAmplitude : RelativeAmplitude;
-        return amplitude(record, fit.model.structure, point, item.noise.source);
+        return RelativeAmplitude(record, fit.model.structure, point, item.noise.source);
       });
       if (IsHum(item.noise.source)) {
-        add("hz", "Hz",
-            [&](const RecordSpectra&, const LoopPoint&) { return item.noise.mains_hz; });
+        const double hz = item.noise.mains_hz;
+        out.push_back({"hz", hz, hz, hz, "Hz"});
       }
       break;
     case LoopItemKind::kNoiseShape:

@@ -88,22 +88,19 @@ RecordsFit FitUnderLaw(const RecordsFitter& fitter, const std::vector<OperatingP
       fit = KeptFit(options.units, UnitKey(options, "round", r, e),
                     [&] { return FitUnder(record, out.structure, prior, fit.parameters, false); });
       if (!search) return;
-      if (!options.other_maxima) {
-        prior = prior.NormalAt(fit.parameters);
-        return;
-      }
-      PointFit other = KeptFit(options.units, UnitKey(options, "search", r, e), [&] {
-        return OtherMaxima(record, out.structure, prior,
-                           FitUnder(record, out.structure, prior, fit.parameters, !alone));
-      });
-      if (other.log_posterior > fit.log_posterior) {
-        gain[e] = other.log_posterior - fit.log_posterior;
-        fit = std::move(other);
+      if (options.other_maxima) {
+        PointFit other = KeptFit(options.units, UnitKey(options, "search", r, e), [&] {
+          return OtherMaxima(record, out.structure, prior,
+                             FitUnder(record, out.structure, prior, fit.parameters, !alone));
+        });
+        if (other.log_posterior > fit.log_posterior) {
+          gain[e] = other.log_posterior - fit.log_posterior;
+          fit = std::move(other);
+        }
       }
       prior = prior.NormalAt(fit.parameters);
     });
     if (!search) continue;
-    if (!options.other_maxima) return out;
     const double found = std::accumulate(gain.begin(), gain.end(), 0.0);
     if (found >= kFound) steps = LawSteps();
     VLOG(1) << "round " << round << " of the law of the parameters: " << found << " nats found";

@@ -30,8 +30,7 @@ Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
 
 Eigen::VectorXd NoiseSpectrum(const NoiseTerm& term, const RecordSpectra& record,
                               const Eigen::VectorXd& coefficients) {
-  const Eigen::VectorXd smooth = LoopNoiseSpectrum(record.position, coefficients);
-  return IsHum(term.source) ? smooth.cwiseProduct(NoiseShape(term, record)) : smooth;
+  return LoopNoiseSpectrum(record.position, coefficients).cwiseProduct(NoiseShape(term, record));
 }
 
 }  // namespace howl
