@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "estimation/record_fit/starts/point_starts.h"
+#include "estimation/record_fit/starts/path_starts.h"
 
 namespace howl {
 namespace {
@@ -35,12 +35,13 @@ LoopStarts WithOtherInput(const LoopRecords& records, const LoopForm& form,
   out.rows.resize(kDelaysTried);
   for (std::size_t e = 0; e < records.size(); ++e) {
     const RecordSpectra record = records.Whole(form, e);
-    const std::vector<double> delays = DelayStarts(record, kDelaysTried);
+    const PathStarts paths(record);
+    const std::vector<double> delays = paths.Delays(kDelaysTried);
     for (std::size_t i = 0; i < kDelaysTried; ++i) {
       LoopPoint& point = points[e];
       point.path.tau = delays[std::min(i, delays.size() - 1)];
       if (structure.HasSpread()) point.path.rho = kLittleSpread;
-      point.flame = FlameStart(record, point.path);
+      point.flame = paths.Flame(point.path);
       out.rows[i].push_back(ToParameters(structure, point));
     }
   }

@@ -16,6 +16,7 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kMostCandidates = 4;
+constexpr std::size_t kSecondPaths = 3;
 constexpr int kIterationsOfCandidate = 30;
 constexpr double kRounding = 1e-12;
 constexpr double kErrorsConverged = 0.05;  // of ln s
@@ -145,9 +146,18 @@ StartRows RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
     }
     out.push_back(row);
     if (structure_.second_path && !poorer.structure.second_path) {
-      for (std::size_t i = 1; i < kLambdas.size(); ++i) {
-        for (Eigen::VectorXd& start : row)
-          start[structure_.SecondPath() + 1] = std::log(kLambdas[i]);
+      // A row each for the delays that this record leaves the flame next to the best.
+      const RecordSpectra& record = points_[from].record;
+      FlamePath first = ToPoint(structure_, record.flame.cols(), row[from]).path;
+      first.second.reset();
+      const std::vector<SecondPath> later = LittleSecondPaths(record, first, kSecondPaths);
+      for (std::size_t i = 1; i < later.size(); ++i) {
+        for (std::size_t e = 0; e < size(); ++e) {
+          const double cycle =
+              points_[from].record.scale.cycle_hz / points_[e].record.scale.cycle_hz;
+          row[e][structure_.SecondPath()] = later[i].share;
+          row[e][structure_.SecondPath() + 1] = std::log(later[i].lambda / cycle);
+        }
         out.push_back(row);
       }
     }

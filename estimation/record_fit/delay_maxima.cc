@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "estimation/record_fit/starts/point_starts.h"
+#include "estimation/record_fit/starts/path_starts.h"
 
 namespace howl {
 namespace {
@@ -27,11 +27,12 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
     return std::exp(fit.parameters[structure.Delay()]);
   };
   std::vector<PointFit> begun;
-  for (const double tau : DelayStarts(record, kDelays)) {
+  const PathStarts paths(record);
+  for (const double tau : paths.Delays(kDelays)) {
     Eigen::VectorXd start = parameters;
     start[structure.Delay()] = std::log(tau);
     const FlamePath path = ToPoint(structure, record.flame.cols(), start).path;
-    start.segment(structure.Flame(), record.flame.cols()) = FlameStart(record, path);
+    start.segment(structure.Flame(), record.flame.cols()) = paths.Flame(path);
     begun.push_back(FitPoint(record, structure, prior, start, kFirstSteps));
   }
   std::ranges::stable_sort(begun, std::ranges::greater(), &PointFit::log_posterior);

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <utility>
 
-#include "estimation/record_fit/starts/point_starts.h"
+#include "estimation/record_fit/starts/path_starts.h"
 
 namespace howl {
 
 Eigen::VectorXd WithBestFlame(const RecordSpectra& record, const PointStructure& structure,
                               const Eigen::VectorXd& parameters) {
   LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
-  point.flame = FlameStart(record, point.path);
+  point.flame = PathStarts(record).Flame(point.path);
   return ToParameters(structure, point);
 }
 

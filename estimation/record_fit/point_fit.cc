@@ -22,6 +22,8 @@ constexpr double kMostDamping = 1e12;
 // Of a parameter, in deviations of what it may be on any rig (point_prior.h): from a start far from
 // any maximum a quadratic may point to where no rig is, and the likelihood be flat.
 constexpr double kLongestStep = 3.0;
+// Of frequencies and the delay, in the same deviations: no rig has them farther out.
+constexpr double kFarthest = 10.0;
 constexpr int kMostCorrections = 12;
 constexpr double kAboveLeast = 1.02;  // of delays that fits begin with
 constexpr int kMostHalvings = 20;     // of a start's flame
@@ -70,8 +72,12 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   PointPosterior posterior(record, structure, prior);
   out.parameters = Possible(record, structure, std::move(start));
   out.log_posterior = posterior.Value(out.parameters);
-  const Eigen::VectorXd narrower =
-      prior.deviation.cwiseQuotient(PriorOf(structure, record).deviation);
+  const PointPrior of_rigs = PriorOf(structure, record);
+  const Eigen::VectorXd narrower = prior.deviation.cwiseQuotient(of_rigs.deviation);
+  const auto farthest = [&](const Eigen::VectorXd& parameters) {
+    const Eigen::ArrayXd z = (parameters - of_rigs.mean).array().abs() / of_rigs.deviation.array();
+    return std::max(z.head(structure.Frequencies()).maxCoeff(), z[structure.Delay()]);
+  };
   double damping = kFirstDamping;
   double raise = 2.0;
   int corrections = 0;
@@ -99,7 +105,9 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
       continue;
     }
     const Eigen::VectorXd there = out.parameters + step.cwiseProduct(prior.deviation);
-    const double value = posterior.Value(there);
+    const bool on_a_rig = farthest(there) <= std::max(kFarthest, farthest(out.parameters));
+    const double value =
+        on_a_rig ? posterior.Value(there) : -std::numeric_limits<double>::infinity();
     const double gain = value - out.log_posterior;
     // Where spectra leave the range of numbers the likelihood may still have a value, and no slope.
     PosteriorSlopes next;

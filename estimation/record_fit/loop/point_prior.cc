@@ -25,7 +25,6 @@ constexpr double kMeanLogRho = -1.2;
 constexpr double kLogRho = 0.8;
 // Two paths that answer alike, and up to twice as strongly against one another.
 constexpr double kSecondShare = 1.0;
-constexpr double kFlame = 3.0;  // of recorded q's mean square
 // Where a search begins: its size is estimated (parameter_law.h).
 constexpr double kLineError = 0.3;
 constexpr double kLevel = 3.0;  // of ln S_j, about the signal's mean
@@ -106,8 +105,8 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
     add(1, 0.0, kSecondShare);
     add(1, std::log(kMeanTau), kLogTau);
   }
-  const double bins = static_cast<double>(record.bins());
-  add(flame, 0.0, kFlame * std::sqrt(Tapered(record.heat_release).squaredNorm() / bins));
+  out.deviation.segment(next, flame) = record.scale.flame_deviation;
+  next += flame;
   add(structure.FlameLines(), 0.0, kLineError);
   for (const NoiseTerm& term : structure.noise) {
     add(1, MeanLogPower(IsOfPressure(term.source) ? record.pressure : record.heat_release), kLevel);

@@ -30,6 +30,11 @@ Piece Evaluate(double v, double range) {
 
 }  // namespace
 
+Eigen::VectorXd FlameBasis::Knots() const {
+  const double step = 2.0 * range_ / static_cast<double>(kIntervals);
+  return Eigen::VectorXd::LinSpaced(kFlameTerms + 1, -range_ - step, range_ + step);
+}
+
 Eigen::MatrixXd FlameBasis::Columns(const Eigen::VectorXd& v) const {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(v.size(), kFlameTerms);
   for (Eigen::Index i = 0; i < v.size(); ++i) {

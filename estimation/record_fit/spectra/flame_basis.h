@@ -13,6 +13,9 @@ class FlameBasis {
  public:
   explicit FlameBasis(double range) : range_(range) {}
 
+  // Where each of all kFlameTerms + 1 splines has its middle: a curve's coefficients are its values
+  // there, but for its curvature.
+  Eigen::VectorXd Knots() const;
   // samples x kFlameTerms
   Eigen::MatrixXd Columns(const Eigen::VectorXd& v) const;
   // The sum of the columns times the coefficients.

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "estimation/record_fit/spectra/flame_basis.h"
-#include "model/numerics/dense_algebra.h"
+#include "estimation/record_fit/spectra/flame_functions.h"
 #include "model/numerics/fft.h"
 
 namespace howl {
@@ -25,8 +25,9 @@ constexpr double kHighestOfSampling = 0.4;
 constexpr double kFilterEdge = 1.05;   // of the band's upper end
 constexpr double kFilterWidth = 0.25;  // of the edge
 constexpr double kRangeOverLargest = 1.02;
-// Combinations of splines that v hardly reaches are left out.
-constexpr double kLeastOfLargest = 1e-3;
+// Of the cycle: where the record's end meets its beginning the filtered input has a spike, which no
+// flame saw. It is gone after the filter's own memory, half a period.
+constexpr double kEndPeriods = 2.0;
 
 Eigen::VectorXd Centred(const std::vector<double>& samples, double scale) {
   Eigen::VectorXd out =
@@ -80,17 +81,16 @@ Eigen::VectorXd InputOf(const Eigen::VectorXcd& pressure, FlameInput input, doub
   return Signal(std::move(spectrum), samples);
 }
 
-// Functions whose spectra are orthogonal, each with the mean square 1 over the band.
-Eigen::MatrixXd OrthogonalFunctions(const Eigen::MatrixXcd& spectra) {
-  Eigen::MatrixXd stacked(2 * spectra.rows(), spectra.cols());
-  stacked << spectra.real(), spectra.imag();
-  stacked /= std::sqrt(static_cast<double>(spectra.rows()));
-  const SingularValues svd = DecomposeSingular(stacked);
-  const Eigen::Index kept = (svd.values.array() > kLeastOfLargest * svd.values[0]).count();
-  return svd.v.leftCols(kept) * svd.values.head(kept).cwiseInverse().asDiagonal();
+// The largest size of the input but at the record's ends.
+double LargestInside(const Eigen::VectorXd& v, double bin_of_cycle) {
+  const auto samples_of_period = static_cast<double>(v.size()) * bin_of_cycle;
+  const auto end =
+      std::min(static_cast<Eigen::Index>(kEndPeriods * samples_of_period), v.size() / 4);
+  return v.segment(end, v.size() - 2 * end).cwiseAbs().maxCoeff();
 }
 
-RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
+RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
+                   const FlamePrior& prior) {
   CHECK_EQ(record.pressure.size(), record.heat_release.size());
   RecordSpectra out;
   out.flame_input = input;
@@ -121,7 +121,8 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
       2.0 * (middle.array() / middle[0]).log() / std::log(middle[band.count - 1] / middle[0]) - 1.0;
   out.share = Eigen::VectorXd::Constant(band.count, kSineTaperShare);
   const Eigen::VectorXd v = InputOf(pressure, input, bin_of_cycle, kFilterEdge * highest, samples);
-  if (scale.input_range == 0.0) scale.input_range = kRangeOverLargest * v.cwiseAbs().maxCoeff();
+  if (scale.input_range == 0.0)
+    scale.input_range = kRangeOverLargest * LargestInside(v, bin_of_cycle);
   const FlameBasis basis(scale.input_range);
   Eigen::MatrixXd splines = basis.Columns(v);
   Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
@@ -133,7 +134,12 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input) {
       (basis.Columns(v.array() + step) - basis.Columns(v.array() - step)) / (2.0 * step);
   const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
   const Eigen::MatrixXd at_rest = basis.Columns(about_rest);
-  if (scale.functions.size() == 0) scale.functions = OrthogonalFunctions(spectra);
+  if (scale.functions.size() == 0) {
+    const double size = std::sqrt(v.squaredNorm() / static_cast<double>(samples));
+    FlameFunctions flame = SmoothFlames(prior, basis, spectra, size);
+    scale.functions = std::move(flame.of_splines);
+    scale.flame_deviation = std::move(flame.deviation);
+  }
   out.flame = spectra * scale.functions;
   out.slopes = scale.functions.transpose() * rises.colwise().mean().transpose();
   out.rest_slopes =
@@ -166,16 +172,17 @@ Eigen::VectorXd SmoothPower(const Eigen::VectorXcd& x, Eigen::Index reach) {
   return out;
 }
 
-RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInput input) {
+RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInput input,
+                                const FlamePrior& flame) {
   RecordScale scale;
   scale.cycle_hz = cycle_hz;
   scale.pressure = RootMeanSquare(record.pressure);
   scale.heat_release = RootMeanSquare(record.heat_release);
-  return Make(record, std::move(scale), input);
+  return Make(record, std::move(scale), input, flame);
 }
 
 RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like) {
-  return Make(record, like.scale, like.flame_input);
+  return Make(record, like.scale, like.flame_input, {});
 }
 
 }  // namespace howl

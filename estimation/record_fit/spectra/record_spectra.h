@@ -25,6 +25,7 @@
 #include <numbers>
 
 #include "estimation/analysis/spectra/record.h"
+#include "estimation/record_fit/spectra/flame_functions.h"
 
 namespace howl {
 
@@ -40,8 +41,11 @@ struct RecordScale {
   double cycle_hz = 0.0;
   double pressure = 1.0;
   double heat_release = 1.0;
-  double input_range = 0.0;   // largest |v|
-  Eigen::MatrixXd functions;  // of the splines, one column each
+  double input_range = 0.0;  // largest |v|
+  // Of the splines, one column each, and the deviation of each one's coefficient before the record
+  // is seen (flame_functions.h).
+  Eigen::MatrixXd functions;
+  Eigen::VectorXd flame_deviation;
 
   // Of the cycle: delays without a unit over it are seconds.
   double AngularFrequency() const { return 2.0 * std::numbers::pi * cycle_hz; }
@@ -74,7 +78,8 @@ struct RecordSpectra {
 };
 
 // The record has both signals.
-RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInput input);
+RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInput input,
+                                const FlamePrior& flame = {});
 // The same record, or another part of it, in the units and with the flame's functions of `like`.
 RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like);
 

@@ -8,6 +8,7 @@
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/starts/hum_start.h"
+#include "estimation/record_fit/starts/path_starts.h"
 #include "estimation/record_fit/starts/pole_starts.h"
 #include "estimation/record_fit/starts/start_least_squares.h"
 #include "model/numerics/dense_algebra.h"
@@ -15,12 +16,9 @@
 namespace howl {
 namespace {
 
-constexpr int kDelays = 64;
-constexpr double kMostCycles = 1.25;  // of delay
 constexpr std::size_t kBestDelays = 3;
+constexpr std::size_t kSecondPaths = 3;
 constexpr double kRho = 0.2;  // spread of delays
-// Of a second path, either way.
-constexpr double kSecondShare = 0.3;
 constexpr double kEulersGamma = 0.5772156649015329;
 constexpr double kQuiet = 0.1;  // share of bins
 constexpr double kWellDamped = 0.1;
@@ -37,83 +35,34 @@ double QuietLevel(Eigen::VectorXd power) {
 class Starts {
  public:
   Starts(const RecordSpectra& record, const PointStructure& structure)
-      : record_(record),
-        structure_(structure),
-        heat_release_(Tapered(record.heat_release)),
-        flame_(record.bins(), record.flame.cols()),
-        weight_(SmoothPower(heat_release_, kStartReach).cwiseSqrt().cwiseInverse()) {
-    for (Eigen::Index k = 0; k < flame_.cols(); ++k) flame_.col(k) = Tapered(record.flame.col(k));
-  }
+      : record_(record), structure_(structure), paths_(record) {}
 
-  std::vector<double> Delays(std::size_t count) const;
-  FlamePath Path(double tau) const;
-  // Where there is a second path, one for each of its delays.
-  std::vector<FlamePath> Paths(double tau) const;
+  // The best delays; where there is a second path, each with the best of those.
+  std::vector<FlamePath> Paths() const;
   Eigen::VectorXd At(std::vector<LoopMode> modes, const FlamePath& path) const;
-  StartSolution Flame(const FlamePath& path) const;
 
  private:
-  double LogLeft(const FlamePath& path) const;
   void RaiseNoise(LoopPoint* point) const;
   Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
 
   const RecordSpectra& record_;
   const PointStructure& structure_;
-  Eigen::VectorXcd heat_release_;
-  Eigen::MatrixXcd flame_;
-  Eigen::VectorXd weight_;
+  PathStarts paths_;
 };
 
-FlamePath Starts::Path(double tau) const {
-  return {structure_.delay_spread, tau, structure_.HasSpread() ? kRho : 0.0};
-}
-
-std::vector<FlamePath> Starts::Paths(double tau) const {
-  if (!structure_.second_path) return {Path(tau)};
+std::vector<FlamePath> Starts::Paths() const {
   std::vector<FlamePath> out;
-  for (const double lambda : kLambdas) {
-    FlamePath against = Path(tau);
-    FlamePath along = against;
-    against.second = SecondPath{-kSecondShare, lambda};
-    along.second = SecondPath{kSecondShare, lambda};
-    out.push_back(LogLeft(along) < LogLeft(against) ? along : against);
+  for (const double tau : paths_.Delays(kBestDelays)) {
+    const FlamePath path{structure_.delay_spread, tau, structure_.HasSpread() ? kRho : 0.0};
+    if (!structure_.second_path) {
+      out.push_back(path);
+      continue;
+    }
+    for (const SecondPath& second : paths_.SecondPaths(path, kSecondPaths)) {
+      out.push_back(path);
+      out.back().second = second;
+    }
   }
-  return out;
-}
-
-StartSolution Starts::Flame(const FlamePath& path) const {
-  const Eigen::VectorXcd delay = path.At(record_.s);
-  const Eigen::VectorXcd weight = delay.cwiseProduct(weight_);
-  return SolveStart(weight.asDiagonal() * flame_, weight_.cwiseProduct(heat_release_));
-}
-
-// The mean logarithm of what the flame leaves of q, smoothed: but for a constant, how likely noise
-// of that spectrum is. Where there is little noise the right delay stands out by orders of
-// magnitude in bins which hold little of q's power.
-double Starts::LogLeft(const FlamePath& path) const {
-  const Eigen::VectorXcd delay = path.At(record_.s);
-  const Eigen::VectorXcd left =
-      heat_release_ - delay.cwiseProduct(flame_ * Flame(path).coefficients);
-  return SmoothPower(left, kStartReach).array().log().mean();
-}
-
-std::vector<double> Starts::Delays(std::size_t count) const {
-  std::vector<double> tau(kDelays);
-  std::vector<double> left(kDelays);
-  for (std::size_t i = 0; i < kDelays; ++i) {
-    tau[i] = 2.0 * std::numbers::pi * kMostCycles * (static_cast<double>(i) + 0.5) / kDelays;
-    left[i] = LogLeft(Path(tau[i]));
-  }
-  std::vector<std::pair<double, double>> minima;
-  // Without the ends: what q tells of p at once, through the acoustics, leaves least at no delay.
-  for (std::size_t i = 1; i + 1 < kDelays; ++i) {
-    if (left[i - 1] < left[i] || left[i + 1] < left[i]) continue;
-    minima.emplace_back(left[i], tau[i]);
-  }
-  std::ranges::sort(minima);
-  minima.resize(std::min(minima.size(), count));
-  std::vector<double> out;
-  for (const auto& minimum : minima) out.push_back(minimum.second);
   return out;
 }
 
@@ -128,7 +77,7 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, const FlamePath& path) c
   LoopPoint point;
   point.modes = std::move(modes);
   point.path = path;
-  point.flame = Flame(point.path).coefficients;
+  point.flame = paths_.Flame(path);
   PointStructure quiet = structure_;
   quiet.noise.clear();
   const LoopResiduals left = ResidualsOf(record_, quiet, point);
@@ -181,14 +130,6 @@ void Starts::RaiseNoise(LoopPoint* point) const {
 
 }  // namespace
 
-Eigen::VectorXd FlameStart(const RecordSpectra& record, const FlamePath& path) {
-  return Starts(record, PointStructure{}).Flame(path).coefficients;
-}
-
-std::vector<double> DelayStarts(const RecordSpectra& record, std::size_t count) {
-  return Starts(record, PointStructure{}).Delays(count);
-}
-
 BackgroundStart BackgroundOf(const RecordSpectra& record) {
   const Eigen::VectorXcd p = Tapered(record.pressure);
   const Eigen::VectorXcd q = Tapered(record.heat_release);
@@ -206,7 +147,7 @@ std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointSt
                                       std::uint64_t seed) {
   const Starts starts(record, structure);
   const PoleStarts poles(record, structure);
-  const std::vector<double> delays = starts.Delays(kBestDelays);
+  const std::vector<FlamePath> paths = starts.Paths();
   std::vector<std::vector<StartPole>> from = {poles.Greedy()};
   if (!structure.ratio) {
     from.push_back(poles.Relocated(poles.Spread()));
@@ -217,13 +158,11 @@ std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointSt
   from.push_back(from[0]);
   for (StartPole& pole : from.back()) pole.xi = kWellDamped;
   RandomStream random(seed);
-  while (from.size() * delays.size() < count) from.push_back(poles.Drawn(&random));
+  while (from.size() * paths.size() < count) from.push_back(poles.Drawn(&random));
   std::vector<Eigen::VectorXd> out;
   for (const std::vector<StartPole>& each : from) {
-    for (const double tau : delays) {
-      for (const FlamePath& path : starts.Paths(tau)) {
-        out.push_back(prior.Within(starts.At(poles.WithResidues(each), path)));
-      }
+    for (const FlamePath& path : paths) {
+      out.push_back(prior.Within(starts.At(poles.WithResidues(each), path)));
     }
   }
   return out;

@@ -5,9 +5,7 @@
 #define HOWL_ESTIMATION_RECORD_FIT_STARTS_POINT_STARTS_H_
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "estimation/record_fit/loop/loop_point.h"
@@ -15,22 +13,10 @@
 
 namespace howl {
 
-// By how much a second path may be later (flame_path.h), in radians of the cycle: a quarter, a half
-// and a whole of its period.
-inline constexpr std::array kLambdas = {0.5 * std::numbers::pi, std::numbers::pi,
-                                        2.0 * std::numbers::pi};
-
 // At least four; `count` in all, the further ones with poles that are drawn.
 std::vector<Eigen::VectorXd> StartsOf(const RecordSpectra& record, const PointStructure& structure,
                                       const PointPrior& prior, std::size_t count,
                                       std::uint64_t seed);
-
-// The flame's coefficients that leave least of q, given its delays.
-Eigen::VectorXd FlameStart(const RecordSpectra& record, const FlamePath& path);
-
-// Delays, up to 1.25 periods of the cycle, with which the flame leaves less of q than with those
-// beside them: those that leave least, at most `count`.
-std::vector<double> DelayStarts(const RecordSpectra& record, std::size_t count);
 
 // The ratio at which p and q show alike what is coherent between them without a delay, over the
 // band's quiet bins, and the logarithm of q's level in those.

@@ -3,9 +3,11 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/starts/hum_start.h"
+#include "estimation/record_fit/starts/path_starts.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "estimation/record_fit/starts/pole_starts.h"
 
@@ -52,6 +54,13 @@ std::vector<LoopMode> FurtherModes(const RecordSpectra& record, const PointStruc
   return modes;
 }
 
+std::vector<SecondPath> LittleSecondPaths(const RecordSpectra& record, const FlamePath& first,
+                                          std::size_t count) {
+  std::vector<SecondPath> out = PathStarts(record).SecondPaths(first, count);
+  for (SecondPath& second : out) second.share = std::copysign(kLittleShare, second.share);
+  return out;
+}
+
 Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStructure& poor,
                                   const Eigen::VectorXd& parameters, const PointStructure& rich,
                                   const std::vector<LoopMode>& further) {
@@ -63,7 +72,7 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
     point.path.rho = kLittleSpread;
   }
   if (rich.second_path && !poor.second_path) {
-    point.path.second = SecondPath{kLittleShare, kLambdas[0]};
+    point.path.second = LittleSecondPaths(record, point.path, 1)[0];
   }
   point.modes.insert(point.modes.end(), further.begin(), further.end());
   double least = 0.0;

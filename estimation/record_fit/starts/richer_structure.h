@@ -5,6 +5,7 @@
 #define HOWL_ESTIMATION_RECORD_FIT_STARTS_RICHER_STRUCTURE_H_
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "estimation/record_fit/loop/loop_point.h"
@@ -13,6 +14,10 @@ namespace howl {
 
 // `rich` has at least as many modes, and of each source at least as many coefficients.
 bool Contains(const PointStructure& rich, const PointStructure& poor);
+
+// Second paths as those of path_starts.h, each with a share that hardly shows.
+std::vector<SecondPath> LittleSecondPaths(const RecordSpectra& record, const FlamePath& first,
+                                          std::size_t count);
 
 // rich.modes - poor.modes modes, one after the other where each leaves least of cut A.
 std::vector<LoopMode> FurtherModes(const RecordSpectra& record, const PointStructure& poor,

@@ -9,7 +9,7 @@
 #include "estimation/joint_records/fitted_loop.h"
 #include "estimation/joint_records/onset.h"
 #include "estimation/record_fit/delay_maxima.h"
-#include "estimation/record_fit/starts/point_starts.h"
+#include "estimation/record_fit/starts/path_starts.h"
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "tests/estimation/record_fit/identified.h"
 
@@ -64,7 +64,7 @@ TEST_F(JointRecords, APointThatBeganElsewhereComesToItsPlace) {
   std::vector<Eigen::VectorXd> row;
   for (const PointFit& fit : fit_->points) row.push_back(fit.parameters);
   const Eigen::VectorXd right = row[2];
-  const std::vector<double> delays = DelayStarts((*points_)[2].record, 4);
+  const std::vector<double> delays = PathStarts((*points_)[2].record).Delays(4);
   for (const double tau : delays) {
     if (std::abs(tau - std::exp(right[structure_->Delay()])) < 1.0) continue;
     row[2][structure_->Delay()] = std::log(tau);
@@ -132,7 +132,7 @@ TEST_F(JointRecords, AWrongDelayShowsTheRightOne) {
   Eigen::VectorXd wrong = right;
   wrong[delay] = std::log(others[0].tau);
   wrong.segment(delay + 1, record.flame.cols()) =
-      FlameStart(record, {DelaySpread::kNone, others[0].tau});
+      PathStarts(record).Flame({DelaySpread::kNone, others[0].tau});
   wrong = FitPoint(record, *structure_, prior, wrong).parameters;
   ASSERT_GT(std::abs(std::exp(wrong[delay]) - tau), 0.1 * tau);
   const std::vector<DelayMaximum> seen = OtherDelayMaxima(record, *structure_, prior, wrong);
