@@ -11,18 +11,11 @@
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
 
-#include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/forward_step.h"
 
 namespace howl {
-
-struct LoopStep {
-  LoopItem item;
-  std::vector<std::string> equals;  // items that would have gained as much, within odds of 50 to 1
-  LoopFit after;
-};
 
 struct LoopFound {
   LoopFit base;

@@ -1,0 +1,163 @@
+#include "diagnosis/loop_budget/forward_step.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "diagnosis/loop_budget/loop_instrument_trial.h"
+
+namespace howl {
+namespace {
+
+constexpr double kOdds = 20.0;  // that an item comes in by chance, to one
+constexpr double kOddsOfClass = 50.0;
+constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain most
+
+// What comes only where nothing of an earlier one pays.
+enum class Stage : std::uint8_t { kHum, kNoise, kCauses, kLineErrors };
+
+Stage StageOf(const LoopItem& item) {
+  if (IsHum(item.noise.source)) return Stage::kHum;
+  if (item.kind == LoopItemKind::kNoise) return Stage::kNoise;
+  return item.kind == LoopItemKind::kLineErrors ? Stage::kLineErrors : Stage::kCauses;
+}
+
+struct Fitted {
+  std::size_t trial;
+  LoopFit fit;
+};
+
+// The items that would have gained as much as that of this trial.
+std::vector<std::string> EqualsOf(const std::vector<LoopTrial>& trials, std::size_t of) {
+  std::vector<std::string> out;
+  for (const LoopTrial& trial : trials) {
+    const bool same = trial.item.id == trials[of].item.id;
+    const double behind = std::abs(trials[of].gain - trial.gain);
+    if (!same && behind < std::log(kOddsOfClass)) out.push_back(trial.item.id);
+  }
+  return out;
+}
+
+bool IsAmong(const std::vector<std::string>& keys, const LoopItem& item) {
+  return std::ranges::find(keys, KeyOf(item)) != keys.end();
+}
+
+// What an item must have gained when it was last tried, so that it may be among those that this
+// step fits, or in a class with one of them.
+double Bar(const std::vector<LoopTrial>& trials, const std::vector<std::string>& fitted) {
+  std::vector<double> gains;
+  for (const LoopTrial& trial : trials) {
+    if (!IsAmong(fitted, trial.item)) gains.push_back(trial.gain);
+  }
+  if (gains.size() < kMostFitted) return -std::numeric_limits<double>::infinity();
+  std::ranges::nth_element(gains, gains.begin() + kMostFitted - 1, std::ranges::greater());
+  return gains[kMostFitted - 1] - std::log(kOddsOfClass);
+}
+
+}  // namespace
+
+double ForwardSearch::LastGain(const LoopItem& item) const {
+  const auto found = last_gain_.find(KeyOf(item));
+  return found == last_gain_.end() ? std::numeric_limits<double>::infinity() : found->second;
+}
+
+std::vector<LoopTrial> ForwardSearch::Try(const LoopFit& from, const std::vector<LoopItem>& items,
+                                          const std::string& key) {
+  std::vector<LoopItem> own;
+  std::vector<LoopItem> instruments;
+  for (const LoopItem& item : items) {
+    (item.kind == LoopItemKind::kInstrument ? instruments : own).push_back(item);
+  }
+  std::vector<LoopTrial> out = TryItems(records_, from, own, key, options_);
+  for (const LoopItem& item : instruments) {
+    out.push_back(TryInstrument(records_, from, item, key, options_));
+  }
+  for (const LoopTrial& trial : out) {
+    VLOG(1) << key << trial.item.id << " " << trial.gain << " nats";
+    last_gain_[KeyOf(trial.item)] = trial.gain;
+  }
+  return out;
+}
+
+std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& trials,
+                                              const LoopFit& from, std::size_t offered,
+                                              const std::string& key,
+                                              std::vector<std::string>* fitted) const {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (trials[i].gain > 0.0 && !IsAmong(*fitted, trials[i].item)) order.push_back(i);
+  }
+  std::ranges::sort(order, std::ranges::greater(),
+                    [&](std::size_t i) { return std::pair(trials[i].gain, trials.size() - i); });
+  std::vector<Fitted> best;
+  for (const std::size_t i : order) {
+    if (best.size() == kMostFitted) break;
+    LoopFit fit = FitLoopFrom(records_, trials[i].model, trials[i].starts, MaximumTaken::kNext,
+                              key + "next/" + KeyOf(trials[i].item) + "/", options_);
+    VLOG(1) << key << trials[i].item.id << " foretells " << fit.Density() - from.Density()
+            << " nats better";
+    best.push_back({i, std::move(fit)});
+  }
+  for (const LoopTrial& trial : trials) fitted->push_back(KeyOf(trial.item));
+  std::ranges::stable_sort(best, std::ranges::greater(),
+                           [](const Fitted& each) { return each.fit.Density(); });
+  const double least = std::log(kOdds * static_cast<double>(offered));
+  for (const Fitted& each : best) {
+    if (!(each.fit.Density() > from.Density())) break;
+    const LoopTrial& trial = trials[each.trial];
+    LoopFit fit = FitLoopFrom(records_, trial.model, {ParametersOf(each.fit)}, MaximumTaken::kBest,
+                              key + "best/" + KeyOf(trial.item) + "/", options_);
+    if (trial.item.kind == LoopItemKind::kInstrument) {
+      fit = Refined(records_, std::move(fit), trial.item, key, options_);
+    }
+    if (fit.Density() > from.Density() + least) {
+      return LoopStep{trial.item, EqualsOf(trials, each.trial), std::move(fit)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
+                                            const std::vector<LoopStep>& steps) {
+  const bool only_hum_yet = std::ranges::all_of(
+      steps, [](const LoopStep& each) { return StageOf(each.item) == Stage::kHum; });
+  std::vector<LoopItem> items = LoopItems(from.model, base_);
+  std::erase_if(items, [&](const LoopItem& item) {
+    return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
+  });
+  const std::string key = "step/" + std::to_string(steps.size()) + "/";
+  std::vector<LoopTrial> trials;
+  std::vector<std::string> fitted;
+  std::size_t offered = 0;
+  for (const Stage stage : {Stage::kHum, Stage::kNoise, Stage::kCauses, Stage::kLineErrors}) {
+    if (stage == Stage::kHum && !only_hum_yet) continue;
+    std::vector<LoopItem> waiting;
+    std::ranges::copy_if(items, std::back_inserter(waiting),
+                         [&](const LoopItem& item) { return StageOf(item) == stage; });
+    offered += waiting.size();
+    std::ranges::stable_sort(waiting, std::ranges::greater(),
+                             [&](const LoopItem& item) { return LastGain(item); });
+    double bar = std::numeric_limits<double>::infinity();
+    while (!waiting.empty()) {
+      const auto may = std::ranges::count_if(
+          waiting, [&](const LoopItem& item) { return !(LastGain(item) < bar); });
+      const auto now = std::max<std::ptrdiff_t>(may, std::min(waiting.size(), kMostFitted));
+      for (LoopTrial& trial : Try(from, {waiting.begin(), waiting.begin() + now}, key)) {
+        trials.push_back(std::move(trial));
+      }
+      waiting.erase(waiting.begin(), waiting.begin() + now);
+      bar = Bar(trials, fitted);
+      if (!waiting.empty() && !(LastGain(waiting[0]) < bar)) continue;
+      if (std::optional<LoopStep> found = BestOf(trials, from, offered, key, &fitted)) return found;
+      bar = std::numeric_limits<double>::infinity();
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace howl

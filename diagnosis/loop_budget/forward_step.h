@@ -1,0 +1,53 @@
+// The forward half of the search for a budget (loop_search.h): the item that a loop lacks most.
+//
+// A trial of an item (loop_trial.h) costs less than a fit of all points together, and instruments'
+// cost most. What an item gains falls, as a rule, as others come in: one that gained less when it
+// was last tried than others do now is not tried again before these have been found not to pay
+// (Minoux 1978, of sums whose terms gain less the more there are). An item is refused only after a
+// trial beside all that has come in.
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORWARD_STEP_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORWARD_STEP_H_
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_trial.h"
+
+namespace howl {
+
+struct LoopStep {
+  LoopItem item;
+  std::vector<std::string> equals;  // items that would have gained as much, within odds of 50 to 1
+  LoopFit after;
+};
+
+class ForwardSearch {
+ public:
+  ForwardSearch(const LoopRecords& records, const LoopForm& base, const LoopBudgetOptions& options)
+      : records_(records), base_(base), options_(options) {}
+
+  // No value where nothing pays any more.
+  std::optional<LoopStep> Next(const LoopFit& from, const std::vector<LoopStep>& steps);
+
+ private:
+  std::vector<LoopTrial> Try(const LoopFit& from, const std::vector<LoopItem>& items,
+                             const std::string& key);
+  // The best of these trials that pays, with `offered` items in all; those whose items are in
+  // `fitted` have been found not to, and the next ones are added.
+  std::optional<LoopStep> BestOf(const std::vector<LoopTrial>& trials, const LoopFit& from,
+                                 std::size_t offered, const std::string& key,
+                                 std::vector<std::string>* fitted) const;
+  double LastGain(const LoopItem& item) const;
+
+  const LoopRecords& records_;
+  const LoopForm& base_;
+  const LoopBudgetOptions& options_;
+  std::map<std::string, double> last_gain_;  // nats, of a trial, by the item's key
+};
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORWARD_STEP_H_
