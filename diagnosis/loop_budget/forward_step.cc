@@ -66,16 +66,17 @@ double ForwardSearch::LastGain(const LoopItem& item) const {
   return found == last_gain_.end() ? std::numeric_limits<double>::infinity() : found->second;
 }
 
-std::vector<LoopTrial> ForwardSearch::Try(const LoopFit& from, const std::vector<LoopItem>& items,
+std::vector<LoopTrial> ForwardSearch::Try(const LoopFit& from, double standing,
+                                          const std::vector<LoopItem>& items,
                                           const std::string& key) {
   std::vector<LoopItem> own;
   std::vector<LoopItem> instruments;
   for (const LoopItem& item : items) {
     (item.kind == LoopItemKind::kInstrument ? instruments : own).push_back(item);
   }
-  std::vector<LoopTrial> out = TryItems(records_, from, own, key, options_);
+  std::vector<LoopTrial> out = TryItems(records_, from, standing, own, key, options_);
   for (const LoopItem& item : instruments) {
-    out.push_back(TryInstrument(records_, from, item, key, options_));
+    out.push_back(TryInstrument(records_, from, standing, item, key, options_));
   }
   for (const LoopTrial& trial : out) {
     VLOG(1) << key << trial.item.id << " " << trial.gain << " nats";
@@ -131,6 +132,7 @@ std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
     return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
   });
   const std::string key = "step/" + std::to_string(steps.size()) + "/";
+  const double standing = StandingEvidence(records_, from, key, options_);
   std::vector<LoopTrial> trials;
   std::vector<std::string> fitted;
   std::size_t offered = 0;
@@ -147,7 +149,7 @@ std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
       const auto may = std::ranges::count_if(
           waiting, [&](const LoopItem& item) { return !(LastGain(item) < bar); });
       const auto now = std::max<std::ptrdiff_t>(may, std::min(waiting.size(), kMostFitted));
-      for (LoopTrial& trial : Try(from, {waiting.begin(), waiting.begin() + now}, key)) {
+      for (LoopTrial& trial : Try(from, standing, {waiting.begin(), waiting.begin() + now}, key)) {
         trials.push_back(std::move(trial));
       }
       waiting.erase(waiting.begin(), waiting.begin() + now);

@@ -33,8 +33,8 @@ class ForwardSearch {
   std::optional<LoopStep> Next(const LoopFit& from, const std::vector<LoopStep>& steps);
 
  private:
-  std::vector<LoopTrial> Try(const LoopFit& from, const std::vector<LoopItem>& items,
-                             const std::string& key);
+  std::vector<LoopTrial> Try(const LoopFit& from, double standing,
+                             const std::vector<LoopItem>& items, const std::string& key);
   // The best of these trials that pays, with `offered` items in all; those whose items are in
   // `fitted` have been found not to, and the next ones are added.
   std::optional<LoopStep> BestOf(const std::vector<LoopTrial>& trials, const LoopFit& from,

@@ -130,17 +130,18 @@ double ValueOf(const LoopFit& fit, const LoopItem& item) { return InstrumentOf(f
 
 }  // namespace
 
-LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
-                        const std::string& key, const LoopBudgetOptions& options) {
+LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, double standing,
+                        const LoopItem& item, const std::string& key,
+                        const LoopBudgetOptions& options) {
   Profile profile(records, from, item, key + "trial/" + KeyOf(item) + "/", options);
   ProfilePoint best;
   for (const double start : profile.parameter().starts) {
     ProfilePoint point = profile.At(ToSearch(profile.parameter(), start), ParametersOf(from));
     if (point.nats > best.nats) best = std::move(point);
   }
-  double without = 0.0;
+  double without = standing;
   for (std::size_t e = 0; e < records.size(); ++e) {
-    without += from.fit.points[e].log_evidence + records.LogJacobianOfWhole(from.model, e);
+    without += records.LogJacobianOfWhole(from.model, e);
   }
   const Maximum maximum = profile.From(std::move(best), without);
   LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {maximum.at.parameters}};

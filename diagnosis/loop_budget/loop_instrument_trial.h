@@ -10,9 +10,11 @@
 
 namespace howl {
 
-// The gain is paid for by Laplace's evidence of the parameter, whose prior is even over its range.
-LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
-                        const std::string& key, const LoopBudgetOptions& options);
+// The gain, above `standing` (loop_trial.h), is paid for by Laplace's evidence of the parameter,
+// whose prior is even over its range.
+LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, double standing,
+                        const LoopItem& item, const std::string& key,
+                        const LoopBudgetOptions& options);
 
 // A fit to all points together leads to another value of the parameter than each point by itself
 // did, and that to another fit: both in turn, until the value stands or the records are foretold no

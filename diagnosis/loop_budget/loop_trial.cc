@@ -1,6 +1,7 @@
 #include "diagnosis/loop_budget/loop_trial.h"
 
 #include <atomic>
+#include <numeric>
 #include <utility>
 
 #include "diagnosis/loop_budget/parameter_labels.h"
@@ -32,7 +33,19 @@ PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const L
                    ParameterLabels(with.structure, record.flame.cols()), from.fit.prior[e], known);
 }
 
-std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
+double StandingEvidence(const LoopRecords& records, const LoopFit& from, const std::string& key,
+                        const LoopBudgetOptions& options) {
+  std::vector<double> evidence(records.size());
+  RunUnits(records.size(), options.threads, [&](std::size_t e) {
+    evidence[e] = KeptFit(options.units, key + "standing/" + std::to_string(e), [&] {
+                    return FitPoint(records.Whole(from.model, e), from.model.structure,
+                                    from.fit.prior[e], from.fit.points[e].parameters);
+                  }).log_evidence;
+  });
+  return std::accumulate(evidence.begin(), evidence.end(), 0.0);
+}
+
+std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from, double standing,
                                 const std::vector<LoopItem>& items, const std::string& key,
                                 const LoopBudgetOptions& options) {
   std::vector<LoopTrial> out;
@@ -83,9 +96,10 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
       for (std::size_t row = 0; starts[t].apart && row < rows; ++row) {
         if (fit(row, e).log_evidence > fit(of, e).log_evidence) of = row;
       }
-      out[t].gain += fit(of, e).log_evidence - from.fit.points[e].log_evidence;
+      out[t].gain += fit(of, e).log_evidence;
       out[t].starts[0].push_back(fit(of, e).parameters);
     }
+    out[t].gain -= standing;
     first += rows * records.size();
   }
   return out;

@@ -30,8 +30,14 @@ struct LoopTrial {
   StartRows starts;   // one row: where each point's fit came to
 };
 
-// In the order of the items.
-std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
+// Nats of evidence of all points' records for `from` as trials have it: each point by itself, under
+// the normal priors that the law gives. The joint fit's own is of the law's priors, whose tails are
+// longer; to a trial that would be a gain of tens of nats for nothing.
+double StandingEvidence(const LoopRecords& records, const LoopFit& from, const std::string& key,
+                        const LoopBudgetOptions& options);
+
+// In the order of the items. Gains are above `standing`.
+std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from, double standing,
                                 const std::vector<LoopItem>& items, const std::string& key,
                                 const LoopBudgetOptions& options);
 

@@ -25,7 +25,7 @@ struct DiagnosisOptions {
   // if it had been stopped: one of several processes' shares.
   std::function<bool(std::size_t replicate)> owns_replicate;
   // Where no single cause is found, several are searched for (Diagnosis::budget).
-  bool find_budget = true;
+  bool find_budget = false;
   std::vector<std::string> withheld;   // identifiers of the catalogue that are not tried
   std::vector<EffectPointer> further;  // effects of the user's own
   // Records that take the model's place (reference.h); none: the base alone is the model.

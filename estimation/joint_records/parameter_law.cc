@@ -41,14 +41,16 @@ ParameterLaw ParameterLaw::Toward(const ParameterLaw& next, const Eigen::VectorX
   return out;
 }
 
-PointPrior ParameterLaw::PriorAt(double z) const { return {mean + z * trend, spread, {}}; }
+PointPrior ParameterLaw::PriorAt(double z) const { return {mean + z * trend, spread, {}, {}}; }
 
 PointPrior ParameterLaw::PredictionAt(double z) const {
   PointPrior out = PriorAt(z);
   const Eigen::Vector2d x(1.0, z);
+  out.widest.resize(out.deviation.size());
   for (Eigen::Index i = 0; i < out.deviation.size(); ++i) {
-    out.deviation[i] =
-        std::sqrt(spread[i] * spread[i] + x.dot(covariance[static_cast<std::size_t>(i)] * x));
+    const double of_law = x.dot(covariance[static_cast<std::size_t>(i)] * x);
+    out.deviation[i] = std::sqrt(spread[i] * spread[i] + of_law);
+    out.widest[i] = std::sqrt(widest[i] * widest[i] + of_law);
   }
   out.degrees = kPriorDegrees + values.array();
   return out;
@@ -64,15 +66,20 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
     const Eigen::Vector2d x(1.0, point.z);
     moments += x * x.transpose();
   }
-  ParameterLaw law{base.mean,      Eigen::VectorXd::Zero(size),
-                   base.deviation, std::vector<Eigen::Matrix2d>(static_cast<std::size_t>(size)),
-                   points.size(),  Eigen::VectorXd::Constant(size, count)};
+  ParameterLaw law{base.mean,
+                   Eigen::VectorXd::Zero(size),
+                   base.deviation,
+                   base.deviation,
+                   std::vector<Eigen::Matrix2d>(static_cast<std::size_t>(size)),
+                   points.size(),
+                   Eigen::VectorXd::Constant(size, count)};
   std::vector<bool> is_error(static_cast<std::size_t>(size), false);
   for (const ErrorGroup& group : errors) {
     for (Eigen::Index i = group.first; i < group.first + group.count; ++i) {
       is_error[static_cast<std::size_t>(i)] = true;
       law.covariance[static_cast<std::size_t>(i)] = Eigen::Matrix2d::Zero();
       law.values[i] = count * static_cast<double>(group.count);
+      law.widest[i] = kLargestError;
     }
   }
   for (int iteration = 0; iteration < kIterations; ++iteration) {

@@ -36,6 +36,7 @@ struct ParameterLaw {
   Eigen::VectorXd mean;    // m
   Eigen::VectorXd trend;   // b
   Eigen::VectorXd spread;  // s, as the mean of 1 / s^2 has it
+  Eigen::VectorXd widest;  // of s
   // Of (m, b), for each parameter.
   std::vector<Eigen::Matrix2d> covariance;
   std::size_t points = 0;  // from which it was estimated

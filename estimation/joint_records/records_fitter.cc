@@ -79,7 +79,7 @@ PointPrior RecordsFitter::PriorOfErrors(const ParameterLaw& law) const {
 
 PointPrior RecordsFitter::MeanBase() const {
   const Eigen::Index size = units_[0].size();
-  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}};
+  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}, {}};
   const auto count = static_cast<double>(this->size());
   for (std::size_t e = 0; e < this->size(); ++e) {
     const PointPrior common = units_[e].ToCommon(base_[e]);

@@ -55,11 +55,15 @@ Eigen::VectorXd SharedUnits::FromCommon(const Eigen::VectorXd& common,
 }
 
 PointPrior SharedUnits::FromCommon(const PointPrior& common, const PointPrior& base) const {
-  PointPrior out{FromCommon(common.mean, base.mean), base.deviation, {}};
+  PointPrior out{FromCommon(common.mean, base.mean), base.deviation, {}, {}};
   if (common.degrees.size() > 0) {
     out.degrees =
         Eigen::VectorXd::Constant(base.mean.size(), std::numeric_limits<double>::infinity());
     for (Eigen::Index i = 0; i < size(); ++i) out.degrees[IndexOf(i)] = common.degrees[i];
+    out.widest = base.deviation;
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      out.widest[IndexOf(i)] = common.widest[i] / scale_[i];
+    }
   }
   for (Eigen::Index i = 0; i < size(); ++i)
     out.deviation[IndexOf(i)] = common.deviation[i] / scale_[i];
@@ -67,7 +71,7 @@ PointPrior SharedUnits::FromCommon(const PointPrior& common, const PointPrior& b
 }
 
 PointPrior SharedUnits::ToCommon(const PointPrior& prior) const {
-  PointPrior out{ToCommon(prior.mean), Eigen::VectorXd(size()), {}};
+  PointPrior out{ToCommon(prior.mean), Eigen::VectorXd(size()), {}, {}};
   for (Eigen::Index i = 0; i < size(); ++i)
     out.deviation[i] = prior.deviation[IndexOf(i)] * scale_[i];
   return out;

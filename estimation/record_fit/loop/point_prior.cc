@@ -1,5 +1,6 @@
 #include "estimation/record_fit/loop/point_prior.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -45,8 +46,12 @@ double PointPrior::LogDensity(const Eigen::VectorXd& parameters) const {
   for (Eigen::Index i = 0; i < z.size(); ++i) {
     const double n = degrees.size() > 0 ? degrees[i] : std::numeric_limits<double>::infinity();
     if (std::isfinite(n)) {
+      const double least = LeastPrecision(i);
+      const double end = least > 0.0 ? (n + 1.0) / least - n : z[i] * z[i];  // of z^2
+      const double square = std::min(z[i] * z[i], end);
       sum += std::lgamma(0.5 * (n + 1.0)) - std::lgamma(0.5 * n) -
-             0.5 * std::log(n * std::numbers::pi) - 0.5 * (n + 1.0) * std::log1p(z[i] * z[i] / n);
+             0.5 * std::log(n * std::numbers::pi) - 0.5 * (n + 1.0) * std::log1p(square / n) -
+             0.5 * least * (z[i] * z[i] - square);
     } else {
       sum -= 0.5 * (z[i] * z[i] + std::log(2.0 * std::numbers::pi));
     }
@@ -59,7 +64,8 @@ Eigen::VectorXd PointPrior::Precision(const Eigen::VectorXd& parameters) const {
   if (degrees.size() == 0) return out;
   const Eigen::VectorXd z = (parameters - mean).cwiseQuotient(deviation);
   for (Eigen::Index i = 0; i < z.size(); ++i) {
-    if (std::isfinite(degrees[i])) out[i] = (degrees[i] + 1.0) / (degrees[i] + z[i] * z[i]);
+    if (!std::isfinite(degrees[i])) continue;
+    out[i] = std::max((degrees[i] + 1.0) / (degrees[i] + z[i] * z[i]), LeastPrecision(i));
   }
   return out;
 }
@@ -76,18 +82,19 @@ Eigen::VectorXd PointPrior::Within(const Eigen::VectorXd& parameters) const {
     if (!std::isfinite(n)) continue;
     reach[i] =
         deviation[i] * std::sqrt(n * std::expm1(kMostDeviations * kMostDeviations / (n + 1.0)));
+    if (widest.size() > 0) reach[i] = std::min(reach[i], kMostDeviations * widest[i]);
   }
   return parameters.cwiseMax(mean - reach).cwiseMin(mean + reach);
 }
 
 PointPrior PointPrior::NormalAt(const Eigen::VectorXd& parameters) const {
-  return {mean, deviation.cwiseQuotient(Precision(parameters).cwiseSqrt()), {}};
+  return {mean, deviation.cwiseQuotient(Precision(parameters).cwiseSqrt()), {}, {}};
 }
 
 PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record) {
   const Eigen::Index flame = record.flame.cols();
   const Eigen::Index size = structure.Parameters(flame);
-  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}};
+  PointPrior out{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}, {}};
   Eigen::Index next = 0;
   const auto add = [&](Eigen::Index count, double mean, double deviation) {
     out.mean.segment(next, count).setConstant(mean);

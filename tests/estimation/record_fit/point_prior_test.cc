@@ -47,5 +47,29 @@ TEST(PointPrior, NormalHasTheSameSlope) {
   }
 }
 
+// Near its middle Student's density, and far out as steep as a normal one of the widest deviation.
+TEST(PointPrior, TailsEndAsTheWidestNormalDoes) {
+  PointPrior prior = OneNormalOneStudent();
+  const PointPrior endless = prior;
+  prior.widest = Eigen::Vector2d(0.5, 0.4);
+  const auto slope = [](const PointPrior& of, double u) {
+    const double step = 1e-5;
+    return (of.LogDensity(Eigen::Vector2d(1.0, u + step)) -
+            of.LogDensity(Eigen::Vector2d(1.0, u - step))) /
+           (2.0 * step);
+  };
+  double before = prior.LogDensity(prior.mean);
+  for (double u = -2.0; u < 10.0; u += 0.01) {
+    const Eigen::Vector2d at(1.0, u);
+    const double by_z = prior.Slope(at)[1];
+    EXPECT_NEAR(slope(prior, u), by_z / prior.deviation[1], 1e-4) << u;
+    EXPECT_LE(prior.LogDensity(at), before + 1e-12) << u;
+    before = prior.LogDensity(at);
+  }
+  const Eigen::Vector2d near(1.0, -1.7);
+  EXPECT_EQ(prior.LogDensity(near), endless.LogDensity(near));
+  EXPECT_NEAR(slope(prior, 5.0), -(5.0 + 2.0) / (0.4 * 0.4), 1e-4);
+}
+
 }  // namespace
 }  // namespace howl
