@@ -146,9 +146,10 @@ std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
                              [&](const LoopItem& item) { return LastGain(item); });
     double bar = std::numeric_limits<double>::infinity();
     while (!waiting.empty()) {
-      const auto may = std::ranges::count_if(
-          waiting, [&](const LoopItem& item) { return !(LastGain(item) < bar); });
-      const auto now = std::max<std::ptrdiff_t>(may, std::min(waiting.size(), kMostFitted));
+      const auto least = static_cast<std::ptrdiff_t>(std::min(waiting.size(), kMostFitted));
+      const auto now = std::max(least, std::ranges::count_if(waiting, [&](const LoopItem& item) {
+                                  return !(LastGain(item) < bar);
+                                }));
       for (LoopTrial& trial : Try(from, standing, {waiting.begin(), waiting.begin() + now}, key)) {
         trials.push_back(std::move(trial));
       }
