@@ -149,7 +149,8 @@ TEST_F(Jacobian, IsThatOfTheLinesErrors) {
     of_residuals += 2.0 * record_.share[i] * std::log(std::abs(1.0 - factor * (1.0 - D(s))));
   }
   ASSERT_LT(of_residuals, of_curve - 50.0);
-  EXPECT_LT(LogDeterminant(record_, point_), of_residuals + std::numbers::ln2);
+  // The smooth minimum is at most the smaller one and ln 2, which it reaches to rounding.
+  EXPECT_LT(LogDeterminant(record_, point_), of_residuals + std::numbers::ln2 + 1e-9);
 }
 
 }  // namespace
