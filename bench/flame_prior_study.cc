@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -26,7 +25,7 @@
 #include "estimation/record_fit/starts/path_starts.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "io/config/reading/config_reading.h"
-#include "tests/estimation/record_fit/modal_loop.h"
+#include "tests/estimation/record_fit/identified.h"
 
 namespace howl {
 namespace {
@@ -56,14 +55,8 @@ void Add(const FlamePrior& prior, double gain, std::uint64_t seed, double weight
   PointStructure structure;
   structure.modes = 2;
   structure.noise = LeastNoise();
-  LoopPoint point = ToPoint(structure, record.flame.cols(), PriorOf(structure, record).mean);
-  const double turn = record.scale.AngularFrequency();
-  const double residue = record.scale.pressure / record.scale.heat_release * turn;
-  for (std::size_t k = 0; k < point.modes.size(); ++k) {
-    const ModalLoop::Mode& mode = loop.modes[k];
-    point.modes[k] = {mode.omega_hz / cycle_hz, mode.xi, mode.a / residue, mode.b / residue};
-  }
-  point.path.tau = loop.tau_s * turn;
+  LoopPoint point = WithTruthOf(
+      loop, record.scale, ToPoint(structure, record.flame.cols(), PriorOf(structure, record).mean));
   point.flame = PathStarts(record).Flame(point.path);
   const PointFit fit = FitFrom(record, structure, point);
   const Eigen::Index delay = structure.Delay();

@@ -8,6 +8,7 @@
 #include "estimation/joint_records/record_evidence.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
+#include "estimation/record_fit/starts/path_starts.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "estimation/unit_seed.h"
@@ -16,7 +17,6 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kMostCandidates = 4;
-constexpr std::size_t kSecondPaths = 3;
 constexpr int kIterationsOfCandidate = 30;
 constexpr double kRounding = 1e-12;
 constexpr double kErrorsConverged = 0.05;  // of ln s

@@ -12,6 +12,9 @@
 
 namespace howl {
 
+// Of second paths, that fits go on from.
+inline constexpr std::size_t kSecondPaths = 3;
+
 class PathStarts {
  public:
   explicit PathStarts(const RecordSpectra& record);

@@ -17,7 +17,6 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kBestDelays = 3;
-constexpr std::size_t kSecondPaths = 3;
 constexpr double kRho = 0.2;  // spread of delays
 constexpr double kEulersGamma = 0.5772156649015329;
 constexpr double kQuiet = 0.1;  // share of bins

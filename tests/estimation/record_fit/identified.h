@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -42,6 +41,18 @@ inline PointStructure FreeStructure(int modes) {
   return out;
 }
 
+// `point` with the modes and the delay of `loop`, in the units of its record.
+inline LoopPoint WithTruthOf(const ModalLoop& loop, const RecordScale& scale, LoopPoint point) {
+  const double turn = scale.AngularFrequency();
+  const double residue = scale.pressure / scale.heat_release * turn;
+  for (std::size_t k = 0; k < loop.modes.size(); ++k) {
+    const ModalLoop::Mode& mode = loop.modes[k];
+    point.modes[k] = {mode.omega_hz / scale.cycle_hz, mode.xi, mode.a / residue, mode.b / residue};
+  }
+  point.path.tau = loop.tau_s * turn;
+  return point;
+}
+
 inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std::size_t starts) {
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
   const PointStructure structure = FreeStructure(static_cast<int>(loop.modes.size()));
@@ -54,16 +65,9 @@ inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std:
   out.fit = BestByDelay(spectra, structure, prior, std::move(out.fit));
   out.fit = BestByModes(spectra, structure, prior, std::move(out.fit));
   out.fit = FitPoint(spectra, structure, prior, out.fit.parameters);
-  LoopPoint found = ToPoint(structure, spectra.flame.cols(), out.fit.parameters);
-  LoopPoint truth = found;
-  const double turn = 2.0 * std::numbers::pi * cycle_hz;
-  const double residue = spectra.scale.pressure / spectra.scale.heat_release * turn;
-  for (std::size_t k = 0; k < loop.modes.size(); ++k) {
-    const ModalLoop::Mode& mode = loop.modes[k];
-    truth.modes[k] = {mode.omega_hz / cycle_hz, mode.xi, mode.a / residue, mode.b / residue};
-  }
-  truth.path.tau = loop.tau_s * turn;
-  const Eigen::VectorXd true_parameters = ToParameters(structure, truth);
+  const LoopPoint found = ToPoint(structure, spectra.flame.cols(), out.fit.parameters);
+  const Eigen::VectorXd true_parameters =
+      ToParameters(structure, WithTruthOf(loop, spectra.scale, found));
   out.from_truth = FitPoint(spectra, structure, prior, true_parameters);
   // The modes of a fit stand in any order.
   std::vector<Eigen::Index> order(loop.modes.size());
