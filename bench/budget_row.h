@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "diagnosis/budget/budget.h"
+#include "diagnosis/verdict/budget.h"
 
 namespace howl {
 

@@ -20,6 +20,7 @@
 
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "estimation/kept_memory.h"
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/starts/path_starts.h"

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "diagnosis/budget_of_rig.h"
 #include "diagnosis/search/choose_modes.h"
 #include "diagnosis/search/search.h"
 
@@ -24,16 +25,6 @@ class SecondMemory final : public FitMemory {
  private:
   FitMemory* first_;
 };
-
-BudgetOptions BudgetOptionsOf(const DiagnosisOptions& options) {
-  BudgetOptions out;
-  out.withheld = options.withheld;
-  out.further = options.further;
-  out.memory = options.memory;
-  out.progress = options.budget_progress;
-  out.stopped = options.stopped;
-  return out;
-}
 
 }  // namespace
 
@@ -62,10 +53,8 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   // function fitted to them would speak of the repair.
   const bool wanted = options.find_budget && options.reference.empty() && out.repaired.empty();
   if (wanted && !out.stopped && out.kind == VerdictKind::kUnknown) {
-    BaseModel model = out.model;
-    if (options.choose_delays) model.own_delays = true;
-    out.budget = FindBudget(experiments, model, BudgetOptionsOf(options));
-    out.stopped = out.budget->stopped;
+    out.budget = BudgetOfRig(experiments, out.model.modes, options);
+    out.stopped = !out.budget;
   }
   return out;
 }

@@ -21,6 +21,7 @@
 #include "app/process/progress_line.h"
 #include "app/text/diagnose_text.h"
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/loop_budget/loop_item.h"
 #include "io/config/reading/config_reading.h"
 #include "io/results/diagnosis_json.h"
 #include "io/whole_file.h"
@@ -29,11 +30,11 @@
 namespace howl {
 namespace {
 
-// "a,b" from --without.
+// "a,b" from --without: of the search for one cause, and of the budget.
 std::vector<std::string> Withheld(const Options& options) {
-  std::vector<std::string> known;
+  std::vector<std::string> known = LoopItemIds();
   for (const EffectPointer& effect : Catalogue()) known.emplace_back(effect->id());
-  return WithheldOf(options, known, "no effect of the catalogue");
+  return WithheldOf(options, known, "no effect of the catalogue and no item of a budget");
 }
 
 // The least number of replicates, with which one in twenty can be resolved.

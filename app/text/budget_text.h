@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/budget/budget.h"
+#include "diagnosis/verdict/budget.h"
 
 namespace howl {
 

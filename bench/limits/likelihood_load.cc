@@ -1,73 +1,60 @@
-// The diagnosis' joint likelihood of p and q at one operating point (joint_likelihood.h), with the
-// residuals given; and the residuals of the acoustic and of the flame's part, moved by a parameter.
+// The likelihood of one operating point's record (whittle.h) by which loops are fitted and budgets
+// are made: its value, and its gradient.
 #include <memory>
 
 #include "bench/limits/measured.h"
 #include "bench/simulated_rig.h"
-#include "diagnosis/cuts/make_cut_records.h"
-#include "diagnosis/fit/effect_fit.h"
-#include "diagnosis/structure/structure_fit.h"
+#include "diagnosis/budget_of_rig.h"
+#include "estimation/record_fit/loop/point_likelihood.h"
+#include "estimation/record_fit/loop/point_prior.h"
+#include "estimation/record_fit/starts/point_starts.h"
 
 namespace howl::limits {
 namespace {
 
 struct State {
-  JointBand band;
-  StructureFit fit;
-  EffectPointer effect;
-  JointResiduals residuals;
+  RecordSpectra record;
+  PointStructure structure = PapersForm(2).structure;
+  std::vector<Eigen::VectorXd> starts;
 };
 
-std::shared_ptr<const State> MakeState() {
-  const std::vector<CutRecord> records = MakeCutRecords(SimulatedPoints(2));
-  std::vector<JointBand> bands;
-  for (const CutRecord& record : records) bands.push_back(MakeJointBand(record));
-  auto state = std::make_shared<State>();
-  state->fit = StartOf(&bands, FitBase(records), BaseNoise());
-  state->band = std::move(bands[0]);
-  state->effect = state->fit.structure.Joined();
-  state->residuals =
-      MakeJointResiduals(state->band, *state->effect, state->fit.shared, state->fit.points[0]);
+std::shared_ptr<State> TheState() {
+  static const std::shared_ptr<State> state = [] {
+    const LoopRecord point = LoopRecordsOf(SimulatedPoints(2))[0];
+    auto out = std::make_shared<State>();
+    out->record = MakeRecordSpectra(point.record, point.cycle_hz, FlameInput::kPressureRate);
+    out->starts = StartsOf(out->record, out->structure, PriorOf(out->structure, out->record), 4, 1);
+    return out;
+  }();
   return state;
 }
 
-std::shared_ptr<const State> TheState() {
-  static const std::shared_ptr<const State> state = MakeState();
-  return state;
-}
+using Part = double (*)(PointLikelihood*, const Eigen::VectorXd&);
 
-std::function<double()> Likelihood() {
-  return [state = TheState()] {
-    constexpr int kTimes = 20;
+// Two places in turn, so that no value is the one that was last asked for.
+std::function<double()> Timed(Part part) {
+  return [state = TheState(), part] {
+    constexpr std::size_t kTimes = 20;
+    PointLikelihood likelihood(state->record, state->structure);
     double sum = 0.0;
-    for (int n = 0; n < kTimes; ++n) {
-      sum += Evaluate(state->band, state->fit.structure.noise, state->fit.shared,
-                      state->fit.points[0], state->residuals)
-                 .log_likelihood;
-    }
-    return sum == sum ? static_cast<double>(kTimes * state->band.count) : 0.0;
+    for (std::size_t n = 0; n < kTimes; ++n) sum += part(&likelihood, state->starts[n % 2]);
+    return sum == sum ? static_cast<double>(kTimes * state->record.bins()) : 0.0;
   };
 }
 
-std::function<double()> Residuals(const Moves& moves) {
-  return [state = TheState(), moves] {
-    constexpr int kTimes = 20;
-    for (int n = 0; n < kTimes; ++n) {
-      MoveJointResiduals(state->band, *state->effect, state->fit.shared, state->fit.points[0],
-                         moves, state->residuals);
-    }
-    return static_cast<double>(kTimes * state->band.count);
-  };
+double Value(PointLikelihood* likelihood, const Eigen::VectorXd& at) {
+  return likelihood->Value(at);
+}
+
+double Gradient(PointLikelihood* likelihood, const Eigen::VectorXd& at) {
+  return likelihood->Gradient(at).sum();
 }
 
 }  // namespace
 
 std::vector<Measured> LikelihoodLoads() {
-  return {{"likelihood", "bin", Likelihood},
-          {"likelihood, acoustic residuals", "bin",
-           [] { return Residuals({.acoustic = true, .flame = false, .flame_input = false}); }},
-          {"likelihood, flame residuals", "bin",
-           [] { return Residuals({.acoustic = false, .flame = true, .flame_input = false}); }}};
+  return {{"likelihood", "bin", [] { return Timed(Value); }},
+          {"likelihood, gradient", "bin", [] { return Timed(Gradient); }}};
 }
 
 }  // namespace howl::limits

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <utility>
 
-#include "diagnosis/structure/structure_priors.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -19,6 +18,16 @@ constexpr int kMostSteps = 10;
 constexpr int kMostRounds = 3;
 constexpr double kStands = 0.1;      // of the value's own deviation
 constexpr double kFirstStep = 0.05;  // of the search's range
+
+double ToSearch(const EffectParameter& p, double x) {
+  return p.scale == ParameterScale::kLogarithmic ? std::log(x) : x;
+}
+
+double FromSearch(const EffectParameter& p, double u) {
+  return p.scale == ParameterScale::kLogarithmic ? std::exp(u) : u;
+}
+
+double SearchSpan(const EffectParameter& p) { return ToSearch(p, p.high) - ToSearch(p, p.low); }
 
 // A value in the coordinate of the search, what it is worth, and each point's parameters there.
 struct ProfilePoint {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/budget/budget.h"
+#include "diagnosis/verdict/budget.h"
 #include "diagnosis/fit/estimated_parameter.h"
 #include "diagnosis/fit/moved_parameters.h"
 #include "diagnosis/gap/gap_map.h"

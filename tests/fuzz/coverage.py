@@ -34,7 +34,7 @@ READERS = [
                 r"io/results/(reference_file|family/family_csv)"),
     ("states, shards, logs", r"app/jobs/(shard_set|submitted_job|unit_store)|app/trial/trial_(log|folder|score)|"
                              r"app/campaign/(rig_row|campaign_tables)|estimation/family/bounds/bound_text|"
-                             r"estimation/joint_records/fit_units|diagnosis/(fit/fit_memory|budget/step_memory)"),
+                             r"estimation/joint_records/fit_units|diagnosis/fit/fit_memory"),
 ]
 
 

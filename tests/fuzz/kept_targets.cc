@@ -7,7 +7,6 @@
 #include "app/campaign/campaign_tables.h"
 #include "app/campaign/rig_row.h"
 #include "app/trial/trial_run.h"
-#include "diagnosis/budget/step_memory.h"
 #include "diagnosis/fit/fit_memory.h"
 #include "estimation/joint_records/fit_units.h"
 #include "io/json_text.h"
@@ -30,12 +29,6 @@ void Fits(std::string_view input) {
     record.flame_count = 2;
   }
   if (const auto fit = FromBytes(bytes, records, BaseEffect())) CHECK(ToBytes(*fit) == bytes);
-  constexpr std::size_t kItems = 21;
-  if (const auto step = StepFromText(bytes, kItems)) {
-    const std::string text = ToText(*step);
-    const auto again = StepFromText(text, kItems);
-    CHECK(again && ToText(*again) == text);
-  }
 }
 
 // A row of campaign.state, and the results of a rig of which a row is made.

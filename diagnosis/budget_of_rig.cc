@@ -1,0 +1,71 @@
+#include "diagnosis/budget_of_rig.h"
+
+#include <string>
+
+#include "diagnosis/cuts/make_cut_records.h"
+#include "diagnosis/loop_budget/loop_budget.h"
+
+namespace howl {
+namespace {
+
+constexpr double kPapersRatio = 3.0;
+
+struct Stopped {};
+
+// The units of the budget among those of the search before it.
+class UnitsInMemory final : public FitUnits {
+ public:
+  UnitsInMemory(FitMemory* memory, const std::function<bool()>& stopped)
+      : memory_(memory), stopped_(stopped) {}
+
+  std::optional<std::string> Recall(const std::string& key) override {
+    if (stopped_ && stopped_()) throw Stopped{};
+    return memory_ ? memory_->Recall("budget/" + key) : std::nullopt;
+  }
+  void Keep(const std::string& key, const std::string& bytes) override {
+    if (memory_) memory_->Keep("budget/" + key, bytes);
+  }
+
+ private:
+  FitMemory* memory_;
+  const std::function<bool()>& stopped_;
+};
+
+}  // namespace
+
+std::vector<LoopRecord> LoopRecordsOf(const std::vector<DiagnosisExperiment>& experiments) {
+  const std::vector<CutRecord> cuts = MakeCutRecords(experiments);
+  std::vector<LoopRecord> out;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    out.push_back({experiments[e].name, experiments[e].phi, cuts[e].at.cycle_frequency_hz,
+                   experiments[e].record});
+  }
+  return out;
+}
+
+LoopForm PapersForm(int modes) {
+  RecordLoopSpec spec;
+  spec.modes = modes;
+  if (modes > 1) spec.ratio = kPapersRatio;
+  spec.own_damping = false;
+  spec.complex_residues = false;
+  return LeastForm(spec);
+}
+
+std::optional<Budget> BudgetOfRig(const std::vector<DiagnosisExperiment>& experiments, int modes,
+                                  const DiagnosisOptions& options) {
+  UnitsInMemory units(options.memory, options.stopped);
+  LoopBudgetOptions how;
+  how.seed = options.seed;
+  how.threads = options.threads;
+  how.units = &units;
+  how.withheld = options.withheld;
+  how.progress = options.budget_progress;
+  try {
+    return DiagnoseLoops(LoopRecordsOf(experiments), PapersForm(modes), how).diagnosis.budget;
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace howl

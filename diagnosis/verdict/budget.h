@@ -1,0 +1,49 @@
+// The budget of the gap between model and rig: what was added to the base, effect, source of noise
+// or freedom of the acoustics, one item after the other until nothing more paid; how far each took
+// the gap; and what is left.
+//
+// The gap is that of held_out_score.h; all structures are measured against the ceiling of that
+// which leaves least (common_ceiling.h).
+#ifndef HOWL_DIAGNOSIS_VERDICT_BUDGET_H_
+#define HOWL_DIAGNOSIS_VERDICT_BUDGET_H_
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "diagnosis/fit/estimated_parameter.h"
+#include "diagnosis/held_out/octave_gaps.h"
+
+namespace howl {
+
+struct BudgetEntry {
+  std::string item;  // loop_item.h
+  double gap_before = 0.0;
+  double gap_after = 0.0;
+  // What is lost when this item alone is taken away and the rest fitted anew.
+  double lost_nats = 0.0;  // of evidence
+  double lost_gap = 0.0;
+  std::array<double, 2> lost_on_halves = {};  // nats of what was left out
+  std::size_t experiments_better = 0;         // with the item, of what was left out
+  // Items that would have gained as much at this step, within odds of 50 to 1.
+  std::vector<std::string> equals;
+  std::vector<EstimatedParameter> parameters;
+};
+
+struct Budget {
+  std::vector<BudgetEntry> entries;
+  double gap_before = 0.0;
+  double gap_left = 0.0;
+  double floor = 0.0;       // of the gap that is left (held_out_score.h)
+  std::vector<Place> left;  // where: acoustics for p given q, flame for q given p
+  std::vector<OctaveGap> left_by_octave;
+  // Relative errors that the model still needs, of p given q and of q given p.
+  double acoustic_error = 0.0;
+  double flame_error = 0.0;
+  std::size_t experiments = 0;
+};
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_VERDICT_BUDGET_H_
