@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "estimation/record_fit/point_posterior.h"
 #include "estimation/record_fit/starts/path_starts.h"
 
 namespace howl {
@@ -69,7 +70,7 @@ PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structur
 std::vector<DelayMaximum> OtherDelayMaxima(const RecordSpectra& record,
                                            const PointStructure& structure, const PointPrior& prior,
                                            const Eigen::VectorXd& parameters) {
-  const double here = LogLikelihood(record, structure, parameters) + prior.LogDensity(parameters);
+  const double here = PointPosterior(record, structure, prior).Value(parameters);
   const double known = std::exp(parameters[structure.Delay()]);
   std::vector<DelayMaximum> out;
   for (const PointFit& fit : FitsByDelay(record, structure, prior, parameters, kDelays)) {

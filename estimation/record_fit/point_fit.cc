@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "estimation/record_fit/loop/return_difference.h"
+#include "estimation/record_fit/loop/possible_loop.h"
 #include "estimation/record_fit/point_posterior.h"
 #include "model/numerics/dense_algebra.h"
 
@@ -35,7 +35,7 @@ Eigen::VectorXd Possible(const RecordSpectra& record, const PointStructure& stru
   double& log_tau = parameters[structure.Delay()];
   log_tau = std::max(log_tau, std::log(kAboveLeast * LeastDelay(record)));
   for (int i = 0; i < kMostHalvings; ++i) {
-    if (std::isfinite(LogDeterminant(record, ToPoint(structure, flame, parameters)))) break;
+    if (IsPossible(record, ToPoint(structure, flame, parameters))) break;
     parameters.segment(structure.Flame(), flame) *= 0.5;
   }
   return parameters;
@@ -94,7 +94,10 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     damped.diagonal().array() *= 1.0 + damping;
     Eigen::VectorXd step = SolveSymmetric(damped, here.gradient);
     step *= std::min(1.0, kLongestStep / step.cwiseProduct(narrower).cwiseAbs().maxCoeff());
-    const double foretold = here.gradient.dot(step) - 0.5 * step.dot(information * step);
+    const auto gain_of = [&](const Eigen::VectorXd& by) {
+      return here.gradient.dot(by) - 0.5 * by.dot(information * by);
+    };
+    double foretold = gain_of(step);
     if (damping < 1.0 && foretold < options.converged) {
       if (source == Source::kCurvature || options.converged >= kNearMaximum) {
         out.converged = true;
@@ -104,6 +107,9 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
       source = Source::kCurvature;
       continue;
     }
+    const bool far = source == Source::kInformation && foretold >= kNearMaximum;
+    step *= posterior.ShareWithin(out.parameters, step);
+    foretold = gain_of(step);
     const Eigen::VectorXd there = out.parameters + step.cwiseProduct(prior.deviation);
     const bool on_a_rig = farthest(there) <= std::max(kFarthest, farthest(out.parameters));
     const double value =
@@ -111,7 +117,6 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     const double gain = value - out.log_posterior;
     // Where spectra leave the range of numbers the likelihood may still have a value, and no slope.
     PosteriorSlopes next;
-    const bool far = source == Source::kInformation && foretold >= kNearMaximum;
     if (std::isfinite(value) && (gain > 0.0 || !far)) next.gradient = posterior.Gradient(there);
     const bool possible = next.gradient.size() > 0 && next.gradient.allFinite();
     const bool taken = gain > 0.0 && possible;
@@ -141,7 +146,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     raise = 2.0;
   }
   here.information = Positive(here.information);
-  out.log_likelihood = out.log_posterior - prior.LogDensity(out.parameters);
+  out.log_likelihood = out.log_posterior - posterior.LogPrior(out.parameters);
   const Eigen::VectorXd precision = prior.deviation.cwiseInverse();
   out.information = precision.asDiagonal() * here.information * precision.asDiagonal();
   const Eigen::LLT<Eigen::MatrixXd> root(here.information);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "estimation/record_fit/loop/possible_loop.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
@@ -10,21 +11,35 @@ namespace {
 constexpr double kDifference = 1e-5;  // of the prior's deviation
 constexpr double kLeastCosine =
     1e-8;  // of a correction's denominator (Nocedal & Wright 2006, 6.26)
+// Of the way to an edge (the fraction to the boundary of interior-point methods, the same, 19.9).
+constexpr double kToTheEdge = 0.9;
+constexpr int kHalvings = 20;
 
 }  // namespace
 
+double PointPosterior::LogPrior(const Eigen::VectorXd& parameters) const {
+  return prior_.LogDensity(parameters) + LogDensityOfPossible(record_, PointAt(parameters));
+}
+
 double PointPosterior::Value(const Eigen::VectorXd& parameters) {
   const double value = likelihood_.Value(parameters);
-  return std::isfinite(value) ? value + prior_.LogDensity(parameters) : value;
+  return std::isfinite(value) ? value + LogPrior(parameters) : value;
 }
 
 Eigen::VectorXd PointPosterior::Gradient(const Eigen::VectorXd& parameters) {
-  return prior_.deviation.cwiseProduct(likelihood_.Gradient(parameters)) + prior_.Slope(parameters);
+  Eigen::VectorXd out = likelihood_.Gradient(parameters);
+  const PossibleSlopes possible = SlopesOfPossible(record_, structure_, PointAt(parameters));
+  out.head(possible.gradient.size()) += possible.gradient;
+  return prior_.deviation.cwiseProduct(out) + prior_.Slope(parameters);
 }
 
 Eigen::MatrixXd PointPosterior::Information(const Eigen::VectorXd& parameters) {
   const auto scale = prior_.deviation.asDiagonal();
-  Eigen::MatrixXd out = scale * likelihood_.Information(parameters) * scale;
+  Eigen::MatrixXd of_record = likelihood_.Information(parameters);
+  const PossibleSlopes possible = SlopesOfPossible(record_, structure_, PointAt(parameters));
+  const Eigen::Index size = possible.gradient.size();
+  of_record.topLeftCorner(size, size) += possible.information;
+  Eigen::MatrixXd out = scale * of_record * scale;
   out.diagonal() += prior_.Precision(parameters);
   return out;
 }
@@ -41,6 +56,22 @@ Eigen::MatrixXd PointPosterior::Curvature(const Eigen::VectorXd& parameters) {
     out.col(i) = (gradient(i, -kDifference) - gradient(i, kDifference)) / (2.0 * kDifference);
   }
   return 0.5 * (out + out.transpose());
+}
+
+double PointPosterior::ShareWithin(const Eigen::VectorXd& parameters,
+                                   const Eigen::VectorXd& step) const {
+  const Eigen::VectorXd whole = step.cwiseProduct(prior_.deviation);
+  const auto possible = [&](double share) {
+    return IsPossible(record_, PointAt(parameters + share * whole));
+  };
+  if (possible(1.0)) return 1.0;
+  double inside = 0.0;
+  double outside = 1.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (possible(middle) ? inside : outside) = middle;
+  }
+  return kToTheEdge * inside;
 }
 
 Eigen::MatrixXd Positive(const Eigen::MatrixXd& information) {

@@ -1,5 +1,6 @@
 // The log posterior of a point's parameters, in units of the prior's deviations, with its slopes
-// and curvature: what point_fit.h climbs.
+// and curvature: what point_fit.h climbs. Its prior is that of point_prior.h times the density of
+// possible loops (possible_loop.h).
 #ifndef HOWL_ESTIMATION_RECORD_FIT_POINT_POSTERIOR_H_
 #define HOWL_ESTIMATION_RECORD_FIT_POINT_POSTERIOR_H_
 
@@ -20,8 +21,9 @@ class PointPosterior {
   // All three must outlive it.
   PointPosterior(const RecordSpectra& record, const PointStructure& structure,
                  const PointPrior& prior)
-      : likelihood_(record, structure), prior_(prior) {}
+      : record_(record), structure_(structure), prior_(prior), likelihood_(record, structure) {}
 
+  double LogPrior(const Eigen::VectorXd& parameters) const;  // of possible loops
   // -infinity where the parameters are impossible.
   double Value(const Eigen::VectorXd& parameters);
   Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters);
@@ -33,10 +35,19 @@ class PointPosterior {
   // The curvature itself, by differences of the gradient. Where the model misses what the record
   // shows it differs from the information, and steps on the latter come near the maximum slowly.
   Eigen::MatrixXd Curvature(const Eigen::VectorXd& parameters);
+  // How much of a step, in units of the prior's deviations, stays among possible loops with room to
+  // the edge.
+  double ShareWithin(const Eigen::VectorXd& parameters, const Eigen::VectorXd& step) const;
 
  private:
-  PointLikelihood likelihood_;
+  LoopPoint PointAt(const Eigen::VectorXd& parameters) const {
+    return ToPoint(structure_, record_.flame.cols(), parameters);
+  }
+
+  const RecordSpectra& record_;
+  const PointStructure& structure_;
   const PointPrior& prior_;
+  PointLikelihood likelihood_;
 };
 
 // Far from the maximum the record's share may leave the information without a sign: the steps then

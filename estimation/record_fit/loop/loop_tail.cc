@@ -47,11 +47,6 @@ LoopTail::LoopTail(const RecordSpectra& record, const LoopPoint& point)
   of_rest = 1.0 / (falls / loop.s.imag() + turns);
 }
 
-bool LoopTail::Possible(const FlamePath& path) const {
-  if (path.spread == DelaySpread::kGamma && !(path.rho < 1.0)) return false;
-  return std::abs(u) < 1.0 && std::abs(constant) < 1.0;
-}
-
 C LoopTail::Value() const {
   return Dilogarithm(constant) * (of_constant - of_rest) + Dilogarithm(u) * of_rest;
 }

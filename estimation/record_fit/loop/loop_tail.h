@@ -30,8 +30,6 @@ struct LoopAt {
 struct LoopTail {
   LoopTail(const RecordSpectra& record, const LoopPoint& point);
 
-  // Else the loop grows at all frequencies from there on.
-  bool Possible(const FlamePath& path) const;
   std::complex<double> Value() const;
   // Of Value by ln K, by ln U, and by l.
   std::complex<double> ByConstant() const;

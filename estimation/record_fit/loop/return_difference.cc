@@ -9,6 +9,7 @@
 #include "estimation/record_fit/loop/beside_band.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/loop_tail.h"
+#include "estimation/record_fit/loop/possible_loop.h"
 #include "estimation/record_fit/whittle/log_of_product.h"
 #include "model/numerics/complex_products.h"
 
@@ -53,9 +54,7 @@ double LogDeterminant(const RecordSpectra& record, const LoopPoint& point) {
 double LogDeterminant(const RecordSpectra& record, const LoopPoint& point,
                       const LoopResiduals& at) {
   const LoopTail tail(record, point);
-  if (point.path.tau < LeastDelay(record) || !tail.Possible(point.path)) {
-    return -std::numeric_limits<double>::infinity();
-  }
+  if (!IsPossible(record, point, tail)) return -std::numeric_limits<double>::infinity();
   return Both(BesideBand(record, point, tail), Within(record, at));
 }
 

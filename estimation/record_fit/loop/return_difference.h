@@ -29,8 +29,8 @@
 //   integral of ln |D| = - Re [ Li2(K) / j l + (Li2(U) - Li2(K)) / (m / omega_2 + j l) ]
 //
 // at omega_2, with Li2 the dilogarithm and l the value of D_tau over its integral from there on
-// (flame_path.h): tau where delays are not spread. Where |K| or |U| is not below one there, the
-// loop grows at all frequencies from there on: no rig's, and impossible.
+// (flame_path.h): tau where delays are not spread. Of a loop that is impossible (possible_loop.h)
+// ln |det| is -infinity.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_RETURN_DIFFERENCE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_RETURN_DIFFERENCE_H_
 

@@ -45,9 +45,10 @@ TEST(PointFit, EndsAtAPossibleLoop) {
     return std::isfinite(LogDeterminant(spectra, point));
   };
   ASSERT_FALSE(possible(start));
-  const PointFit fit = FitPoint(spectra, structure, prior, start);
+  const PointFit fit = FitPoint(spectra, structure, prior, start, {.iterations = 400});
   EXPECT_TRUE(std::isfinite(fit.log_posterior));
   EXPECT_TRUE(possible(fit.parameters));
+  EXPECT_TRUE(fit.converged);
 }
 
 // Begun with a mode far beyond the band a fit ends beside the maximum. Of the weak modes, for
