@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "estimation/parallel.h"
+#include "estimation/record_fit/point_posterior.h"
 
 namespace howl {
 namespace {
@@ -18,6 +19,7 @@ constexpr int kMostSteps = 10;
 constexpr int kMostRounds = 3;
 constexpr double kStands = 0.1;      // of the value's own deviation
 constexpr double kFirstStep = 0.05;  // of the search's range
+constexpr double kReach = 4.0;       // of a step, within which a value known leads on
 
 double ToSearch(const EffectParameter& p, double x) {
   return p.scale == ParameterScale::kLogarithmic ? std::log(x) : x;
@@ -60,6 +62,8 @@ class Profile {
     form.instruments.back().value = FromSearch(parameter_, u);
     return form;
   }
+  // From `near`, or from where the line through it and the last value known near it leads.
+  ProfilePoint At(double u, const ProfilePoint& near);
   ProfilePoint At(double u, const std::vector<Eigen::VectorXd>& starts);
   Maximum From(ProfilePoint best, double least = -std::numeric_limits<double>::infinity());
 
@@ -69,9 +73,32 @@ class Profile {
   const EffectParameter& parameter_;
   LoopForm form_;
   std::string key_;
+  std::vector<ProfilePoint> known_;
   std::size_t evaluations_ = 0;  // each is a unit of its own, the same value from another start too
   const LoopBudgetOptions& options_;
 };
+
+ProfilePoint Profile::At(double u, const ProfilePoint& near) {
+  const auto distance = [&](const ProfilePoint& other) {
+    return other.u == near.u ? std::numeric_limits<double>::infinity() : std::abs(other.u - u);
+  };
+  const auto other = std::ranges::min_element(known_, {}, distance);
+  if (other == known_.end() || !(distance(*other) < kReach * std::abs(u - near.u))) {
+    return At(u, near.parameters);
+  }
+  const LoopForm form = FormAt(u);
+  const double along = (u - near.u) / (near.u - other->u);
+  std::vector<Eigen::VectorXd> starts = near.parameters;
+  RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
+    const Eigen::VectorXd led =
+        near.parameters[e] + along * (near.parameters[e] - other->parameters[e]);
+    const RecordSpectra record = records_.Whole(form, e);
+    const PointPrior prior = PriorOfTrial(records_, from_, form, e, record);
+    PointPosterior posterior(record, form.structure, prior);
+    if (posterior.Value(led) > posterior.Value(near.parameters[e])) starts[e] = led;
+  });
+  return At(u, starts);
+}
 
 ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) {
   const std::string key = key_ + std::to_string(evaluations_++) + "/";
@@ -89,6 +116,7 @@ ProfilePoint Profile::At(double u, const std::vector<Eigen::VectorXd>& starts) {
     out.nats += fits[e].log_evidence + records_.LogJacobianOfWhole(form, e);
     out.parameters.push_back(fits[e].parameters);
   }
+  known_.push_back(out);
   return out;
 }
 
@@ -99,8 +127,8 @@ Maximum Profile::From(ProfilePoint best, double least) {
   double std = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostSteps; ++i) {
     const double u = best.u;
-    ProfilePoint below = At(std::max(u - step, Low()), best.parameters);
-    ProfilePoint above = At(std::min(u + step, High()), best.parameters);
+    ProfilePoint below = At(std::max(u - step, Low()), best);
+    ProfilePoint above = At(std::min(u + step, High()), best);
     const double curvature =
         2.0 *
         ((above.nats - best.nats) / (above.u - u) - (best.nats - below.nats) / (u - below.u)) /
@@ -114,7 +142,7 @@ Maximum Profile::From(ProfilePoint best, double least) {
     std = 1.0 / std::sqrt(-curvature);
     const double slope = (above.nats - below.nats) / (above.u - below.u);
     if (step <= std || best.nats - 0.5 * slope * slope / curvature < least) break;
-    ProfilePoint vertex = At(u - slope / curvature, best.parameters);
+    ProfilePoint vertex = At(u - slope / curvature, best);
     if (vertex.nats > best.nats) best = std::move(vertex);
     step = std::max(step / 4.0, std);
   }

@@ -28,7 +28,13 @@ DiagnosisOptions Among(const std::vector<std::string>& kept) {
 
 // q is recorded through a low-pass.
 std::vector<DiagnosisExperiment> RigOfLowPass() {
-  return SimulateRig({std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, kCutoff_hz)});
+  return SimulatePoints(
+      2,
+      [](RigParameters* each) {
+        each->instruments = {
+            std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, kCutoff_hz)};
+      },
+      7);
 }
 
 void ExpectLowPass(const BudgetEntry& entry, std::size_t points) {
