@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <map>
 
 #include "app/text/text_table.h"
 
@@ -21,6 +23,54 @@ std::string Bar(const BudgetEntry& entry, double whole) {
   return std::string(stays, '#') + std::string(was - stays, '.');
 }
 
+// "f / 4", "f / 2", "f", "2 f", ...
+std::string OctaveText(int octave) {
+  const std::string factor = std::to_string(1 << std::abs(octave));
+  if (octave == 0) return "f";
+  return octave < 0 ? "f / " + factor : factor + " f";
+}
+
+// A row a point and signal, a column an octave about the cycle's frequency f.
+std::string OctavesText(const std::vector<OctaveGap>& gaps) {
+  std::map<int, std::size_t> columns;
+  for (const OctaveGap& each : gaps) columns[each.octave] = 0;
+  std::vector<std::string> head = {"gap left at", "of"};
+  for (auto& [octave, column] : columns) {
+    column = head.size();
+    head.push_back(OctaveText(octave));
+  }
+  TextTable table(head);
+  std::vector<std::string> row;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    if (row.empty()) {
+      row.assign(head.size(), "");
+      row[0] = gaps[i].experiment;
+      row[1] = gaps[i].block == LoopBlock::kAcoustics ? "p from q" : "q from p";
+    }
+    row[columns[gaps[i].octave]] = Fixed(gaps[i].gap, 2);
+    const bool last = i + 1 == gaps.size() || gaps[i + 1].experiment != gaps[i].experiment ||
+                      gaps[i + 1].block != gaps[i].block;
+    if (!last) continue;
+    table.AddRow(row);
+    row.clear();
+  }
+  return table.Text();
+}
+
+std::string WaterfallText(const Budget& budget) {
+  TextTable table({"item", "gap after", "", "lost without: nats", "gap", "points", "estimate"});
+  for (const BudgetEntry& entry : budget.entries) {
+    std::string names = entry.item;
+    for (const std::string& other : entry.equals) names += " = " + other;
+    table.AddRow(
+        {names, Fixed(entry.gap_after, 3), Bar(entry, budget.gap_before), Fixed(entry.lost_nats, 1),
+         Fixed(entry.lost_gap, 3),
+         std::to_string(entry.experiments_better) + "/" + std::to_string(budget.experiments),
+         ParameterText(entry.parameters)});
+  }
+  return table.Text();
+}
+
 }  // namespace
 
 std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
@@ -35,19 +85,11 @@ std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
 }
 
 std::string BudgetText(const Budget& budget) {
-  std::string out = "budget, left out: several causes take the gap from " +
-                    Fixed(budget.gap_before, 3) + " to " + Fixed(budget.gap_left, 3) + "\n";
-  TextTable table({"item", "gap after", "", "lost without: nats", "gap", "points", "estimate"});
-  for (const BudgetEntry& entry : budget.entries) {
-    std::string names = entry.item;
-    for (const std::string& other : entry.equals) names += " = " + other;
-    table.AddRow(
-        {names, Fixed(entry.gap_after, 3), Bar(entry, budget.gap_before), Fixed(entry.lost_nats, 1),
-         Fixed(entry.lost_gap, 3),
-         std::to_string(entry.experiments_better) + "/" + std::to_string(budget.experiments),
-         ParameterText(entry.parameters)});
-  }
-  out += table.Text();
+  std::string out = budget.entries.empty()
+                        ? "gap, left out: " + Fixed(budget.gap_left, 3) + "\n"
+                        : "budget, left out: several causes take the gap from " +
+                              Fixed(budget.gap_before, 3) + " to " + Fixed(budget.gap_left, 3) +
+                              "\n" + WaterfallText(budget);
   for (const Place& place : budget.left) {
     const bool acoustics = place.block == LoopBlock::kAcoustics;
     out += "left: " + std::string(acoustics ? "p from q, " : "q from p, ") +
@@ -55,6 +97,8 @@ std::string BudgetText(const Budget& budget) {
            std::to_string(place.experiments.size()) + " experiments (share " +
            Fixed(place.share, 2) + ")\n";
   }
+  out += "floor of the gap, of a loop that is right: " + Fixed(budget.floor, 3) + "\n";
+  if (budget.gap_left > budget.floor) out += OctavesText(budget.left_by_octave);
   return out;
 }
 

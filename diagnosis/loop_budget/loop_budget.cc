@@ -69,6 +69,7 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     ceiling.Lower(without.back());
   }
   Budget out;
+  out.best_model = ModelLine(found.best.model.structure, found.best.model.flame_input);
   out.experiments = records.size();
   out.gap_before = ceiling.Gap(base);
   out.gap_left = ceiling.Gap(best);
@@ -141,7 +142,7 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
 }
 
 std::string AdviceOf(const LoopDiagnosis& found) {
-  const std::string model = ModelLine(found.best.structure, found.best.flame_input);
+  const std::string& model = found.diagnosis.budget->best_model;
   switch (found.diagnosis.kind) {
     case VerdictKind::kNone:
       return "the config's loop stands";

@@ -42,6 +42,7 @@ struct Budget {
   double acoustic_error = 0.0;
   double flame_error = 0.0;
   std::size_t experiments = 0;
+  std::string best_model;  // of the loop with all entries, as a config's model: {...}
 };
 
 }  // namespace howl

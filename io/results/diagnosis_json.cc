@@ -160,7 +160,9 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
   if (diagnosis.budget) {
     const Budget& budget = *diagnosis.budget;
     json["budget"] = BudgetJson(budget);
+    json["best_model"] = budget.best_model;
     json["left"] = {{"gap", NumberOrNull(budget.gap_left)},
+                    {"floor", NumberOrNull(budget.floor)},
                     {"where", WhereJson(budget.left)},
                     {"octaves", OctavesJson(budget.left_by_octave)},
                     {"model_error",

@@ -38,7 +38,9 @@ Json LinesJson(const LinesLeft& lines) {
 
 Json LoopDiagnosisJson(const LoopDiagnosis& found) {
   Json json = DiagnosisJson(found.diagnosis);
-  for (const char* key : {"free_slack", "bootstrap", "base_parameters"}) json.erase(key);
+  for (const char* key : {"free_slack", "bootstrap", "base_parameters", "best_model"}) {
+    json.erase(key);
+  }
   json["base"] = FormJson(found.base);
   json["best"] = FormJson(found.best);
   json["line_errors"] = {{"p_from_q", LinesJson(found.acoustics)},

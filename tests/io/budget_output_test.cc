@@ -14,6 +14,8 @@ Diagnosis Example() {
   budget.experiments = 6;
   budget.gap_before = 0.8;
   budget.gap_left = 0.3;
+  budget.floor = 0.1;
+  budget.best_model = "model: {modes: 2, delay_spread: normal}";
   BudgetEntry noise;
   noise.item = "q_sensor_noise";
   noise.gap_before = 0.8;
@@ -49,6 +51,8 @@ TEST(BudgetOutput, JsonHasTheContractsKeys) {
   EXPECT_EQ(effect["class"], (nlohmann::ordered_json{"flame_lowpass"}));
   EXPECT_EQ(effect["parameters"]["sigma_s"]["lo"], 0.9e-4);
   EXPECT_EQ(json["left"]["gap"], 0.3);
+  EXPECT_EQ(json["left"]["floor"], 0.1);
+  EXPECT_EQ(json["best_model"], "model: {modes: 2, delay_spread: normal}");
   EXPECT_EQ(json["left"]["where"][0]["block"], "flame");
   const auto& octave = json["left"]["octaves"][0];
   EXPECT_EQ(octave["experiment"], "exp2");
