@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -28,7 +29,7 @@ Stage StageOf(const LoopItem& item) {
 }
 
 struct Fitted {
-  std::size_t trial;
+  std::size_t trial = 0;
   LoopFit fit;
 };
 
@@ -75,9 +76,10 @@ std::vector<LoopTrial> ForwardSearch::Try(const LoopFit& from, double standing,
     (item.kind == LoopItemKind::kInstrument ? instruments : own).push_back(item);
   }
   std::vector<LoopTrial> out = TryItems(records_, from, standing, own, key, options_);
-  for (const LoopItem& item : instruments) {
-    out.push_back(TryInstrument(records_, from, standing, item, key, options_));
-  }
+  out.resize(items.size());
+  RunUnits(instruments.size(), options_.threads, [&](std::size_t i) {
+    out[own.size() + i] = TryInstrument(records_, from, standing, instruments[i], key, options_);
+  });
   for (const LoopTrial& trial : out) {
     VLOG(1) << key << trial.item.id << " " << trial.gain << " nats";
     last_gain_[KeyOf(trial.item)] = trial.gain;
@@ -95,14 +97,15 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
   }
   std::ranges::sort(order, std::ranges::greater(),
                     [&](std::size_t i) { return std::pair(trials[i].gain, trials.size() - i); });
-  std::vector<Fitted> best;
-  for (const std::size_t i : order) {
-    if (best.size() == kMostFitted) break;
-    LoopFit fit = FitLoopFrom(records_, trials[i].model, trials[i].starts, MaximumTaken::kNext,
-                              key + "next/" + KeyOf(trials[i].item) + "/", options_);
-    VLOG(1) << key << trials[i].item.id << " foretells " << fit.Density() - from.Density()
-            << " nats better";
-    best.push_back({i, std::move(fit)});
+  std::vector<Fitted> best(std::min(order.size(), kMostFitted));
+  RunUnits(best.size(), options_.threads, [&](std::size_t n) {
+    const LoopTrial& trial = trials[order[n]];
+    best[n] = {order[n], FitLoopFrom(records_, trial.model, trial.starts, MaximumTaken::kNext,
+                                     key + "next/" + KeyOf(trial.item) + "/", options_)};
+  });
+  for (const Fitted& each : best) {
+    VLOG(1) << key << trials[each.trial].item.id << " foretells "
+            << each.fit.Density() - from.Density() << " nats better";
   }
   for (const LoopTrial& trial : trials) fitted->push_back(KeyOf(trial.item));
   std::ranges::stable_sort(best, std::ranges::greater(),

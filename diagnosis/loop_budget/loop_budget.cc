@@ -14,6 +14,7 @@
 #include "diagnosis/loop_budget/loop_search.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/shared_units.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -56,17 +57,19 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
                 const LoopBudgetOptions& options) {
   const HeldOutScore base = ScoreHeldOut(records, found.base, "base/", options);
   const HeldOutScore best = ScoreHeldOut(records, found.best, "best/", options);
-  std::vector<HeldOutScore> after;
-  std::vector<HeldOutScore> without;
+  std::vector<HeldOutScore> after(found.steps.size());
+  std::vector<HeldOutScore> without(found.steps.size());
+  RunUnits(found.steps.size(), options.threads, [&](std::size_t i) {
+    const std::string number = std::to_string(i) + "/";
+    after[i] = ScoreHeldOut(records, found.steps[i].after, "after/" + number, options);
+    without[i] = ScoreHeldOut(records, found.without[i], "lost/" + number, options);
+  });
   CommonCeiling ceiling;
   ceiling.Lower(base);
   ceiling.Lower(best);
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
-    const std::string number = std::to_string(i) + "/";
-    after.push_back(ScoreHeldOut(records, found.steps[i].after, "after/" + number, options));
-    without.push_back(ScoreHeldOut(records, found.without[i], "lost/" + number, options));
-    ceiling.Lower(after.back());
-    ceiling.Lower(without.back());
+    ceiling.Lower(after[i]);
+    ceiling.Lower(without[i]);
   }
   Budget out;
   out.best_model = ModelLine(found.best.model.structure, found.best.model.flame_input);

@@ -79,6 +79,8 @@ LoopForm LeastForm(const RecordLoopSpec& spec) {
   LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
   out.structure.noise = LeastNoise();
   out.structure.acoustic_lines = out.structure.flame_lines = 0;
+  // The damping of a single mode is its own: others may stand beside it.
+  if (out.structure.modes == 1) out.structure.own_damping = true;
   return out;
 }
 

@@ -2,10 +2,13 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -33,6 +36,9 @@ class Search {
   LoopFit FitBase() const;
   void Forward(LoopFound* out) const;
   void Backward(LoopFound* out) const;
+  void TakeAway(const std::vector<std::size_t>& which, const std::string& key,
+                LoopFound* out) const;
+  static std::vector<std::size_t> Idle(const LoopFound& found);
   LoopFit Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
                   const std::string& key) const;
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
@@ -78,23 +84,58 @@ void Search::Forward(LoopFound* out) const {
   }
 }
 
-// What pays least goes first, as long as something does not pay.
+// What pays least goes first, as long as something does not pay. What did not pay a round ago is
+// tried before the rest: where it still does not, what the rest pays need not be known yet.
 void Search::Backward(LoopFound* out) const {
+  std::vector<std::size_t> first(out->steps.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
   for (std::size_t round = 0; !out->steps.empty(); ++round) {
     const std::string key = "back/" + std::to_string(round) + "/";
-    out->without.clear();
-    std::size_t least = 0;
-    for (std::size_t i = 0; i < out->steps.size(); ++i) {
-      out->without.push_back(Without(out->best, out->steps, i, key));
-      VLOG(1) << key << out->steps[i].item.id << " "
-              << out->best.Density() - out->without[i].Density() << " nats lost";
-      if (out->without[i].Density() > out->without[least].Density()) least = i;
+    out->without.assign(out->steps.size(), {});
+    TakeAway(first, key, out);
+    std::vector<std::size_t> idle = Idle(*out);
+    if (idle.empty() && first.size() < out->steps.size()) {
+      std::vector<std::size_t> rest;
+      for (std::size_t i = 0; i < out->steps.size(); ++i) {
+        if (std::ranges::find(first, i) == first.end()) rest.push_back(i);
+      }
+      TakeAway(rest, key, out);
+      idle = Idle(*out);
     }
-    if (out->without[least].Density() < out->best.Density()) break;
+    if (idle.empty()) return;
+    const std::size_t least = idle[0];
     out->best = out->without[least];
     out->steps.erase(out->steps.begin() + static_cast<std::ptrdiff_t>(least));
-    if (out->steps.empty()) out->without.clear();
+    first.clear();
+    for (const std::size_t i : idle) {
+      if (i != least) first.push_back(i > least ? i - 1 : i);
+    }
   }
+  out->without.clear();
+}
+
+void Search::TakeAway(const std::vector<std::size_t>& which, const std::string& key,
+                      LoopFound* out) const {
+  RunUnits(which.size(), options_.threads, [&](std::size_t n) {
+    out->without[which[n]] = Without(out->best, out->steps, which[n], key);
+  });
+  for (const std::size_t i : which) {
+    VLOG(1) << key << out->steps[i].item.id << " "
+            << out->best.Density() - out->without[i].Density() << " nats lost";
+  }
+}
+
+// The steps that are known not to pay, that which pays least first.
+std::vector<std::size_t> Search::Idle(const LoopFound& found) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < found.steps.size(); ++i) {
+    const LoopFit& without = found.without[i];
+    if (without.log_density.empty() || without.Density() < found.best.Density()) continue;
+    out.push_back(i);
+  }
+  std::ranges::stable_sort(out, std::ranges::greater(),
+                           [&](std::size_t i) { return found.without[i].Density(); });
+  return out;
 }
 
 LoopFound Search::Run() const {

@@ -18,6 +18,9 @@ bool IsCount(double x, double first, double last) {
   return x >= first && x <= last && x == std::floor(x);
 }
 
+// Of a symmetric matrix the lower half is kept: most of what a unit has.
+std::size_t Triangle(std::size_t size) { return size * (size + 1) / 2; }
+
 }  // namespace
 
 std::string PointFitBytes(const PointFit& fit) {
@@ -25,7 +28,7 @@ std::string PointFitBytes(const PointFit& fit) {
   const std::array<double, kHead> head = {fit.log_likelihood,    fit.log_posterior,
                                           fit.log_evidence,      double(fit.iterations),
                                           double(fit.converged), static_cast<double>(size)};
-  std::string bytes(sizeof(double) * (kHead + size + size * size), '\0');
+  std::string bytes(sizeof(double) * (kHead + size + Triangle(size)), '\0');
   char* to = bytes.data();
   const auto write = [&](const double* from, std::size_t count) {
     std::memcpy(to, from, count * sizeof(double));
@@ -33,7 +36,9 @@ std::string PointFitBytes(const PointFit& fit) {
   };
   write(head.data(), kHead);
   write(fit.parameters.data(), size);
-  write(fit.information.data(), size * size);
+  for (std::size_t i = 0; i < size; ++i) {
+    write(fit.information.col(static_cast<Eigen::Index>(i)).data() + i, size - i);
+  }
   return bytes;
 }
 
@@ -46,7 +51,7 @@ std::optional<PointFit> PointFitOf(const std::string& bytes) {
     return std::nullopt;
   }
   const auto size = static_cast<std::size_t>(head[5]);
-  if (bytes.size() != sizeof(double) * (kHead + size + size * size)) return std::nullopt;
+  if (bytes.size() != sizeof(double) * (kHead + size + Triangle(size))) return std::nullopt;
   PointFit fit;
   fit.log_likelihood = head[0];
   fit.log_posterior = head[1];
@@ -56,9 +61,16 @@ std::optional<PointFit> PointFitOf(const std::string& bytes) {
   const auto rows = static_cast<Eigen::Index>(size);
   fit.parameters.resize(rows);
   fit.information.resize(rows, rows);
-  const char* const from = bytes.data() + sizeof head;
-  std::memcpy(fit.parameters.data(), from, size * sizeof(double));
-  std::memcpy(fit.information.data(), from + size * sizeof(double), size * size * sizeof(double));
+  const char* from = bytes.data() + sizeof head;
+  const auto read = [&](double* to, std::size_t count) {
+    std::memcpy(to, from, count * sizeof(double));
+    from += count * sizeof(double);
+  };
+  read(fit.parameters.data(), size);
+  for (std::size_t i = 0; i < size; ++i) {
+    read(fit.information.col(static_cast<Eigen::Index>(i)).data() + i, size - i);
+  }
+  fit.information.triangularView<Eigen::StrictlyUpper>() = fit.information.transpose().eval();
   return fit;
 }
 

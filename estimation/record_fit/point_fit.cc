@@ -25,15 +25,19 @@ constexpr double kLongestStep = 3.0;
 // Of frequencies and the delay, in the same deviations: no rig has them farther out.
 constexpr double kFarthest = 10.0;
 constexpr int kMostCorrections = 12;
-constexpr double kAboveLeast = 1.02;  // of delays that fits begin with
-constexpr int kMostHalvings = 20;     // of a start's flame
+constexpr double kFromEdge = 1.02;  // of delays, and of their spread, that fits begin with
+constexpr int kMostHalvings = 20;   // of a start's flame
 
-// With a delay that the band tells, and so weak a flame that the loop is a possible one.
+// With delays, and so weak a flame, that the loop is a possible one.
 Eigen::VectorXd Possible(const RecordSpectra& record, const PointStructure& structure,
                          Eigen::VectorXd parameters) {
   const Eigen::Index flame = record.flame.cols();
   double& log_tau = parameters[structure.Delay()];
-  log_tau = std::max(log_tau, std::log(kAboveLeast * LeastDelay(record)));
+  log_tau = std::max(log_tau, std::log(kFromEdge * LeastDelay(record)));
+  if (structure.delay_spread == DelaySpread::kGamma) {
+    double& log_rho = parameters[structure.Delay() + 1];
+    log_rho = std::min(log_rho, -std::log(kFromEdge));
+  }
   for (int i = 0; i < kMostHalvings; ++i) {
     if (IsPossible(record, ToPoint(structure, flame, parameters))) break;
     parameters.segment(structure.Flame(), flame) *= 0.5;
@@ -149,6 +153,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   out.log_likelihood = out.log_posterior - posterior.LogPrior(out.parameters);
   const Eigen::VectorXd precision = prior.deviation.cwiseInverse();
   out.information = precision.asDiagonal() * here.information * precision.asDiagonal();
+  out.information.triangularView<Eigen::StrictlyUpper>() = out.information.transpose().eval();
   const Eigen::LLT<Eigen::MatrixXd> root(here.information);
   out.log_evidence = out.log_posterior - root.matrixLLT().diagonal().array().log().sum() +
                      prior.deviation.array().log().sum() +

@@ -34,7 +34,8 @@ struct PointFit {
   double log_likelihood = 0.0;
   double log_posterior = 0.0;
   double log_evidence = 0.0;
-  // Of the parameters, with the prior's precision in it. Its inverse is their covariance.
+  // Of the parameters, with the prior's precision in it: symmetric to the bit. Its inverse is their
+  // covariance.
   Eigen::MatrixXd information;
   int iterations = 0;
   bool converged = false;

@@ -10,9 +10,10 @@ namespace {
 
 using C = std::complex<double>;
 
-std::array<double, 3> ToEdges(const RecordSpectra& record, const LoopPoint& point,
+std::array<double, 4> ToEdges(const RecordSpectra& record, const LoopPoint& point,
                               const LoopTail& tail) {
-  return {std::abs(tail.constant), std::abs(tail.u), LeastDelay(record) / point.path.tau};
+  return {std::abs(tail.constant), std::abs(tail.u), LeastDelay(record) / point.path.tau,
+          point.path.spread == DelaySpread::kGamma ? point.path.rho : 0.0};
 }
 
 // Of ln(1 - x^2), by ln x: with slopes of ln x.
@@ -25,7 +26,6 @@ void Add(double x, const Eigen::VectorXd& slopes, PossibleSlopes* out) {
 }  // namespace
 
 bool IsPossible(const RecordSpectra& record, const LoopPoint& point, const LoopTail& tail) {
-  if (point.path.spread == DelaySpread::kGamma && !(point.path.rho < 1.0)) return false;
   return std::ranges::all_of(ToEdges(record, point, tail), [](double x) { return x < 1.0; });
 }
 
@@ -44,7 +44,7 @@ double LogDensityOfPossible(const RecordSpectra& record, const LoopPoint& point)
 PossibleSlopes SlopesOfPossible(const RecordSpectra& record, const PointStructure& structure,
                                 const LoopPoint& point) {
   const LoopTail tail(record, point);
-  const auto [of_constant, of_loop, of_delay] = ToEdges(record, point, tail);
+  const auto [of_constant, of_loop, of_delay, of_spread] = ToEdges(record, point, tail);
   const double slope = record.slopes.dot(point.flame);
   const Eigen::Index size = structure.Flame() + record.slopes.size();
   const Eigen::VectorXd by_flame = record.slopes / slope;
@@ -68,6 +68,11 @@ PossibleSlopes SlopesOfPossible(const RecordSpectra& record, const PointStructur
   Eigen::VectorXd by = Eigen::VectorXd::Zero(size);
   by[structure.Delay()] = -1.0;
   Add(of_delay, by, &out);
+  if (of_spread > 0.0) {
+    by.setZero();
+    by[structure.Delay() + 1] = 1.0;
+    Add(of_spread, by, &out);
+  }
   return out;
 }
 

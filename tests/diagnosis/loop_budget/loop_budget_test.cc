@@ -90,6 +90,22 @@ TEST(LoopBudget, FindsHumAndItsChannel) {
   }
 }
 
+// A search that begins at one mode finds the second, whatever the base says of dampings.
+TEST(LoopBudget, FindsASecondModeBesideASingleOne) {
+  RecordLoopSpec spec;
+  spec.modes = 1;
+  spec.own_damping = false;
+  const LoopDiagnosis found =
+      DiagnoseLoops(DuctsRecords(), LeastForm(spec), Among({"acoustic_mode", "mode_detuning"}));
+  const Budget& budget = *found.diagnosis.budget;
+  ASSERT_EQ(budget.entries.size(), 1u);
+  EXPECT_EQ(budget.entries[0].item, "acoustic_mode");
+  EXPECT_EQ(budget.entries[0].experiments_better, 3u);
+  ASSERT_EQ(budget.entries[0].parameters.size(), 2u);
+  EXPECT_NEAR(budget.entries[0].parameters[0].value, 455.0, 5.0);
+  EXPECT_EQ(found.best.structure.modes, 2);
+}
+
 // The paper's acoustics for those of the duct: real residues, and the second mode at three times
 // the first, where the duct has it at 2.3 times.
 TEST(LoopBudget, FindsWhatTheAcousticsLack) {

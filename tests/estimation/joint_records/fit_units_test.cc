@@ -25,6 +25,8 @@ PointFit SomeFit() {
   PointFit fit;
   fit.parameters = Eigen::Vector3d(0.1, -2.0, 1.0 / 3.0);
   fit.information = Eigen::Matrix3d::Identity() / 7.0;
+  fit.information(0, 2) = fit.information(2, 0) = 1.0 / 11.0;
+  fit.information(1, 2) = fit.information(2, 1) = -0.3;
   fit.log_likelihood = -12.5;
   fit.log_posterior = -13.5;
   fit.log_evidence = 1.0 / 9.0;
