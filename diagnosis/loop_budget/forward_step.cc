@@ -10,13 +10,12 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/odds.h"
 #include "estimation/parallel.h"
 
 namespace howl {
 namespace {
 
-constexpr double kOdds = 20.0;  // that an item comes in by chance, to one
-constexpr double kOddsOfClass = 50.0;
 constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain most
 
 // What comes only where nothing of an earlier one pays.
@@ -110,7 +109,7 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
   for (const LoopTrial& trial : trials) fitted->push_back(KeyOf(trial.item));
   std::ranges::stable_sort(best, std::ranges::greater(),
                            [](const Fitted& each) { return each.fit.Density(); });
-  const double least = std::log(kOdds * static_cast<double>(offered));
+  const double least = std::log(kOddsOfItem * static_cast<double>(offered));
   for (const Fitted& each : best) {
     if (!(each.fit.Density() > from.Density())) break;
     const LoopTrial& trial = trials[each.trial];

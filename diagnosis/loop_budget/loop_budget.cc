@@ -12,14 +12,13 @@
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "diagnosis/loop_budget/loop_item_parameters.h"
 #include "diagnosis/loop_budget/loop_search.h"
+#include "diagnosis/loop_budget/odds.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/shared_units.h"
 #include "estimation/parallel.h"
 
 namespace howl {
 namespace {
-
-constexpr double kOddsOfUnknown = 20.0;
 
 std::size_t Better(const LoopFit& with, const LoopFit& without) {
   std::size_t out = 0;

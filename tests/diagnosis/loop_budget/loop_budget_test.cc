@@ -104,6 +104,14 @@ TEST(LoopBudget, FindsASecondModeBesideASingleOne) {
   ASSERT_EQ(budget.entries[0].parameters.size(), 2u);
   EXPECT_NEAR(budget.entries[0].parameters[0].value, 455.0, 5.0);
   EXPECT_EQ(found.best.structure.modes, 2);
+  // Items are fitted at once on as many threads as there are: to the same bits as on one.
+  LoopBudgetOptions alone = Among({"acoustic_mode", "mode_detuning"});
+  alone.threads = 1;
+  const LoopDiagnosis again = DiagnoseLoops(DuctsRecords(), LeastForm(spec), alone);
+  EXPECT_EQ(again.diagnosis.budget->gap_left, budget.gap_left);
+  ASSERT_EQ(again.diagnosis.budget->entries.size(), 1u);
+  EXPECT_EQ(again.diagnosis.budget->entries[0].lost_nats, budget.entries[0].lost_nats);
+  EXPECT_EQ(again.acoustics.nats, found.acoustics.nats);
 }
 
 // The paper's acoustics for those of the duct: real residues, and the second mode at three times
