@@ -4,9 +4,9 @@
 //   [EFFECTS=mains_hum,channel_skew] loop_effects_study CONFIG [EXPERIMENT ...]
 //
 // EFFECTS: of known_effects.h, those asked for; all where not given.
-// The budget of the untouched records comes first. Its best loop then is the base from which
-// records with each effect in them are diagnosed, as by a user who has taken the budget's advice: a
-// row with what was added, its value and what is lost without it.
+// The budget of the untouched records comes first. Its best loop, without the instruments in it,
+// then is the base from which records with each effect in them are diagnosed, as by a user who has
+// taken the budget's advice: a row with what was added, its value and what is lost without it.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -37,6 +37,9 @@ int Run(int argc, char** argv) {
   double begun = Seconds();
   const LoopDiagnosis clean = DiagnoseLoops(LoopRecordsOf(rig), LoopBaseOf(config), {});
   PrintRow("untouched", clean, Seconds() - begun);
+  // Instruments that the rig has itself are looked for anew: with a known one they make one.
+  LoopForm base = clean.best;
+  base.instruments.clear();
   for (const KnownEffect& known : KnownEffects()) {
     const std::vector<std::string> ids = LoopItemIds();
     if (known.effect != "none" && std::ranges::find(ids, known.effect) == ids.end()) continue;
@@ -44,7 +47,7 @@ int Run(int argc, char** argv) {
     MeasuredRig touched = rig;
     known.put(&touched);
     begun = Seconds();
-    const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(touched), clean.best, {});
+    const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(touched), base, {});
     PrintRow(known.effect + " " + known.strength, found, Seconds() - begun);
   }
   return 0;
