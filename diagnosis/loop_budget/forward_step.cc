@@ -36,7 +36,9 @@ struct Fitted {
 std::vector<std::string> EqualsOf(const std::vector<LoopTrial>& trials, std::size_t of) {
   std::vector<std::string> out;
   for (const LoopTrial& trial : trials) {
-    const bool same = trial.item.id == trials[of].item.id;
+    // Forms of one item are no class.
+    const bool same =
+        trial.item.id == trials[of].item.id || std::ranges::find(out, trial.item.id) != out.end();
     const double behind = std::abs(trials[of].gain - trial.gain);
     if (!same && behind < std::log(kOddsOfClass)) out.push_back(trial.item.id);
   }
