@@ -11,15 +11,16 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "bench/seconds.h"
 #include "diagnosis/loop_budget/loop_budget.h"
+#include "estimation/analysis/spectra/statistics.h"
 #include "estimation/kept_memory.h"
-#include "tests/estimation/record_fit/modal_loop.h"
+#include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {
 namespace {
@@ -46,29 +47,12 @@ std::vector<LoopRecord> Rig(int rig, int points, double duration_s, bool low_pas
   std::vector<LoopRecord> out;
   for (int point = 0; point < points; ++point) {
     const double gain = 1.2 + 0.6 * point / std::max(points - 1, 1);
-    ModalLoop loop = DuctOfModes(2);
-    loop.tau_s *= 1.0 + 0.03 * (gain - 1.3);
-    const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
-    loop.slope = gain / loop.Open(cycle_hz).real();
     const auto seed = static_cast<std::uint64_t>(1000 * rig + point + 1);
-    Record record = SimulateModalLoop(loop, duration_s, seed);
-    if (low_pass) LowPass(kCutoff_hz, record.sampling_hz, &record.heat_release);
-    out.push_back({"point " + std::to_string(point + 1), gain, cycle_hz, std::move(record)});
+    LoopRecord at = DuctAt(gain, duration_s, seed);
+    if (low_pass) LowPass(kCutoff_hz, at.record.sampling_hz, &at.record.heat_release);
+    out.push_back(std::move(at));
   }
   return out;
-}
-
-LoopForm DuctsForm() {
-  LoopForm out;
-  out.structure.modes = 2;
-  out.structure.noise = LeastNoise();
-  return out;
-}
-
-double Median(std::vector<double> x) {
-  if (x.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::ranges::sort(x);
-  return x[x.size() / 2];
 }
 
 void PrintRow(int rigs, int points, double duration_s, bool low_pass) {
@@ -100,11 +84,14 @@ void PrintRow(int rigs, int points, double duration_s, bool low_pass) {
     others += other ? 1 : 0;
     unknown += found.diagnosis.kind == VerdictKind::kUnknown ? 1 : 0;
   }
+  const auto median = [](const std::vector<double>& x) {
+    return x.empty() ? std::numeric_limits<double>::quiet_NaN() : Median(x);
+  };
   std::printf(
       "%4.1f s %2d points %-10s of %d rigs: named %d, others on %d, unknown %d; nats %.0f, error "
       "%.1f; %.0f s a rig%s\n",
       duration_s, points, low_pass ? "low-pass" : "none", rigs, named, others, unknown,
-      Median(nats), Median(errors), (Seconds() - begun) / rigs, which.c_str());
+      median(nats), median(errors), (Seconds() - begun) / rigs, which.c_str());
   std::fflush(stdout);
 }
 

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/analysis/spectra/statistics.h"
 #include "estimation/kept_memory.h"
 #include "tests/estimation/record_fit/identified.h"
 
@@ -30,11 +31,6 @@ struct Tally {
   double bias = 0.0;
   double square = 0.0;
 };
-
-double Median(std::vector<double> x) {
-  std::ranges::nth_element(x, x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2));
-  return x[x.size() / 2];
-}
 
 void Row(int modes, double noise, double sensor_noise, int records, double seconds,
          std::uint64_t seed) {

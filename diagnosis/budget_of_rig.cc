@@ -12,22 +12,17 @@ constexpr double kPapersRatio = 3.0;
 
 struct Stopped {};
 
-// The units of the budget among those of the search before it.
-class UnitsInMemory final : public FitUnits {
+class UnitsUntilStopped final : public UnitsOfPart {
  public:
-  UnitsInMemory(FitMemory* memory, const std::function<bool()>& stopped)
-      : memory_(memory), stopped_(stopped) {}
+  UnitsUntilStopped(FitUnits* memory, const std::function<bool()>& stopped)
+      : UnitsOfPart(memory, "budget/"), stopped_(stopped) {}
 
   std::optional<std::string> Recall(const std::string& key) override {
     if (stopped_ && stopped_()) throw Stopped{};
-    return memory_ ? memory_->Recall("budget/" + key) : std::nullopt;
-  }
-  void Keep(const std::string& key, const std::string& bytes) override {
-    if (memory_) memory_->Keep("budget/" + key, bytes);
+    return UnitsOfPart::Recall(key);
   }
 
  private:
-  FitMemory* memory_;
   const std::function<bool()>& stopped_;
 };
 
@@ -54,7 +49,7 @@ LoopForm PapersForm(int modes) {
 
 std::optional<Budget> BudgetOfRig(const std::vector<DiagnosisExperiment>& experiments, int modes,
                                   const DiagnosisOptions& options) {
-  UnitsInMemory units(options.memory, options.stopped);
+  UnitsUntilStopped units(options.memory, options.stopped);
   LoopBudgetOptions how;
   how.seed = options.seed;
   how.threads = options.threads;

@@ -1,33 +1,12 @@
 #include "diagnosis/diagnosis.h"
 
 #include <limits>
-#include <optional>
-#include <string>
 
 #include "diagnosis/budget_of_rig.h"
 #include "diagnosis/search/choose_modes.h"
 #include "diagnosis/search/search.h"
 
 namespace howl {
-namespace {
-
-// A second search of one run keeps its fits under names of its own.
-class SecondMemory final : public FitMemory {
- public:
-  explicit SecondMemory(FitMemory* first) : first_(first) {}
-  std::optional<std::string> Recall(const std::string& key) override {
-    return first_->Recall("own_delays." + key);
-  }
-  void Keep(const std::string& key, const std::string& bytes) override {
-    first_->Keep("own_delays." + key, bytes);
-  }
-
- private:
-  FitMemory* first_;
-};
-
-}  // namespace
-
 Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
                    const DiagnosisOptions& options) {
   DiagnosisOptions chosen = options;
@@ -41,7 +20,8 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
   Diagnosis out = Search(experiments, chosen).Run();
   const double own_delays_gain = out.own_delays_gain;
   if (DelaysDiffer(own_delays_gain)) {
-    SecondMemory memory(options.memory);
+    // A second search of one run keeps its fits under names of its own.
+    UnitsOfPart memory(options.memory, "own_delays.");
     if (options.memory) chosen.memory = &memory;
     chosen.choose_delays = false;
     chosen.model.own_delays = true;

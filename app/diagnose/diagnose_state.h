@@ -16,7 +16,7 @@ namespace howl {
 // `inputs_sha256`: of all that the fits depend on (InputBytes).
 std::string DiagnoseStateHeader(const std::string& inputs_sha256);
 
-class DiagnoseState final : public FitMemory {
+class DiagnoseState final : public FitUnits {
  public:
   explicit DiagnoseState(UnitStore& store) : store_(store) {}
 

@@ -53,7 +53,7 @@ struct AttemptContext {
   const EffectFit* base = nullptr;
   const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
-  FitMemory* memory = nullptr;
+  FitUnits* memory = nullptr;
   const ReferenceModel* reference = nullptr;         // in the model's place; null: there is none
   const std::vector<CutRecord>* recorded = nullptr;  // before a repair; null: records
   // After a repair: takes a fit to records that the base declipped, and returns one to records that

@@ -132,7 +132,7 @@ std::optional<EffectFit> FromBytes(const std::string& bytes, const std::vector<C
 namespace {
 
 // The fit by FitEffect, unless the memory has it.
-EffectFit FitOrRecall(FitMemory* memory, const std::string& key,
+EffectFit FitOrRecall(FitUnits* memory, const std::string& key,
                       const std::vector<CutRecord>& records, const EffectPointer& effect,
                       const EffectFit& base) {
   if (!memory) return FitEffect(records, effect, base);
@@ -146,7 +146,7 @@ EffectFit FitOrRecall(FitMemory* memory, const std::string& key,
 
 }  // namespace
 
-EffectFit FitBestForm(FitMemory* memory, const std::string& unit,
+EffectFit FitBestForm(FitUnits* memory, const std::string& unit,
                       const std::vector<CutRecord>& records,
                       const std::vector<EffectPointer>& forms, const EffectFit& base) {
   std::optional<EffectFit> best;

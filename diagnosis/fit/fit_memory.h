@@ -9,23 +9,9 @@
 #include <vector>
 
 #include "diagnosis/fit/effect_fit.h"
+#include "estimation/joint_records/fit_units.h"
 
 namespace howl {
-
-// Where fits are kept. Called from several threads at once. What is kept belongs to one set of
-// records and options. A key names one unit of work: it is asked for once a run, and kept once at
-// most; a key that comes twice is a programmer's mistake (UniqueKeys).
-class FitMemory {
- public:
-  virtual ~FitMemory() = default;
-  virtual std::optional<std::string> Recall(const std::string& key) = 0;
-  virtual void Keep(const std::string& key, const std::string& bytes) = 0;
-
- protected:
-  FitMemory() = default;
-  FitMemory(const FitMemory&) = default;
-  FitMemory& operator=(const FitMemory&) = default;
-};
 
 // The keys that a run has asked for, or kept, with a CHECK that none comes twice. It is not safe to
 // use from several threads at once.
@@ -47,7 +33,7 @@ std::optional<EffectFit> FromBytes(const std::string& bytes, const std::vector<C
 
 // The best of an effect's forms (orders of a filter, say), each by FitEffect unless the memory has
 // it under the unit's name and the form's number. Without a memory: by FitEffect.
-EffectFit FitBestForm(FitMemory* memory, const std::string& unit,
+EffectFit FitBestForm(FitUnits* memory, const std::string& unit,
                       const std::vector<CutRecord>& records,
                       const std::vector<EffectPointer>& forms, const EffectFit& base);
 

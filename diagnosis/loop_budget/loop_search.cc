@@ -3,7 +3,6 @@
 #include <glog/logging.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -87,8 +86,7 @@ void Search::Forward(LoopFound* out) const {
 // What pays least goes first, as long as something does not pay. What did not pay a round ago is
 // tried before the rest: where it still does not, what the rest pays need not be known yet.
 void Search::Backward(LoopFound* out) const {
-  std::vector<std::size_t> first(out->steps.size());
-  std::iota(first.begin(), first.end(), std::size_t{0});
+  std::vector<std::size_t> first;
   for (std::size_t round = 0; !out->steps.empty(); ++round) {
     const std::string key = "back/" + std::to_string(round) + "/";
     out->without.assign(out->steps.size(), {});

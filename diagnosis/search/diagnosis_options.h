@@ -34,7 +34,7 @@ struct DiagnosisOptions {
   std::function<void(std::size_t done, std::size_t total)> progress;
   std::function<void(std::size_t done, std::size_t total)> bootstrap_progress;
   std::function<void(std::size_t done, std::size_t total)> budget_progress;
-  FitMemory* memory = nullptr;    // of an interrupted run of the same inputs
+  FitUnits* memory = nullptr;     // of an interrupted run of the same inputs
   std::function<bool()> stopped;  // asked between effects
 };
 

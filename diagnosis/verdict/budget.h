@@ -22,11 +22,11 @@ struct BudgetEntry {
   double gap_before = 0.0;
   double gap_after = 0.0;
   // What is lost when this item alone is taken away and the rest fitted anew.
-  double lost_nats = 0.0;  // of evidence
+  double lost_nats = 0.0;  // of what the other points foretell
   double lost_gap = 0.0;
   std::array<double, 2> lost_on_halves = {};  // nats of what was left out
   std::size_t experiments_better = 0;         // with the item, of what was left out
-  // Items that would have gained as much at this step, within odds of 50 to 1.
+  // Items that would have gained as much at this step, within the odds of a class (odds.h).
   std::vector<std::string> equals;
   std::vector<EstimatedParameter> parameters;
 };

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/verdict/budget.h"
 #include "diagnosis/fit/estimated_parameter.h"
 #include "diagnosis/fit/moved_parameters.h"
 #include "diagnosis/gap/gap_map.h"
 #include "diagnosis/records/base_model.h"
+#include "diagnosis/verdict/budget.h"
 #include "model/effects/effect.h"
 
 namespace howl {

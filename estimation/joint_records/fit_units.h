@@ -7,14 +7,15 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "estimation/record_fit/point_fit.h"
 
 namespace howl {
 
 // Where finished units are. Called from several threads at once. What is kept belongs to one set of
-// records and options; a key has no blanks, and is that of one unit. Recall may throw, to end the
-// work.
+// records and options; a key has no blanks, and is that of one unit: it is asked for once a run,
+// and kept once at most. Recall may throw, to end the work.
 class FitUnits {
  public:
   virtual ~FitUnits() = default;
@@ -25,6 +26,24 @@ class FitUnits {
   FitUnits() = default;
   FitUnits(const FitUnits&) = default;
   FitUnits& operator=(const FitUnits&) = default;
+};
+
+// A part of the work keeps its units among those of the whole, its keys after a prefix of its own.
+// Where there is no memory of the whole, none of the part's units are found or kept.
+class UnitsOfPart : public FitUnits {
+ public:
+  UnitsOfPart(FitUnits* whole, std::string prefix) : whole_(whole), prefix_(std::move(prefix)) {}
+
+  std::optional<std::string> Recall(const std::string& key) override {
+    return whole_ == nullptr ? std::nullopt : whole_->Recall(prefix_ + key);
+  }
+  void Keep(const std::string& key, const std::string& bytes) override {
+    if (whole_ != nullptr) whole_->Keep(prefix_ + key, bytes);
+  }
+
+ private:
+  FitUnits* whole_;
+  std::string prefix_;
 };
 
 std::string PointFitBytes(const PointFit& fit);

@@ -28,17 +28,16 @@ double PointPosterior::Value(const Eigen::VectorXd& parameters) {
 
 Eigen::VectorXd PointPosterior::Gradient(const Eigen::VectorXd& parameters) {
   Eigen::VectorXd out = likelihood_.Gradient(parameters);
-  const PossibleSlopes possible = SlopesOfPossible(record_, structure_, PointAt(parameters));
-  out.head(possible.gradient.size()) += possible.gradient;
+  const Eigen::VectorXd possible = GradientOfPossible(record_, structure_, PointAt(parameters));
+  out.head(possible.size()) += possible;
   return prior_.deviation.cwiseProduct(out) + prior_.Slope(parameters);
 }
 
 Eigen::MatrixXd PointPosterior::Information(const Eigen::VectorXd& parameters) {
   const auto scale = prior_.deviation.asDiagonal();
   Eigen::MatrixXd of_record = likelihood_.Information(parameters);
-  const PossibleSlopes possible = SlopesOfPossible(record_, structure_, PointAt(parameters));
-  const Eigen::Index size = possible.gradient.size();
-  of_record.topLeftCorner(size, size) += possible.information;
+  const Eigen::MatrixXd possible = InformationOfPossible(record_, structure_, PointAt(parameters));
+  of_record.topLeftCorner(possible.rows(), possible.cols()) += possible;
   Eigen::MatrixXd out = scale * of_record * scale;
   out.diagonal() += prior_.Precision(parameters);
   return out;

@@ -126,7 +126,7 @@ TEST(LongBootstrap, OneCandidatesGainOfNoiseIsSmallAndTheSameForAllNumbersOfThre
   EXPECT_EQ(one, GainOfNoise(records, base, rig, forms, options));
 }
 
-class Kept final : public FitMemory {
+class Kept final : public FitUnits {
  public:
   std::optional<std::string> Recall(const std::string& key) override {
     const std::lock_guard<std::mutex> lock(lock_);

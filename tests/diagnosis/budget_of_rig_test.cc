@@ -49,7 +49,7 @@ void ExpectLowPass(const BudgetEntry& entry, std::size_t points) {
   EXPECT_EQ(entry.experiments_better, points);
 }
 
-class Kept final : public FitMemory {
+class Kept final : public FitUnits {
  public:
   std::optional<std::string> Recall(const std::string& key) override {
     const std::lock_guard lock(guard_);

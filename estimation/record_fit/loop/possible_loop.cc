@@ -16,11 +16,37 @@ std::array<double, 4> ToEdges(const RecordSpectra& record, const LoopPoint& poin
           point.path.spread == DelaySpread::kGamma ? point.path.rho : 0.0};
 }
 
-// Of ln(1 - x^2), by ln x: with slopes of ln x.
-void Add(double x, const Eigen::VectorXd& slopes, PossibleSlopes* out) {
-  const double left = 1.0 - x * x;
-  out->gradient -= 2.0 * x * x / left * slopes;
-  out->information += 4.0 * x * x / (left * left) * slopes * slopes.transpose();
+// Calls `take` with each x that is not nothing, and the slopes of ln x.
+template <typename Take>
+void ForEachEdge(const RecordSpectra& record, const PointStructure& structure,
+                 const LoopPoint& point, const Take& take) {
+  const LoopTail tail(record, point);
+  const auto [of_constant, of_loop, of_delay, of_spread] = ToEdges(record, point, tail);
+  const Eigen::VectorXd by_flame = record.slopes / record.slopes.dot(point.flame);
+  Eigen::VectorXd by = Eigen::VectorXd::Zero(structure.Flame() + by_flame.size());
+  if (of_constant > 0.0) {
+    by.segment(structure.Frequencies() + structure.Dampings(), structure.modes)
+        .setConstant(1.0 / SumOfResidues(point));
+    for (Eigen::Index i = 0; i < structure.Delays(); ++i) {
+      by[structure.Delay() + i] = tail.loop.slopes.by[static_cast<std::size_t>(i)].real();
+    }
+    by.tail(by_flame.size()) = by_flame;
+    take(of_constant, by);
+  }
+  if (of_loop > 0.0) {
+    by.setZero();
+    tail.loop.AddSlopes(structure, point, 1.0 / tail.loop.u, &by);
+    by.tail(by_flame.size()) = by_flame;
+    take(of_loop, by);
+  }
+  by.setZero();
+  by[structure.Delay()] = -1.0;
+  take(of_delay, by);
+  if (of_spread > 0.0) {
+    by.setZero();
+    by[structure.Delay() + 1] = 1.0;
+    take(of_spread, by);
+  }
 }
 
 }  // namespace
@@ -41,38 +67,24 @@ double LogDensityOfPossible(const RecordSpectra& record, const LoopPoint& point)
   return out;
 }
 
-PossibleSlopes SlopesOfPossible(const RecordSpectra& record, const PointStructure& structure,
-                                const LoopPoint& point) {
-  const LoopTail tail(record, point);
-  const auto [of_constant, of_loop, of_delay, of_spread] = ToEdges(record, point, tail);
-  const double slope = record.slopes.dot(point.flame);
+// Of ln(1 - x^2), by ln x: -2 x^2 / (1 - x^2), and the fall of that by ln x.
+Eigen::VectorXd GradientOfPossible(const RecordSpectra& record, const PointStructure& structure,
+                                   const LoopPoint& point) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(structure.Flame() + record.slopes.size());
+  ForEachEdge(record, structure, point, [&](double x, const Eigen::VectorXd& slopes) {
+    out -= 2.0 * x * x / (1.0 - x * x) * slopes;
+  });
+  return out;
+}
+
+Eigen::MatrixXd InformationOfPossible(const RecordSpectra& record, const PointStructure& structure,
+                                      const LoopPoint& point) {
   const Eigen::Index size = structure.Flame() + record.slopes.size();
-  const Eigen::VectorXd by_flame = record.slopes / slope;
-  PossibleSlopes out{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
-  if (of_constant > 0.0) {
-    Eigen::VectorXd by = Eigen::VectorXd::Zero(size);
-    by.segment(structure.Frequencies() + structure.Dampings(), structure.modes)
-        .setConstant(1.0 / SumOfResidues(point));
-    for (Eigen::Index i = 0; i < structure.Delays(); ++i) {
-      by[structure.Delay() + i] = tail.loop.slopes.by[static_cast<std::size_t>(i)].real();
-    }
-    by.tail(by_flame.size()) = by_flame;
-    Add(of_constant, by, &out);
-  }
-  if (of_loop > 0.0) {
-    Eigen::VectorXd by = Eigen::VectorXd::Zero(size);
-    tail.loop.AddSlopes(structure, point, 1.0 / tail.loop.u, &by);
-    by.tail(by_flame.size()) = by_flame;
-    Add(of_loop, by, &out);
-  }
-  Eigen::VectorXd by = Eigen::VectorXd::Zero(size);
-  by[structure.Delay()] = -1.0;
-  Add(of_delay, by, &out);
-  if (of_spread > 0.0) {
-    by.setZero();
-    by[structure.Delay() + 1] = 1.0;
-    Add(of_spread, by, &out);
-  }
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
+  ForEachEdge(record, structure, point, [&](double x, const Eigen::VectorXd& slopes) {
+    const double left = 1.0 - x * x;
+    out += 4.0 * x * x / (left * left) * slopes * slopes.transpose();
+  });
   return out;
 }
 

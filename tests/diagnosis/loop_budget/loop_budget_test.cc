@@ -12,30 +12,16 @@
 
 #include "diagnosis/loop_budget/loop_item.h"
 #include "model/numerics/fft.h"
-#include "tests/estimation/record_fit/modal_loop.h"
+#include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {
 namespace {
 
-// Three operating points; their parameter is the loop's gain.
 std::vector<LoopRecord> DuctsRecords() {
   std::vector<LoopRecord> out;
   for (const double gain : {1.2, 1.5, 1.8}) {
-    ModalLoop loop = DuctOfModes(2);
-    loop.tau_s *= 1.0 + 0.03 * (gain - 1.3);
-    loop.slope = gain / loop.Open(CycleFrequency(loop, 150.0, 300.0)).real();
-    const auto seed = static_cast<std::uint64_t>(100.0 * gain);
-    out.push_back({"gain " + std::to_string(gain), gain, CycleFrequency(loop, 150.0, 300.0),
-                   SimulateModalLoop(loop, 0.8, seed)});
+    out.push_back(DuctAt(gain, 0.8, static_cast<std::uint64_t>(100.0 * gain)));
   }
-  return out;
-}
-
-// The duct's own: two free modes with complex residues, driven by dp/dt.
-LoopForm DuctsForm() {
-  LoopForm out;
-  out.structure.modes = 2;
-  out.structure.noise = LeastNoise();
   return out;
 }
 

@@ -48,19 +48,19 @@ class PossibleLoopTest : public testing::TestWithParam<std::tuple<FlameInput, De
 
 TEST_P(PossibleLoopTest, SlopesAreThoseOfTheDensity) {
   ASSERT_TRUE(IsPossible(record_, At(parameters_)));
-  const PossibleSlopes slopes = SlopesOfPossible(record_, structure_, At(parameters_));
-  ASSERT_EQ(slopes.gradient.size(), structure_.FlameLine(record_.flame.cols()));
-  for (Eigen::Index i = 0; i < slopes.gradient.size(); ++i) {
+  const Eigen::VectorXd slopes = GradientOfPossible(record_, structure_, At(parameters_));
+  ASSERT_EQ(slopes.size(), structure_.FlameLine(record_.flame.cols()));
+  for (Eigen::Index i = 0; i < slopes.size(); ++i) {
     const double slope = (Density(i, kStep) - Density(i, -kStep)) / (2.0 * kStep);
-    EXPECT_NEAR(slopes.gradient[i], slope, 1e-6 * (1.0 + std::abs(slope))) << "parameter " << i;
+    EXPECT_NEAR(slopes[i], slope, 1e-6 * (1.0 + std::abs(slope))) << "parameter " << i;
   }
 }
 
 // Along the flame's strength every x but that of the delay is proportional: with it alone
 // - d^2 ln(1 - x^2) / d (ln x)^2 = 4 x^2 / (1 - x^2)^2 is the information.
 TEST_P(PossibleLoopTest, InformationIsTheCurvatureAlongTheFlamesStrength) {
-  const PossibleSlopes slopes = SlopesOfPossible(record_, structure_, At(parameters_));
-  Eigen::VectorXd strength = Eigen::VectorXd::Zero(slopes.gradient.size());
+  const Eigen::MatrixXd information = InformationOfPossible(record_, structure_, At(parameters_));
+  Eigen::VectorXd strength = Eigen::VectorXd::Zero(information.rows());
   strength.tail(record_.flame.cols()) = Flame();
   const auto density = [&](double log_strength) {
     Eigen::VectorXd moved = parameters_;
@@ -70,7 +70,7 @@ TEST_P(PossibleLoopTest, InformationIsTheCurvatureAlongTheFlamesStrength) {
   constexpr double kWide = 1e-4;
   const double curvature =
       (2.0 * density(0.0) - density(kWide) - density(-kWide)) / (kWide * kWide);
-  EXPECT_NEAR(strength.dot(slopes.information * strength), curvature, 1e-4 * curvature);
+  EXPECT_NEAR(strength.dot(information * strength), curvature, 1e-4 * curvature);
 }
 
 TEST_P(PossibleLoopTest, VanishesAtTheEdgeOfWhatTheDeterminantAllows) {
