@@ -22,9 +22,9 @@
 // and only where no mode is far above the band. Each of the two is too large where it is wrong: the
 // smaller one is taken, smoothly, as -ln(e^-a + e^-b) + ln 2.
 //
-// The sum goes over an octave above the band bin by bin. Beyond, from omega_2 on, U is D_tau times
-// a constant K / D_tau, which there is if dp/dt drives the flame, and what falls off as 1 /
-// omega^m:
+// The sum goes over an octave above the band by intervals, D being straight in each. Beyond, from
+// omega_2 on, U is D_tau times a constant K / D_tau, which there is if dp/dt drives the flame, and
+// what falls off as 1 / omega^m:
 //
 //   integral of ln |D| = - Re [ Li2(K) / j l + (Li2(U) - Li2(K)) / (m / omega_2 + j l) ]
 //

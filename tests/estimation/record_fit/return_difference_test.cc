@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
 
+#include "estimation/record_fit/loop/beside_band.h"
 #include "estimation/record_fit/loop/loop_tail.h"
 #include "tests/estimation/record_fit/identified.h"
 
@@ -115,6 +117,38 @@ TEST_F(Jacobian, OfALoopWithTwoPathsIsTheSumOverTheBand) {
       EXPECT_NEAR(LogDeterminant(record_, point_), InBand(), 0.04 * magnitude)
           << share << " " << lambda;
     }
+  }
+}
+
+// Above the band, with a gain that lets the return difference vanish there, wherever between the
+// points of the sum: against the integral of its logarithm by a thousand times as many.
+TEST_F(Jacobian, IsTheIntegralWhereTheReturnDifferenceVanishesAboveTheBand) {
+  constexpr int kSteps = 160000;
+  point_.path.tau = 0.6;
+  const double highest = record_.s[record_.bins() - 1].imag();
+  const double bins = 2.0 * record_.share[0] * record_.scale.cycle_hz / record_.bin_hz;
+  const auto integral = [&](double from, double to) {
+    const double step = (to - from) / kSteps;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      sum += step * std::log(std::abs(D({0.0, from + (i + 0.5) * step})));
+    }
+    return sum;
+  };
+  for (int shift = 0; shift < 8; ++shift) {
+    point_.modes[1] = {1.5 * highest * (1.0 + 0.002 * shift), 0.03, 1.0, 0.0};
+    point_.flame[0] = 1.0;
+    const auto u = [&](int i) { return 1.0 - D({0.0, highest * (1.0 + i / 1e5)}); };
+    double most = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+      if (u(i).imag() * u(i + 1).imag() < 0.0) most = std::max(most, u(i).real());
+    }
+    ASSERT_GT(most, 0.0);
+    point_.flame[0] = 1.0 / most;
+    const LoopTail tail(record_, point_);
+    const double expected = bins * (tail.Value().real() - integral(0.0, record_.s[0].imag()) -
+                                    integral(highest, 2.0 * highest));
+    EXPECT_NEAR(BesideBand(record_, point_, tail), expected, 0.5) << shift;
   }
 }
 
