@@ -131,7 +131,7 @@ void PrintTable(const LoopRecords& records, const std::vector<Row>& rows) {
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
-  const LoopRecords records(LoopRecordsOf(rig), 0);
+  const LoopRecords recorded(LoopRecordsOf(rig), 0);
   std::vector<Row> rows;
   std::vector<double> first;
   for (const FlameInput input : kInputs) {
@@ -142,8 +142,11 @@ int Run(int argc, char** argv) {
       if (!Asked("STRUCTURES", each.name)) continue;
       const double begun = Seconds();
       LoopFit fit{{each.structure, input}, {}, {}};
-      const std::vector<OperatingPoint> points = records.Points(fit.model);
+      std::vector<OperatingPoint> points = recorded.Points(fit.model);
       fit.fit = FitRecords(points, each.structure, {}, before.empty() ? nullptr : &poorer);
+      LoopRecords records = recorded;
+      records.DriveWithout(PressureNoiseOf(points, fit.fit, 0), 0);
+      fit.fit = FitDriven(fit.fit, {}, &points);
       const double fitted = Seconds();
       fit.log_density = LeftOutDensities(points, fit.fit);
       if (first.empty()) first = fit.log_density;
@@ -167,7 +170,7 @@ int Run(int argc, char** argv) {
       poorer = std::move(fit.fit);
     }
   }
-  PrintTable(records, rows);
+  PrintTable(recorded, rows);
   return 0;
 }
 

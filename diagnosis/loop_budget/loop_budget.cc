@@ -161,8 +161,8 @@ std::string AdviceOf(const LoopDiagnosis& found) {
 
 LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& base,
                             const LoopBudgetOptions& options) {
-  const LoopRecords records(all, options.threads);
-  const LoopFound found = SearchLoopBudget(records, base, options);
+  const LoopFound found = SearchLoopBudget(LoopRecords(all, options.threads), base, options);
+  const LoopRecords& records = found.records;
   LoopDiagnosis out;
   out.base = base;
   out.best = found.best.model;

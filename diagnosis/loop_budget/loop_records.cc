@@ -51,6 +51,19 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   });
 }
 
+void LoopRecords::DriveWithout(const std::vector<Eigen::VectorXd>& noise, int threads) {
+  RunUnits(spectra_.size() * size(), threads, [&](std::size_t i) {
+    const std::size_t e = i % size();
+    Spectra& spectra = spectra_[i / size()];
+    const auto drive = [&](RecordSpectra* record, Eigen::Index first) {
+      *record = DrivenWithout(std::move(*record), noise[e].segment(first, record->Samples()));
+    };
+    drive(&spectra.points[e].record, 0);
+    drive(&spectra.halves[e][0], 0);
+    drive(&spectra.halves[e][1], spectra.halves[e][0].Samples());
+  });
+}
+
 std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
   std::vector<OperatingPoint> out = Of(form.flame_input).points;
   for (OperatingPoint& point : out) point.record = Without(form, std::move(point.record));

@@ -23,6 +23,7 @@ struct LoopRecord {
 
 class LoopRecords {
  public:
+  LoopRecords() = default;
   LoopRecords(const std::vector<LoopRecord>& records, int threads);
 
   std::size_t size() const { return names_.size(); }
@@ -40,6 +41,9 @@ class LoopRecords {
   // Of the change from what was recorded to what `form` is fitted to.
   double LogJacobianOfWhole(const LoopForm& form, std::size_t e) const;
   double LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const;
+
+  // From now on the flames are driven by p without this noise (PressureNoiseOf) of each point.
+  void DriveWithout(const std::vector<Eigen::VectorXd>& noise, int threads);
 
  private:
   struct Spectra {

@@ -26,15 +26,16 @@ std::size_t ModeOf(const std::vector<LoopStep>& steps, std::size_t which, const 
 
 class Search {
  public:
-  Search(const LoopRecords& records, const LoopForm& base, const LoopBudgetOptions& options)
-      : records_(records), base_(base), options_(options) {}
+  Search(LoopRecords records, const LoopForm& base, const LoopBudgetOptions& options)
+      : records_(std::move(records)), base_(base), options_(options) {}
 
-  LoopFound Run() const;
+  LoopFound Run();
 
  private:
-  LoopFit FitBase() const;
-  void Forward(LoopFound* out) const;
-  void Backward(LoopFound* out) const;
+  LoopFit FitBase();
+  LoopFit Driven(const LoopFit& fit, const std::string& key);
+  void Forward(LoopFound* out);
+  void Backward(LoopFound* out);
   void TakeAway(const std::vector<std::size_t>& which, const std::string& key,
                 LoopFound* out) const;
   static std::vector<std::size_t> Idle(const LoopFound& found);
@@ -42,15 +43,25 @@ class Search {
                   const std::string& key) const;
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
 
-  const LoopRecords& records_;
+  LoopRecords records_;
   const LoopForm& base_;
   const LoopBudgetOptions& options_;
 };
 
-LoopFit Search::FitBase() const {
+// With the flames driven as `fit` has it from now on.
+LoopFit Search::Driven(const LoopFit& fit, const std::string& key) {
+  records_.DriveWithout(PressureNoiseOf(records_.Points(fit.model), fit.fit, options_.threads),
+                        options_.threads);
+  return FitLoopFrom(records_, fit.model, {ParametersOf(fit)}, MaximumTaken::kNext, key + "driven/",
+                     options_);
+}
+
+LoopFit Search::FitBase() {
   const RecordsFitOptions fit_options = FitOptionsOf(options_, "base/");
   const std::vector<OperatingPoint> points = records_.Points(base_);
-  return Scored(records_, base_, FitRecords(points, base_.structure, fit_options), fit_options);
+  const LoopFit fit =
+      Scored(records_, base_, FitRecords(points, base_.structure, fit_options), fit_options);
+  return Driven(fit, "base/");
 }
 
 LoopFit Search::Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
@@ -69,11 +80,12 @@ LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const
                      key, options_);
 }
 
-void Search::Forward(LoopFound* out) const {
+void Search::Forward(LoopFound* out) {
   ForwardSearch forward(records_, base_, options_);
   while (out->steps.size() < kMostItems) {
     std::optional<LoopStep> next = forward.Next(out->best, out->steps);
     if (!next) break;
+    next->after = Driven(next->after, "step/" + std::to_string(out->steps.size()) + "/");
     out->best = next->after;
     out->steps.push_back(std::move(*next));
   }
@@ -85,7 +97,7 @@ void Search::Forward(LoopFound* out) const {
 
 // What pays least goes first, as long as something does not pay. What did not pay a round ago is
 // tried before the rest: where it still does not, what the rest pays need not be known yet.
-void Search::Backward(LoopFound* out) const {
+void Search::Backward(LoopFound* out) {
   std::vector<std::size_t> first;
   for (std::size_t round = 0; !out->steps.empty(); ++round) {
     const std::string key = "back/" + std::to_string(round) + "/";
@@ -102,7 +114,7 @@ void Search::Backward(LoopFound* out) const {
     }
     if (idle.empty()) return;
     const std::size_t least = idle[0];
-    out->best = out->without[least];
+    out->best = Driven(out->without[least], key);
     out->steps.erase(out->steps.begin() + static_cast<std::ptrdiff_t>(least));
     first.clear();
     for (const std::size_t i : idle) {
@@ -136,7 +148,7 @@ std::vector<std::size_t> Search::Idle(const LoopFound& found) {
   return out;
 }
 
-LoopFound Search::Run() const {
+LoopFound Search::Run() {
   LoopFound out;
   out.base = FitBase();
   out.best = out.base;
@@ -144,14 +156,15 @@ LoopFound Search::Run() const {
   Backward(&out);
   out.with_acoustic_lines = WithLines(out.best, &PointStructure::acoustic_lines, "acoustic_lines/");
   out.with_flame_lines = WithLines(out.best, &PointStructure::flame_lines, "flame_lines/");
+  out.records = std::move(records_);
   return out;
 }
 
 }  // namespace
 
-LoopFound SearchLoopBudget(const LoopRecords& records, const LoopForm& base,
+LoopFound SearchLoopBudget(LoopRecords records, const LoopForm& base,
                            const LoopBudgetOptions& options) {
-  return Search(records, base, options).Run();
+  return Search(std::move(records), base, options).Run();
 }
 
 }  // namespace howl

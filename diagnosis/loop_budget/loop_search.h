@@ -8,6 +8,9 @@
 // over passes for effects. Errors at the cycle's lines come where nothing else pays: were they
 // there from the beginning, they would hide what the lines tell of the flame. What pays beside them
 // then is looked for as before.
+//
+// The flames are driven by p without the noise that the loop which stands finds there
+// (pressure_noise.h): whatever is tried beside it is driven so too.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
 
@@ -18,6 +21,7 @@
 namespace howl {
 
 struct LoopFound {
+  LoopRecords records;  // with the flames driven as `best` has it
   LoopFit base;
   std::vector<LoopStep> steps;  // of the items that stayed
   LoopFit best;
@@ -29,7 +33,7 @@ struct LoopFound {
   LoopFit with_flame_lines;
 };
 
-LoopFound SearchLoopBudget(const LoopRecords& records, const LoopForm& base,
+LoopFound SearchLoopBudget(LoopRecords records, const LoopForm& base,
                            const LoopBudgetOptions& options);
 
 }  // namespace howl

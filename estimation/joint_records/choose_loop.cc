@@ -16,7 +16,6 @@ constexpr std::size_t kMostWithoutGain = 2;
 void TryInput(FlameInput input, std::vector<OperatingPoint> points, const RecordLoopSpec& spec,
               const RecordsFitOptions& options, ChosenLoop* out) {
   std::optional<RecordsFit> before;
-  bool better = false;
   std::size_t without_gain = 0;
   double most = 0.0;
   const int first = spec.choose_modes ? 1 : spec.modes;
@@ -27,6 +26,7 @@ void TryInput(FlameInput input, std::vector<OperatingPoint> points, const Record
     RecordsFitOptions of_these = options;
     of_these.key += "modes/" + std::to_string(modes) + "/";
     RecordsFit fit = FitRecords(points, StructureOf(spec, modes), of_these, poorer);
+    fit = FitDriven(fit, of_these, &points);
     out->tried.push_back({input, modes, LeftOutDensities(points, fit, of_these)});
     const double now = out->tried.back().Sum();
     without_gain = modes == first || now > most ? 0 : without_gain + 1;
@@ -34,11 +34,10 @@ void TryInput(FlameInput input, std::vector<OperatingPoint> points, const Record
     if (out->tried.size() == 1 || now > out->tried[out->chosen].Sum()) {
       out->chosen = out->tried.size() - 1;
       out->fit = fit;
-      better = true;
+      out->points = points;
     }
     before = std::move(fit);
   }
-  if (better) out->points = std::move(points);
 }
 
 }  // namespace

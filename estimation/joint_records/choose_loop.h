@@ -23,7 +23,8 @@ struct LoopTried {
 };
 
 struct ChosenLoop {
-  std::vector<OperatingPoint> points;  // made ready for the flame's input that was chosen
+  // Made ready for the flame's input that was chosen, and driven as the loop has it (FitDriven).
+  std::vector<OperatingPoint> points;
   RecordsFit fit;
   std::vector<LoopTried> tried;  // by input, in the order of modes
   std::size_t chosen = 0;        // in tried

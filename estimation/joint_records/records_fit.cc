@@ -8,6 +8,7 @@
 #include "estimation/joint_records/records_fitter.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
+#include "estimation/record_fit/loop/pressure_noise.h"
 
 namespace howl {
 std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,
@@ -46,6 +47,30 @@ RecordsFit FitRecordsFrom(const std::vector<OperatingPoint>& points,
   const RecordsFitter fitter(points, structure, ReferenceOf(points), Standardised(points),
                              options.threads);
   return FitUnderLaw(fitter, points, starts, options);
+}
+
+std::vector<Eigen::VectorXd> PressureNoiseOf(const std::vector<OperatingPoint>& points,
+                                             const RecordsFit& fit, int threads) {
+  std::vector<Eigen::VectorXd> out(points.size());
+  RunUnits(points.size(), threads, [&](std::size_t e) {
+    out[e] = PressureNoise(points[e].record, fit.structure, fit.points[e].parameters);
+  });
+  return out;
+}
+
+RecordsFit FitDriven(const RecordsFit& fit, const RecordsFitOptions& options,
+                     std::vector<OperatingPoint>* points) {
+  const std::vector<Eigen::VectorXd> noise = PressureNoiseOf(*points, fit, options.threads);
+  StartRows starts(1);
+  for (std::size_t e = 0; e < points->size(); ++e) {
+    RecordSpectra& record = (*points)[e].record;
+    record = DrivenWithout(std::move(record), noise[e]);
+    starts[0].push_back(fit.points[e].parameters);
+  }
+  RecordsFitOptions next = options;
+  next.key += "driven/";
+  next.other_maxima = false;
+  return FitRecordsFrom(*points, fit.structure, starts, next);
 }
 
 std::vector<double> LeftOutDensities(const std::vector<OperatingPoint>& points,

@@ -65,6 +65,15 @@ RecordsFit FitRecordsFrom(const std::vector<OperatingPoint>& points,
                           const PointStructure& structure, const StartRows& starts,
                           const RecordsFitOptions& options = {});
 
+// What of each record of p is noise, as `fit` has it (pressure_noise.h).
+std::vector<Eigen::VectorXd> PressureNoiseOf(const std::vector<OperatingPoint>& points,
+                                             const RecordsFit& fit, int threads);
+
+// `fit` taken further, with the flames driven by p without the noise that it finds there
+// (record_spectra.h), as `points` have it from then on.
+RecordsFit FitDriven(const RecordsFit& fit, const RecordsFitOptions& options,
+                     std::vector<OperatingPoint>* points);
+
 // Where fits of a structure that contains that of `poorer` may begin: a row for each point whose
 // further modes all may have (richer_structure.h), one row where there are none.
 StartRows StartsInRicher(const std::vector<OperatingPoint>& points, const RecordsFit& poorer,

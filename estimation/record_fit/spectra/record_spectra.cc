@@ -22,8 +22,7 @@ using C = std::complex<double>;
 constexpr double kLowestOfCycle = 0.15;
 constexpr double kHighestOfCycle = 6.4;
 constexpr double kHighestOfSampling = 0.4;
-constexpr double kFilterEdge = 1.05;   // of the band's upper end
-constexpr double kFilterWidth = 0.25;  // of the edge
+constexpr double kFilterEdge = 0.8;  // of the band's upper end, where the filter ends
 constexpr double kRangeOverLargest = 1.02;
 // Of the cycle: where the record's end meets its beginning the filtered input has a spike, which no
 // flame saw. It is gone after the filter's own memory, half a period.
@@ -67,18 +66,23 @@ struct Band {
   }
 };
 
-// The flame's input in time.
-Eigen::VectorXd InputOf(const Eigen::VectorXcd& pressure, FlameInput input, double bin_of_cycle,
-                        double edge, Eigen::Index samples) {
-  Eigen::VectorXcd spectrum = pressure;
+// The flame's input in time, from p less its sensor's noise.
+Eigen::VectorXd InputOf(const RecordSpectra& record, const Eigen::VectorXcd& noise) {
+  const Eigen::Index first = record.below.size();
+  const Eigen::Index last = first + record.bins();
+  const double bin = record.bin_hz / record.scale.cycle_hz;
+  const double edge = kFilterEdge * static_cast<double>(last);
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.Samples() / 2 + 1);
+  spectrum.head(first) = record.below;
+  spectrum.segment(first, noise.size()) = record.pressure - noise;
   spectrum[0] = 0.0;
-  for (Eigen::Index k = 1; k < spectrum.size(); ++k) {
-    const double f = static_cast<double>(k) * bin_of_cycle;
-    const double over = std::clamp((f - edge) / (kFilterWidth * edge), 0.0, 1.0);
-    spectrum[k] *=
-        FlameInputResponse(input, C(0.0, f)) * 0.5 * (1.0 + std::cos(std::numbers::pi * over));
+  for (Eigen::Index k = 1; k <= last; ++k) {
+    const auto at = static_cast<double>(k);
+    const double over = std::max(at - edge, 0.0) / (static_cast<double>(last) - edge);
+    spectrum[k] *= FlameInputResponse(record.flame_input, C(0.0, at * bin)) * 0.5 *
+                   (1.0 + std::cos(std::numbers::pi * over));
   }
-  return Signal(std::move(spectrum), samples);
+  return Signal(std::move(spectrum), record.Samples());
 }
 
 // The largest size of the input but at the record's ends.
@@ -89,15 +93,50 @@ double LargestInside(const Eigen::VectorXd& v, double bin_of_cycle) {
   return v.segment(end, v.size() - 2 * end).cwiseAbs().maxCoeff();
 }
 
+// The flame's functions of p less this noise.
+void SetFlame(const Eigen::VectorXcd& noise, const FlamePrior& prior, RecordSpectra* out) {
+  RecordScale& scale = out->scale;
+  const Band band{out->below.size(), out->bins()};
+  const Eigen::VectorXd v = InputOf(*out, noise);
+  if (scale.input_range == 0.0) {
+    scale.input_range = kRangeOverLargest * LargestInside(v, out->bin_hz / scale.cycle_hz);
+  }
+  const FlameBasis basis(scale.input_range);
+  const double step = 1e-4 * scale.input_range;
+  const Eigen::VectorXd rises =
+      (basis.Columns(v.array() + step) - basis.Columns(v.array() - step)).colwise().mean() /
+      (2.0 * step);
+  const Eigen::VectorXcd rest =
+      out->edge_s.unaryExpr([&](C s) { return FlameInputResponse(out->flame_input, s); })
+          .cwiseProduct(out->pressure) -
+      band.Of(Spectrum(v));
+  const Eigen::MatrixXd splines = basis.Columns(v);
+  Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
+  for (Eigen::Index k = 0; k < splines.cols(); ++k) {
+    spectra.col(k) = band.Of(Spectrum(splines.col(k))) + rises[k] * rest;
+  }
+  const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
+  const Eigen::MatrixXd at_rest = basis.Columns(about_rest);
+  if (scale.functions.size() == 0) {
+    const double size = std::sqrt(v.squaredNorm() / static_cast<double>(v.size()));
+    FlameFunctions flame = SmoothFlames(prior, basis, spectra, size);
+    scale.functions = std::move(flame.of_splines);
+    scale.flame_deviation = std::move(flame.deviation);
+  }
+  out->flame = spectra * scale.functions;
+  out->slopes = scale.functions.transpose() * rises;
+  out->rest_slopes =
+      scale.functions.transpose() * (at_rest.row(0) - at_rest.row(1)).transpose() / (2.0 * step);
+}
+
 RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
                    const FlamePrior& prior) {
   CHECK_EQ(record.pressure.size(), record.heat_release.size());
   RecordSpectra out;
   out.flame_input = input;
   const Eigen::VectorXd p = Centred(record.pressure, scale.pressure);
-  const Eigen::Index samples = p.size();
   out.sampling_hz = record.sampling_hz;
-  out.bin_hz = record.sampling_hz / static_cast<double>(samples);
+  out.bin_hz = record.sampling_hz / static_cast<double>(p.size());
   const double bin_of_cycle = out.bin_hz / scale.cycle_hz;
   const double highest =
       std::min(kHighestOfCycle, kHighestOfSampling * record.sampling_hz / scale.cycle_hz);
@@ -106,6 +145,7 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
       static_cast<Eigen::Index>(std::ceil(kLowestOfCycle / bin_of_cycle)), 1);
   band.count = static_cast<Eigen::Index>(highest / bin_of_cycle) - band.first;
   const Eigen::VectorXcd pressure = Spectrum(p);
+  out.below = pressure.head(band.first);
   out.pressure = band.Of(pressure);
   out.heat_release = band.Of(Spectrum(Centred(record.heat_release, scale.heat_release)));
   const Eigen::VectorXd middle =
@@ -120,31 +160,8 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
   out.position =
       2.0 * (middle.array() / middle[0]).log() / std::log(middle[band.count - 1] / middle[0]) - 1.0;
   out.share = Eigen::VectorXd::Constant(band.count, kSineTaperShare);
-  const Eigen::VectorXd v = InputOf(pressure, input, bin_of_cycle, kFilterEdge * highest, samples);
-  if (scale.input_range == 0.0)
-    scale.input_range = kRangeOverLargest * LargestInside(v, bin_of_cycle);
-  const FlameBasis basis(scale.input_range);
-  Eigen::MatrixXd splines = basis.Columns(v);
-  Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
-  for (Eigen::Index k = 0; k < splines.cols(); ++k) {
-    spectra.col(k) = band.Of(Spectrum(splines.col(k)));
-  }
-  const double step = 1e-4 * scale.input_range;
-  const Eigen::MatrixXd rises =
-      (basis.Columns(v.array() + step) - basis.Columns(v.array() - step)) / (2.0 * step);
-  const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
-  const Eigen::MatrixXd at_rest = basis.Columns(about_rest);
-  if (scale.functions.size() == 0) {
-    const double size = std::sqrt(v.squaredNorm() / static_cast<double>(samples));
-    FlameFunctions flame = SmoothFlames(prior, basis, spectra, size);
-    scale.functions = std::move(flame.of_splines);
-    scale.flame_deviation = std::move(flame.deviation);
-  }
-  out.flame = spectra * scale.functions;
-  out.slopes = scale.functions.transpose() * rises.colwise().mean().transpose();
-  out.rest_slopes =
-      scale.functions.transpose() * (at_rest.row(0) - at_rest.row(1)).transpose() / (2.0 * step);
   out.scale = std::move(scale);
+  SetFlame(Eigen::VectorXcd::Zero(band.count + 1), prior, &out);
   return out;
 }
 
@@ -183,6 +200,13 @@ RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInpu
 
 RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like) {
   return Make(record, like.scale, like.flame_input, {});
+}
+
+RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise) {
+  CHECK_EQ(noise.size(), record.Samples());
+  const Band band{record.below.size(), record.bins()};
+  SetFlame(band.Of(Spectrum(noise)), {}, &record);
+  return record;
 }
 
 }  // namespace howl

@@ -1,8 +1,14 @@
 // A record made ready for the likelihood of its loop (whittle.h): both signals on one band of bins,
 // and what the flame is driven by.
 //
-//   v = dp/dt, p or the integral of p (FlameInput), of recorded p below 1.3 of the band's upper end
+//   v = dp/dt, p or the integral of p (FlameInput), of recorded p up to the band's upper end
 //   q(t) = sum_k c_k b_k(v(t - tau)) + noise
+//
+// Of p a flame does not see its sensor's noise, which a curve would mix into all frequencies, and
+// foretell of q what is not there. So b_k are of v less that noise (DrivenWithout), as far as it is
+// known (pressure_noise.h), and less what lies above the band; beside them stands what both leave
+// out of v, times the mean of d b_k / d v: about the cycle the answer to all of recorded p is F P,
+// as the likelihood has it (whittle.h).
 //
 // b_k are cubic splines of v (flame_basis.h), combined so that over the band their spectra are
 // orthogonal and as large as recorded q's. The band reaches from 0.15 to 6.4 of the cycle's
@@ -62,6 +68,7 @@ struct RecordSpectra {
   // Of the transform, one more than there are bins: j f, P, Q, and b_k without delay, one column
   // each.
   Eigen::VectorXcd edge_s;
+  Eigen::VectorXcd below;  // P from 0 to the band's lower end
   Eigen::VectorXcd pressure;
   Eigen::VectorXcd heat_release;
   Eigen::MatrixXcd flame;
@@ -70,6 +77,7 @@ struct RecordSpectra {
   Eigen::VectorXd share;        // what each bin counts for
 
   Eigen::Index bins() const { return s.size(); }
+  Eigen::Index Samples() const { return std::lround(sampling_hz / bin_hz); }
   // What a state of one unit, that begins with the record, has in its spectrum but for 1 / s.
   double OneSample() const {
     const double samples = sampling_hz / bin_hz;
@@ -82,6 +90,9 @@ RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInpu
                                 const FlamePrior& flame = {});
 // The same record, or another part of it, in the units and with the flame's functions of `like`.
 RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like);
+
+// With the flame's functions of p less this noise, over p's unit, one value a sample.
+RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise);
 
 // A spectrum of the transform's bins under the taper.
 inline Eigen::VectorXcd Tapered(const Eigen::VectorXcd& x) {

@@ -1,0 +1,79 @@
+#include "estimation/record_fit/loop/pressure_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+#include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/record_fit/whittle/noise_covariance.h"
+#include "model/numerics/fft.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+// E^H Sigma^-1 E of a right loop is half of chi-squared with four degrees of freedom, beyond t with
+// probability (1 + t) e^-t: 1e-4.
+constexpr double kMostOfNoise = 11.76;
+// Where the taper is smaller than this, the noise is left small.
+constexpr double kLeastTaper = 0.1;
+
+// How much of it recorded p shows.
+double ShareInPressure(LoopNoise source, double background_ratio) {
+  if (IsOfPressure(source)) return 1.0;
+  return source == LoopNoise::kBackground ? background_ratio : 0.0;
+}
+
+// The real signal of which these are the bins from `first` on.
+Eigen::VectorXd Signal(const Eigen::VectorXcd& bins, Eigen::Index first, Eigen::Index samples) {
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(samples / 2 + 1);
+  spectrum.segment(first, bins.size()) = bins * std::sqrt(static_cast<double>(samples));
+  Eigen::VectorXd out(samples);
+  Fft().Inverse(std::span(spectrum.data(), static_cast<std::size_t>(spectrum.size())),
+                std::span(out.data(), static_cast<std::size_t>(out.size())));
+  return out;
+}
+
+// The signal that has these bins under the taper: each is a bin of the transform of the signal
+// times 1 - e^(-2 pi j n / N).
+Eigen::VectorXd WithoutTaper(const Eigen::VectorXcd& tapered, Eigen::Index first,
+                             Eigen::Index samples) {
+  const Eigen::VectorXd real = Signal(tapered, first, samples);
+  const Eigen::VectorXd imaginary = Signal(C(0.0, -1.0) * tapered, first, samples);
+  Eigen::VectorXd out(samples);
+  for (Eigen::Index n = 0; n < samples; ++n) {
+    const double turn =
+        2.0 * std::numbers::pi * static_cast<double>(n) / static_cast<double>(samples);
+    const C taper = 1.0 - std::polar(1.0, -turn);
+    const double power = std::max(std::norm(taper), 4.0 * kLeastTaper * kLeastTaper);
+    out[n] = (C(real[n], imaginary[n]) * std::conj(taper)).real() / power;
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure& structure,
+                              const Eigen::VectorXd& parameters) {
+  const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
+  const LoopResiduals at = ResidualsOf(record, structure, point);
+  Eigen::VectorXcd noise = Eigen::VectorXcd::Zero(record.bins());
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const NoiseDirections directions = DirectionsOf(structure.noise, at, i);
+    const ComplexPair error{at.acoustic[i], at.flame[i]};
+    const ComplexPair weighted = CovarianceOf(directions, at, i).Inverse().Apply(error);
+    if (!(Inner(error, weighted).real() < kMostOfNoise)) continue;
+    for (std::size_t j = 0; j < structure.noise.size(); ++j) {
+      const double share = ShareInPressure(structure.noise[j].source, point.background_ratio);
+      noise[i] +=
+          share * at.spectra(i, static_cast<Eigen::Index>(j)) * Inner(directions[j], weighted);
+    }
+  }
+  return WithoutTaper(noise, record.below.size(), record.Samples());
+}
+
+}  // namespace howl
