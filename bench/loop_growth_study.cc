@@ -1,25 +1,27 @@
 // How a diagnosis of records behaves as they grow longer and points more:
 //
-//   loop_growth_study RIGS POINTS DURATION_S [DURATION_S ...]
+//   [EFFECTS=none,low-pass] loop_growth_study RIGS POINTS DURATION_S [DURATION_S ...]
 //
 // Ducts of two modes with complex residues (tests/estimation/record_fit/modal_loop.h), with loop
 // gains of 1.2 to 1.8, diagnosed from their own loop on, with all items offered. A row for each
 // duration, without an effect and with q recorded through a low-pass of first order: on how many
-// rigs that is named, on how many something else is, what nats it is worth, its value's error in
-// deviations, and the time.
+// rigs that is named, on how many it is within the odds of what is, on how many something else is,
+// what nats it is worth, its value's error in deviations, and the time.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/asked.h"
 #include "bench/seconds.h"
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/analysis/spectra/statistics.h"
 #include "estimation/kept_memory.h"
+#include "model/numerics/fft.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {
@@ -29,18 +31,19 @@ constexpr double kCutoff_hz = 2000.0;
 constexpr const char* kLowPass = "q_sensor_lowpass";
 constexpr double kDeviationsOf95 = 1.96;
 
-// Of first order, exact where the signal is straight between samples.
+const char* NameOf(bool low_pass) { return low_pass ? "low-pass" : "none"; }
+
+// Of first order, exact at each frequency of the record, whose end meets its beginning within a
+// sample.
 void LowPass(double cutoff_hz, double sampling_hz, std::vector<double>* x) {
-  const double t = 2.0 * std::numbers::pi * cutoff_hz / sampling_hz;
-  const double keep = std::exp(-t);
-  const double lag = (1.0 - keep) / t;
-  double y = x->front();
-  double last = x->front();
-  for (double& each : *x) {
-    y = keep * y + (lag - keep) * last + (1.0 - lag) * each;
-    last = each;
-    each = y;
+  std::vector<std::complex<double>> spectrum(x->size() / 2 + 1);
+  Fft fft;
+  fft.Forward(*x, spectrum);
+  const double bin_hz = sampling_hz / static_cast<double>(x->size());
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
+    spectrum[k] /= std::complex<double>(1.0, static_cast<double>(k) * bin_hz / cutoff_hz);
   }
+  fft.Inverse(spectrum, *x);
 }
 
 std::vector<LoopRecord> Rig(int rig, int points, double duration_s, bool low_pass) {
@@ -57,6 +60,7 @@ std::vector<LoopRecord> Rig(int rig, int points, double duration_s, bool low_pas
 
 void PrintRow(int rigs, int points, double duration_s, bool low_pass) {
   int named = 0;
+  int in_class = 0;
   int others = 0;
   int unknown = 0;
   std::vector<double> nats;
@@ -71,7 +75,11 @@ void PrintRow(int rigs, int points, double duration_s, bool low_pass) {
     bool other = false;
     for (const BudgetEntry& entry : found.diagnosis.budget->entries) {
       if (entry.item != kLowPass || !low_pass) {
-        other = true;
+        if (std::ranges::find(entry.equals, kLowPass) != entry.equals.end()) {
+          ++in_class;
+        } else {
+          other = true;
+        }
         which += " " + entry.item + " (" + std::to_string(std::lround(entry.lost_nats)) + ")";
         continue;
       }
@@ -88,10 +96,11 @@ void PrintRow(int rigs, int points, double duration_s, bool low_pass) {
     return x.empty() ? std::numeric_limits<double>::quiet_NaN() : Median(x);
   };
   std::printf(
-      "%4.1f s %2d points %-10s of %d rigs: named %d, others on %d, unknown %d; nats %.0f, error "
+      "%4.1f s %2d points %-10s of %d rigs: named %d, in a class %d, others on %d, unknown %d; "
+      "nats %.0f, error "
       "%.1f; %.0f s a rig%s\n",
-      duration_s, points, low_pass ? "low-pass" : "none", rigs, named, others, unknown,
-      median(nats), median(errors), (Seconds() - begun) / rigs, which.c_str());
+      duration_s, points, NameOf(low_pass), rigs, named, in_class, others, unknown, median(nats),
+      median(errors), (Seconds() - begun) / rigs, which.c_str());
   std::fflush(stdout);
 }
 
@@ -106,6 +115,7 @@ int main(int argc, char** argv) {
   howl::KeepFreedMemory();
   for (int i = 3; i < argc; ++i) {
     for (const bool low_pass : {false, true}) {
+      if (!howl::Asked("EFFECTS", howl::NameOf(low_pass))) continue;
       howl::PrintRow(std::atoi(argv[1]), std::atoi(argv[2]), std::atof(argv[i]), low_pass);
     }
   }

@@ -32,15 +32,18 @@ struct Fitted {
   LoopFit fit;
 };
 
-// The items that would have gained as much as that of this trial.
-std::vector<std::string> EqualsOf(const std::vector<LoopTrial>& trials, std::size_t of) {
-  std::vector<std::string> out;
-  for (const LoopTrial& trial : trials) {
-    // Forms of one item are no class.
-    const bool same =
-        trial.item.id == trials[of].item.id || std::ranges::find(out, trial.item.id) != out.end();
-    const double behind = std::abs(trials[of].gain - trial.gain);
-    if (!same && behind < std::log(kOddsOfClass)) out.push_back(trial.item.id);
+// Beside that of this trial, of those that were fitted.
+std::vector<LoopItem> RivalsOf(const std::vector<LoopTrial>& trials,
+                               const std::vector<Fitted>& fitted, std::size_t of,
+                               const LoopFit& from) {
+  std::vector<LoopItem> out;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (i == of) continue;
+    const bool gained = std::ranges::any_of(fitted, [&](const Fitted& each) {
+      return each.trial == i && each.fit.Density() > from.Density();
+    });
+    const double behind = std::abs(trials[of].gain - trials[i].gain);
+    if (gained || behind < std::log(kOddsOfClass)) out.push_back(trials[i].item);
   }
   return out;
 }
@@ -71,16 +74,7 @@ double ForwardSearch::LastGain(const LoopItem& item) const {
 std::vector<LoopTrial> ForwardSearch::Try(const LoopFit& from, double standing,
                                           const std::vector<LoopItem>& items,
                                           const std::string& key) {
-  std::vector<LoopItem> own;
-  std::vector<LoopItem> instruments;
-  for (const LoopItem& item : items) {
-    (item.kind == LoopItemKind::kInstrument ? instruments : own).push_back(item);
-  }
-  std::vector<LoopTrial> out = TryItems(records_, from, standing, own, key, options_);
-  out.resize(items.size());
-  RunUnits(instruments.size(), options_.threads, [&](std::size_t i) {
-    out[own.size() + i] = TryInstrument(records_, from, standing, instruments[i], key, options_);
-  });
+  std::vector<LoopTrial> out = TryAll(records_, from, standing, items, key, options_);
   for (const LoopTrial& trial : out) {
     VLOG(1) << key << trial.item.id << " " << trial.gain << " nats";
     last_gain_[KeyOf(trial.item)] = trial.gain;
@@ -121,7 +115,7 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
       fit = Refined(records_, std::move(fit), trial.item, key, options_);
     }
     if (fit.Density() > from.Density() + least) {
-      return LoopStep{trial.item, EqualsOf(trials, each.trial), std::move(fit)};
+      return LoopStep{trial.item, least, RivalsOf(trials, best, each.trial, from), std::move(fit)};
     }
   }
   return std::nullopt;

@@ -20,8 +20,11 @@ namespace howl {
 
 struct LoopStep {
   LoopItem item;
-  std::vector<std::string> equals;  // items that would have gained as much, within odds of 50 to 1
+  double least = 0.0;  // nats that it had to gain, among so many
+  // What was fitted beside it and gained too, or would have gained as much within odds of 50 to 1.
+  std::vector<LoopItem> rivals;
   LoopFit after;
+  std::vector<std::string> equals = {};  // of the rivals, within these odds in the end
 };
 
 class ForwardSearch {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/instrument_profile.h"
+#include "estimation/parallel.h"
 
 namespace howl {
 namespace {
@@ -52,6 +53,22 @@ LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, double 
   const double span = SearchSpan(profile.parameter());
   const double width = std::sqrt(2.0 * std::numbers::pi) * maximum.std;
   out.gain = maximum.at.nats - without + std::log(std::min(width, span) / span);
+  return out;
+}
+
+std::vector<LoopTrial> TryAll(const LoopRecords& records, const LoopFit& from, double standing,
+                              const std::vector<LoopItem>& items, const std::string& key,
+                              const LoopBudgetOptions& options) {
+  std::vector<LoopItem> own;
+  std::vector<LoopItem> instruments;
+  for (const LoopItem& item : items) {
+    (item.kind == LoopItemKind::kInstrument ? instruments : own).push_back(item);
+  }
+  std::vector<LoopTrial> out = TryItems(records, from, standing, own, key, options);
+  out.resize(items.size());
+  RunUnits(instruments.size(), options.threads, [&](std::size_t i) {
+    out[own.size() + i] = TryInstrument(records, from, standing, instruments[i], key, options);
+  });
   return out;
 }
 

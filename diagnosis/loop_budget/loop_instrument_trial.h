@@ -16,6 +16,11 @@ LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, double 
                         const LoopItem& item, const std::string& key,
                         const LoopBudgetOptions& options);
 
+// Of items of any kind: those that are no instruments first.
+std::vector<LoopTrial> TryAll(const LoopRecords& records, const LoopFit& from, double standing,
+                              const std::vector<LoopItem>& items, const std::string& key,
+                              const LoopBudgetOptions& options);
+
 // A fit to all points together leads to another value of the parameter than each point by itself
 // did, and that to another fit: both in turn, until the value stands or the records are foretold no
 // better.

@@ -35,10 +35,11 @@ class Search {
   LoopFit FitBase();
   LoopFit Driven(const LoopFit& fit, const std::string& key);
   void Forward(LoopFound* out);
-  void Backward(LoopFound* out);
+  void Backward(const std::string& prefix, LoopStanding* out);
+  void Exchange(LoopStanding* out);
   void TakeAway(const std::vector<std::size_t>& which, const std::string& key,
-                LoopFound* out) const;
-  static std::vector<std::size_t> Idle(const LoopFound& found);
+                LoopStanding* out) const;
+  static std::vector<std::size_t> Idle(const LoopStanding& found);
   LoopFit Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
                   const std::string& key) const;
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
@@ -95,12 +96,13 @@ void Search::Forward(LoopFound* out) {
   }
 }
 
-// What pays least goes first, as long as something does not pay. What did not pay a round ago is
-// tried before the rest: where it still does not, what the rest pays need not be known yet.
-void Search::Backward(LoopFound* out) {
+// What pays least goes first, as long as something does not pay what it had to when it came. What
+// did not pay a round ago is tried before the rest: where it still does not, what the rest pays
+// need not be known yet.
+void Search::Backward(const std::string& prefix, LoopStanding* out) {
   std::vector<std::size_t> first;
   for (std::size_t round = 0; !out->steps.empty(); ++round) {
-    const std::string key = "back/" + std::to_string(round) + "/";
+    const std::string key = prefix + "back/" + std::to_string(round) + "/";
     out->without.assign(out->steps.size(), {});
     TakeAway(first, key, out);
     std::vector<std::size_t> idle = Idle(*out);
@@ -125,7 +127,7 @@ void Search::Backward(LoopFound* out) {
 }
 
 void Search::TakeAway(const std::vector<std::size_t>& which, const std::string& key,
-                      LoopFound* out) const {
+                      LoopStanding* out) const {
   RunUnits(which.size(), options_.threads, [&](std::size_t n) {
     out->without[which[n]] = Without(out->best, out->steps, which[n], key);
   });
@@ -136,11 +138,12 @@ void Search::TakeAway(const std::vector<std::size_t>& which, const std::string& 
 }
 
 // The steps that are known not to pay, that which pays least first.
-std::vector<std::size_t> Search::Idle(const LoopFound& found) {
+std::vector<std::size_t> Search::Idle(const LoopStanding& found) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
     const LoopFit& without = found.without[i];
-    if (without.log_density.empty() || without.Density() < found.best.Density()) continue;
+    const double least = found.steps[i].least;
+    if (without.log_density.empty() || without.Density() < found.best.Density() - least) continue;
     out.push_back(i);
   }
   std::ranges::stable_sort(out, std::ranges::greater(),
@@ -148,12 +151,24 @@ std::vector<std::size_t> Search::Idle(const LoopFound& found) {
   return out;
 }
 
+void Search::Exchange(LoopStanding* out) {
+  for (std::size_t round = 0; round < kMostItems; ++round) {
+    const std::string key = "exchange/" + std::to_string(round) + "/";
+    std::optional<LoopStanding> next = BestExchange(records_, base_, key, options_, out);
+    if (!next) return;
+    *out = std::move(*next);
+    out->best = Driven(out->best, key);
+    Backward(key, out);
+  }
+}
+
 LoopFound Search::Run() {
   LoopFound out;
   out.base = FitBase();
   out.best = out.base;
   Forward(&out);
-  Backward(&out);
+  Backward("", &out);
+  Exchange(&out);
   out.with_acoustic_lines = WithLines(out.best, &PointStructure::acoustic_lines, "acoustic_lines/");
   out.with_flame_lines = WithLines(out.best, &PointStructure::flame_lines, "flame_lines/");
   out.records = std::move(records_);

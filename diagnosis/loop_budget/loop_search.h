@@ -1,9 +1,10 @@
-// The search for a budget of records: forward, one item at a time, then backward.
+// The search for a budget of records: forward, one item at a time, then backward, then with items
+// in the places of others (loop_exchange.h).
 //
 // The score of a model is the density of each operating point's record by the law that the other
 // points give, summed (records_fit.h); of one point alone its evidence. An item comes in where it
 // raises the score by more than the odds against any of so many, and goes where the score without
-// it is no lower. Hum is looked for while nothing else has come, which might take its lines for its
+// it is not lower by as much. Hum is looked for while nothing else has come, which might take its lines for its
 // own. Noise comes before all other causes, as long as any of it pays: what a poor noise leaves
 // over passes for effects. Errors at the cycle's lines come where nothing else pays: were they
 // there from the beginning, they would hide what the lines tell of the flame. What pays beside them
@@ -16,17 +17,13 @@
 
 #include <vector>
 
-#include "diagnosis/loop_budget/forward_step.h"
+#include "diagnosis/loop_budget/loop_exchange.h"
 
 namespace howl {
 
-struct LoopFound {
+struct LoopFound : LoopStanding {
   LoopRecords records;  // with the flames driven as `best` has it
   LoopFit base;
-  std::vector<LoopStep> steps;  // of the items that stayed
-  LoopFit best;
-  // Of each step, `best` without its item, all else fitted anew.
-  std::vector<LoopFit> without;
   // `best` with errors at the cycle's lines (loop_point.h), of acoustics or of flame; `best` itself
   // where it has them.
   LoopFit with_acoustic_lines;

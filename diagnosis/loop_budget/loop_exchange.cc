@@ -1,0 +1,80 @@
+#include "diagnosis/loop_budget/loop_exchange.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/odds.h"
+#include "estimation/parallel.h"
+
+namespace howl {
+namespace {
+
+struct Exchange {
+  std::size_t step = 0;
+  LoopItem rival;
+  LoopFit fit = {};
+};
+
+// Of rivals that may come where the step's item is not.
+std::vector<Exchange> Possible(const LoopForm& base, const LoopStanding& now) {
+  std::vector<Exchange> out;
+  for (std::size_t i = 0; i < now.steps.size(); ++i) {
+    const std::vector<LoopItem> offered = LoopItems(now.without[i].model, base);
+    for (const LoopItem& rival : now.steps[i].rivals) {
+      if (std::ranges::find(offered, KeyOf(rival), KeyOf) != offered.end()) {
+        out.push_back({i, rival});
+      }
+    }
+  }
+  return out;
+}
+
+LoopFit Fitted(const LoopRecords& records, const LoopFit& without, const LoopItem& rival,
+               const std::string& key, const LoopBudgetOptions& options) {
+  const LoopTrial trial = TryAll(records, without, 0.0, {rival}, key, options)[0];
+  LoopFit fit = FitLoopFrom(records, trial.model, trial.starts, MaximumTaken::kBest, key, options);
+  if (rival.kind != LoopItemKind::kInstrument) return fit;
+  return Refined(records, std::move(fit), rival, key, options);
+}
+
+}  // namespace
+
+std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopForm& base,
+                                         const std::string& key, const LoopBudgetOptions& options,
+                                         LoopStanding* now) {
+  std::vector<Exchange> exchanges = Possible(base, *now);
+  RunUnits(exchanges.size(), options.threads, [&](std::size_t n) {
+    Exchange& each = exchanges[n];
+    each.fit = Fitted(records, now->without[each.step], each.rival,
+                      key + std::to_string(each.step) + "/" + KeyOf(each.rival) + "/", options);
+  });
+  for (LoopStep& step : now->steps) step.equals.clear();
+  const Exchange* best = nullptr;
+  for (const Exchange& each : exchanges) {
+    LoopStep& step = now->steps[each.step];
+    const double gain = each.fit.Density() - now->best.Density();
+    VLOG(1) << key << each.rival.id << " for " << step.item.id << " " << gain << " nats";
+    // Forms of one item are no class.
+    const bool named = each.rival.id == step.item.id ||
+                       std::ranges::find(step.equals, each.rival.id) != step.equals.end();
+    if (!named && gain > -std::log(kOddsOfClass)) step.equals.push_back(each.rival.id);
+    if (gain > 0.0 && (best == nullptr || each.fit.Density() > best->fit.Density())) best = &each;
+  }
+  if (best == nullptr) return std::nullopt;
+  LoopStanding out{best->fit, now->steps, {}};
+  const LoopStep& before = now->steps[best->step];
+  LoopStep next{best->rival, before.least, before.rivals, best->fit};
+  std::erase_if(next.rivals,
+                [&](const LoopItem& each) { return KeyOf(each) == KeyOf(best->rival); });
+  next.rivals.push_back(before.item);
+  out.steps.erase(out.steps.begin() + static_cast<std::ptrdiff_t>(best->step));
+  out.steps.push_back(std::move(next));
+  return out;
+}
+
+}  // namespace howl
