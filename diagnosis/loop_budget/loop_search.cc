@@ -77,8 +77,8 @@ LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const
   if (from.model.structure.*lines > 0) return from;
   LoopForm model = from.model;
   model.structure.*lines = kCycleLines;
-  return FitLoopFrom(records_, model, StartsWith(records_, from, model).rows, MaximumTaken::kBest,
-                     key, options_);
+  return FitLoopFrom(records_, model, StartsWith(records_, from, model, options_.threads).rows,
+                     MaximumTaken::kBest, key, options_);
 }
 
 void Search::Forward(LoopFound* out) {

@@ -69,11 +69,13 @@ std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit) {
   return out;
 }
 
-LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with) {
+LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
+                      int threads) {
   if (with.flame_input != from.model.flame_input) {
     return WithOtherInput(records, with, PointsOf(records, from));
   }
-  return {StartsInRicher(records.Points(with), from.fit, with.structure)};
+  return {StartsInRicher(records.Points(with), from.fit, with.structure, threads),
+          with.structure.second_path && !from.model.structure.second_path};
 }
 
 LoopStarts StartsWithout(const LoopRecords& records, const LoopFit& from, const LoopForm& without,

@@ -22,12 +22,13 @@ std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit);
 
 struct LoopStarts {
   StartRows rows;
-  // Whether each point may begin at another row: rows of a further mode have that of one point for
-  // all, as it must be the same mode.
+  // Whether each point may begin at another row, as where rows have each point's own paths: rows of
+  // a further mode have that of one point for all, as it must be the same mode.
   bool apart = false;
 };
 
-LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with);
+LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
+                      int threads);
 
 // `mode`: of those that `without` has not, the first; of other items the number of modes.
 LoopStarts StartsWithout(const LoopRecords& records, const LoopFit& from, const LoopForm& without,

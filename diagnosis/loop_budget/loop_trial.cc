@@ -53,7 +53,7 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
   std::vector<Unit> units;
   for (const LoopItem& item : items) {
     out.push_back({item, With(from.model, item)});
-    starts.push_back(StartsWith(records, from, out.back().model));
+    starts.push_back(StartsWith(records, from, out.back().model, options.threads));
     for (std::size_t row = 0; row < starts.back().rows.size(); ++row) {
       for (std::size_t e = 0; e < records.size(); ++e) units.push_back({out.size() - 1, row, e});
     }

@@ -35,8 +35,8 @@ RecordsFit FitRecords(const std::vector<OperatingPoint>& points, const PointStru
 }
 
 StartRows StartsInRicher(const std::vector<OperatingPoint>& points, const RecordsFit& poorer,
-                         const PointStructure& structure) {
-  const RecordsFitter fitter(points, structure, poorer.reference, poorer.z, 1);
+                         const PointStructure& structure, int threads) {
+  const RecordsFitter fitter(points, structure, poorer.reference, poorer.z, threads);
   return fitter.FromPoorer(poorer);
 }
 

@@ -77,7 +77,7 @@ RecordsFit FitDriven(const RecordsFit& fit, const RecordsFitOptions& options,
 // Where fits of a structure that contains that of `poorer` may begin: a row for each point whose
 // further modes all may have (richer_structure.h), one row where there are none.
 StartRows StartsInRicher(const std::vector<OperatingPoint>& points, const RecordsFit& poorer,
-                         const PointStructure& structure);
+                         const PointStructure& structure, int threads);
 
 // Of each point by the law that all other points give; at least two.
 std::vector<PointPrior> PriorsOfOthers(const std::vector<OperatingPoint>& points,

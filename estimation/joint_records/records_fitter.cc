@@ -8,7 +8,7 @@
 #include "estimation/joint_records/record_evidence.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
-#include "estimation/record_fit/starts/path_starts.h"
+#include "estimation/record_fit/second_path_starts.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "estimation/unit_seed.h"
@@ -144,22 +144,18 @@ StartRows RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
       row.push_back(InRicherStructure(points_[e].record, poorer.structure,
                                       poorer.points[e].parameters, structure_, here));
     }
-    out.push_back(row);
     if (structure_.second_path && !poorer.structure.second_path) {
-      // A row each for the delays that this record leaves the flame next to the best.
-      const RecordSpectra& record = points_[from].record;
-      FlamePath first = ToPoint(structure_, record.flame.cols(), row[from]).path;
-      first.second.reset();
-      const std::vector<SecondPath> later = LittleSecondPaths(record, first, kSecondPaths);
-      for (std::size_t i = 1; i < later.size(); ++i) {
-        for (std::size_t e = 0; e < size(); ++e) {
-          const double cycle =
-              points_[from].record.scale.cycle_hz / points_[e].record.scale.cycle_hz;
-          row[e][structure_.SecondPath()] = later[i].share;
-          row[e][structure_.SecondPath() + 1] = std::log(later[i].lambda / cycle);
+      StartRows rows(kSecondPathStarts, row);
+      RunUnits(size(), threads_, [&](std::size_t e) {
+        const std::vector<Eigen::VectorXd> starts =
+            WithTwoPaths(points_[e].record, structure_, base_[e], row[e], kSecondPathStarts);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+          rows[i][e] = starts[std::min(i, starts.size() - 1)];
         }
-        out.push_back(row);
-      }
+      });
+      out.insert(out.end(), rows.begin(), rows.end());
+    } else {
+      out.push_back(std::move(row));
     }
     if (further.empty()) break;
   }

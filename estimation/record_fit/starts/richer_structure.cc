@@ -7,7 +7,6 @@
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/starts/hum_start.h"
-#include "estimation/record_fit/starts/path_starts.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "estimation/record_fit/starts/pole_starts.h"
 
@@ -15,7 +14,6 @@ namespace howl {
 namespace {
 
 constexpr double kLittleSpread = 0.1;  // rho
-constexpr double kLittleShare = 0.1;   // of a second path
 constexpr double kHardlyShows = 4.0;   // nats below the least of the others
 
 const NoiseTerm* TermOf(const PointStructure& structure, LoopNoise source) {
@@ -54,13 +52,6 @@ std::vector<LoopMode> FurtherModes(const RecordSpectra& record, const PointStruc
   return modes;
 }
 
-std::vector<SecondPath> LittleSecondPaths(const RecordSpectra& record, const FlamePath& first,
-                                          std::size_t count) {
-  std::vector<SecondPath> out = PathStarts(record).SecondPaths(first, count);
-  for (SecondPath& second : out) second.share = std::copysign(kLittleShare, second.share);
-  return out;
-}
-
 Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStructure& poor,
                                   const Eigen::VectorXd& parameters, const PointStructure& rich,
                                   const std::vector<LoopMode>& further) {
@@ -72,7 +63,7 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
     point.path.rho = kLittleSpread;
   }
   if (rich.second_path && !poor.second_path) {
-    point.path.second = LittleSecondPaths(record, point.path, 1)[0];
+    point.path.second = SecondPath{0.0, 1.0};
   }
   point.modes.insert(point.modes.end(), further.begin(), further.end());
   double least = 0.0;

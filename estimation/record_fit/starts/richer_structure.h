@@ -1,6 +1,7 @@
 // A loop of one structure as the start of a richer one, which contains it: the same modes, and such
 // noise as there was. Further modes begin as those of `further`, a source that the poorer structure
 // had not at a level that hardly shows, but for a background, which begins as the record shows it.
+// A second path has no share yet (second_path_starts.h).
 #ifndef HOWL_ESTIMATION_RECORD_FIT_STARTS_RICHER_STRUCTURE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_STARTS_RICHER_STRUCTURE_H_
 
@@ -14,10 +15,6 @@ namespace howl {
 
 // `rich` has at least as many modes, and of each source at least as many coefficients.
 bool Contains(const PointStructure& rich, const PointStructure& poor);
-
-// Second paths as those of path_starts.h, each with a share that hardly shows.
-std::vector<SecondPath> LittleSecondPaths(const RecordSpectra& record, const FlamePath& first,
-                                          std::size_t count);
 
 // rich.modes - poor.modes modes, one after the other where each leaves least of cut A.
 std::vector<LoopMode> FurtherModes(const RecordSpectra& record, const PointStructure& poor,

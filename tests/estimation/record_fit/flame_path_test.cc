@@ -11,6 +11,7 @@
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "model/noise/random_stream.h"
+#include "tests/estimation/record_fit/drawn_record.h"
 #include "tests/estimation/record_fit/identified.h"
 
 namespace howl {
@@ -130,52 +131,6 @@ TEST(FlamePath, SecondAnswersLater) {
   const C first = path.At(s);
   path.second = SecondPath{0.3, 1.5};
   EXPECT_LT(std::abs(path.At(s) - (0.7 * first + 0.3 * std::exp(-3.5 * s))), 1e-14);
-}
-
-// A record of a linear loop below onset that repeats itself, drawn frequency by frequency. A source
-// in the duct shows what the flame makes of p:
-//   P = R Q + E_A,   Q = F P + E_B.
-Record DrawnRecord(const ModalLoop& loop, const FlamePath& path, double seconds,
-                   std::uint64_t seed) {
-  RandomStream random(seed);
-  const auto n = static_cast<std::size_t>(seconds * loop.sampling_hz);
-  const auto highest = static_cast<std::size_t>(1500.0 * seconds);
-  Record out;
-  out.sampling_hz = loop.sampling_hz;
-  out.pressure.assign(n, 0.0);
-  out.heat_release.assign(n, 0.0);
-  for (std::size_t k = 1; k < highest; ++k) {
-    const double hz = static_cast<double>(k) / seconds;
-    const C s(0.0, 2.0 * std::numbers::pi * hz);
-    C r = 0.0;
-    for (const ModalLoop::Mode& mode : loop.modes) {
-      const double w = 2.0 * std::numbers::pi * mode.omega_hz;
-      r += (mode.a * s + mode.b * w) / (s * s + 2.0 * mode.xi * w * s + w * w);
-    }
-    const C f = -loop.slope * s * path.At(s);
-    const auto draw = [&](double std) { return std * C(random.Normal(), random.Normal()); };
-    const C of_flame = draw(1.0);
-    const C of_duct = r * draw(3.0);
-    const C p = (of_duct + r * of_flame) / (1.0 - r * f);
-    const C q = f * p + of_flame;
-    const double turn = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
-    const C step = std::polar(1.0, turn);
-    C at = 1.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      out.pressure[i] += (p * at).real();
-      out.heat_release[i] += (q * at).real();
-      at *= step;
-    }
-  }
-  return out;
-}
-
-// A duct so damped that p is broad.
-ModalLoop BroadDuct() {
-  ModalLoop loop = DuctOfModes(2);
-  for (ModalLoop::Mode& mode : loop.modes) mode.xi *= 4.0;
-  loop.slope *= 2.0;
-  return loop;
 }
 
 struct FoundPath {
