@@ -4,10 +4,11 @@
 //   flame_prior_study [RECORDS [CONFIG [EXPERIMENT ...]]]
 //
 // A row for each prior. On simulated records of a duct whose delay is one, each fitted from the
-// truth: nats of evidence, on average, above the first row; nats of evidence for spread delays,
-// which it has not, on average, and in what share of records they are more likely than one delay;
-// and the delay's mean error and root mean square error, in its deviations. On a config's measured
-// records: nats of evidence, and of the density of either half under the loop of the other, summed.
+// truth, then with the flame driven by what its noise leaves of p: nats of evidence, on average,
+// above the first row; nats of evidence for spread delays, which it has not, on average, and in
+// what share of records they are more likely than one delay; and the delay's mean error and root
+// mean square error, in its deviations. On a config's measured records: nats of evidence, and of
+// the density of either half under the loop of the other, summed.
 #include <tbb/parallel_for.h>
 
 #include <array>
@@ -16,12 +17,14 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "estimation/kept_memory.h"
+#include "estimation/record_fit/loop/pressure_noise.h"
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/starts/path_starts.h"
 #include "estimation/record_fit/starts/point_starts.h"
@@ -51,15 +54,18 @@ void Add(const FlamePrior& prior, double gain, std::uint64_t seed, double weight
   ModalLoop loop = DuctOfModes(2);
   loop.slope = gain / loop.Open(CycleFrequency(loop, 150.0, 300.0)).real();
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
-  const RecordSpectra record = MakeRecordSpectra(SimulateModalLoop(loop, kSeconds, seed), cycle_hz,
-                                                 FlameInput::kPressureRate, prior);
+  RecordSpectra record = MakeRecordSpectra(SimulateModalLoop(loop, kSeconds, seed), cycle_hz,
+                                           FlameInput::kPressureRate, prior);
   PointStructure structure;
   structure.modes = 2;
   structure.noise = LeastNoise();
   LoopPoint point = WithTruthOf(
       loop, record.scale, ToPoint(structure, record.flame.cols(), PriorOf(structure, record).mean));
   point.flame = PathStarts(record).Flame(point.path);
-  const PointFit fit = FitFrom(record, structure, point);
+  const PointFit first = FitFrom(record, structure, point);
+  record = DrivenWithout(std::move(record), PressureNoise(record, structure, first.parameters));
+  const PointFit fit =
+      FitFrom(record, structure, ToPoint(structure, record.flame.cols(), first.parameters));
   const Eigen::Index delay = structure.Delay();
   const double z = (fit.parameters[delay] - std::log(point.path.tau)) /
                    std::sqrt(fit.Covariance()(delay, delay));

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/whittle/noise_covariance.h"
@@ -16,9 +17,11 @@ namespace {
 
 using C = std::complex<double>;
 
-// E^H Sigma^-1 E of a right loop is half of chi-squared with four degrees of freedom, beyond t with
-// probability (1 + t) e^-t: 1e-4.
+// What noise exceeds with probability 1e-4. E^H Sigma^-1 E of a right loop is half of chi-squared
+// with four degrees of freedom, beyond t with probability (1 + t) e^-t; the power of one bin, over
+// its mean, with e^-t.
 constexpr double kMostOfNoise = 11.76;
+constexpr double kMostOfBin = 9.21;
 // Where the taper is smaller than this, the noise is left small.
 constexpr double kLeastTaper = 0.1;
 
@@ -55,25 +58,44 @@ Eigen::VectorXd WithoutTaper(const Eigen::VectorXcd& tapered, Eigen::Index first
   return out;
 }
 
+// Of p above the band, where a bin of noise has this power.
+Eigen::VectorXcd NoiseAbove(const Eigen::VectorXcd& pressure, double power) {
+  return pressure.unaryExpr([&](C p) { return std::norm(p) < kMostOfBin * power ? p : 0.0; });
+}
+
 }  // namespace
 
 Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure& structure,
                               const Eigen::VectorXd& parameters) {
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   const LoopResiduals at = ResidualsOf(record, structure, point);
+  std::vector<double> share;
+  for (const NoiseTerm& term : structure.noise) {
+    share.push_back(ShareInPressure(term.source, point.background_ratio));
+  }
+  const auto spectrum = [&](Eigen::Index i, std::size_t j) {
+    return at.spectra(i, static_cast<Eigen::Index>(j));
+  };
   Eigen::VectorXcd noise = Eigen::VectorXcd::Zero(record.bins());
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const NoiseDirections directions = DirectionsOf(structure.noise, at, i);
     const ComplexPair error{at.acoustic[i], at.flame[i]};
     const ComplexPair weighted = CovarianceOf(directions, at, i).Inverse().Apply(error);
     if (!(Inner(error, weighted).real() < kMostOfNoise)) continue;
-    for (std::size_t j = 0; j < structure.noise.size(); ++j) {
-      const double share = ShareInPressure(structure.noise[j].source, point.background_ratio);
-      noise[i] +=
-          share * at.spectra(i, static_cast<Eigen::Index>(j)) * Inner(directions[j], weighted);
+    for (std::size_t j = 0; j < share.size(); ++j) {
+      noise[i] += share[j] * spectrum(i, j) * Inner(directions[j], weighted);
     }
   }
-  return WithoutTaper(noise, record.below.size(), record.Samples());
+  Eigen::VectorXd out = WithoutTaper(noise, record.below.size(), record.Samples());
+  if (record.above.size() == 0) return out;
+  // The taper doubles the power of what is white.
+  double power = 0.0;
+  for (std::size_t j = 0; j < share.size(); ++j) {
+    power += 0.5 * share[j] * share[j] * spectrum(record.bins() - 1, j);
+  }
+  out += Signal(NoiseAbove(record.above, power), record.below.size() + record.pressure.size(),
+                record.Samples());
+  return out;
 }
 
 }  // namespace howl

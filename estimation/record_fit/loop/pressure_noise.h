@@ -7,6 +7,9 @@
 // It is no noise where E^H Sigma^-1 E is larger than one bin in ten thousand of a right loop has
 // it, as where the loop misses one of the cycle's lines. The residuals are under the sine taper
 // (record_spectra.h), by which the noise is divided but near the record's ends.
+//
+// Above the band it is taken to be as strong as at the band's upper end: what of p stands out of it
+// there, by the same odds, is p.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_PRESSURE_NOISE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_PRESSURE_NOISE_H_
 
@@ -17,7 +20,8 @@
 
 namespace howl {
 
-// Over p's unit, one value a sample, of the record's band alone.
+// Over p's unit, one value a sample, of all frequencies from the record's band on that the flame's
+// input holds.
 Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure& structure,
                               const Eigen::VectorXd& parameters);
 

@@ -22,7 +22,11 @@ using C = std::complex<double>;
 constexpr double kLowestOfCycle = 0.15;
 constexpr double kHighestOfCycle = 6.4;
 constexpr double kHighestOfSampling = 0.4;
-constexpr double kFilterEdge = 0.8;  // of the band's upper end, where the filter ends
+// Of the band's upper end: how far the flame's input reaches. A flame that is nearly a switch
+// answers to the harmonics there with when it switches: without them its delay errs by six
+// deviations (bench/flame_prior_study).
+constexpr double kInputOfBand = 2.0;
+constexpr double kFilterEdge = 0.8;  // of that end, where the filter ends
 constexpr double kRangeOverLargest = 1.02;
 // Of the cycle: where the record's end meets its beginning the filtered input has a spike, which no
 // flame saw. It is gone after the filter's own memory, half a period.
@@ -66,23 +70,25 @@ struct Band {
   }
 };
 
-// The flame's input in time, from p less its sensor's noise.
-Eigen::VectorXd InputOf(const RecordSpectra& record, const Eigen::VectorXcd& noise) {
-  const Eigen::Index first = record.below.size();
-  const Eigen::Index last = first + record.bins();
+// The flame's input in time, from this p, whose spectrum begins at no frequency.
+Eigen::VectorXd InputOf(const RecordSpectra& record, const Eigen::VectorXcd& pressure) {
   const double bin = record.bin_hz / record.scale.cycle_hz;
-  const double edge = kFilterEdge * static_cast<double>(last);
+  const auto end = static_cast<double>(pressure.size());
   Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.Samples() / 2 + 1);
-  spectrum.head(first) = record.below;
-  spectrum.segment(first, noise.size()) = record.pressure - noise;
-  spectrum[0] = 0.0;
-  for (Eigen::Index k = 1; k <= last; ++k) {
+  for (Eigen::Index k = 1; k < pressure.size(); ++k) {
     const auto at = static_cast<double>(k);
-    const double over = std::max(at - edge, 0.0) / (static_cast<double>(last) - edge);
-    spectrum[k] *= FlameInputResponse(record.flame_input, C(0.0, at * bin)) * 0.5 *
-                   (1.0 + std::cos(std::numbers::pi * over));
+    const double over = std::max(at / end - kFilterEdge, 0.0) / (1.0 - kFilterEdge);
+    spectrum[k] = pressure[k] * FlameInputResponse(record.flame_input, C(0.0, at * bin)) * 0.5 *
+                  (1.0 + std::cos(std::numbers::pi * over));
   }
   return Signal(std::move(spectrum), record.Samples());
+}
+
+// Of recorded p, from no frequency on, with as much above the band as `above` has.
+Eigen::VectorXcd PressureOf(const RecordSpectra& record, const Eigen::VectorXcd& above) {
+  Eigen::VectorXcd out(record.below.size() + record.pressure.size() + above.size());
+  out << record.below, record.pressure, above;
+  return out;
 }
 
 // The largest size of the input but at the record's ends.
@@ -93,11 +99,11 @@ double LargestInside(const Eigen::VectorXd& v, double bin_of_cycle) {
   return v.segment(end, v.size() - 2 * end).cwiseAbs().maxCoeff();
 }
 
-// The flame's functions of p less this noise.
-void SetFlame(const Eigen::VectorXcd& noise, const FlamePrior& prior, RecordSpectra* out) {
+// The flame's functions of this p (InputOf).
+void SetFlame(const Eigen::VectorXcd& pressure, const FlamePrior& prior, RecordSpectra* out) {
   RecordScale& scale = out->scale;
   const Band band{out->below.size(), out->bins()};
-  const Eigen::VectorXd v = InputOf(*out, noise);
+  const Eigen::VectorXd v = InputOf(*out, pressure);
   if (scale.input_range == 0.0) {
     scale.input_range = kRangeOverLargest * LargestInside(v, out->bin_hz / scale.cycle_hz);
   }
@@ -147,6 +153,12 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
   const Eigen::VectorXcd pressure = Spectrum(p);
   out.below = pressure.head(band.first);
   out.pressure = band.Of(pressure);
+  const double input_highest =
+      std::min(kInputOfBand * highest, kHighestOfSampling * record.sampling_hz / scale.cycle_hz);
+  const Eigen::Index last = band.first + band.count;
+  out.above = pressure.segment(
+      last + 1,
+      std::max<Eigen::Index>(static_cast<Eigen::Index>(input_highest / bin_of_cycle) - last, 0));
   out.heat_release = band.Of(Spectrum(Centred(record.heat_release, scale.heat_release)));
   const Eigen::VectorXd middle =
       (Eigen::ArrayXd::LinSpaced(band.count, 0.0, static_cast<double>(band.count - 1)) +
@@ -161,7 +173,8 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
       2.0 * (middle.array() / middle[0]).log() / std::log(middle[band.count - 1] / middle[0]) - 1.0;
   out.share = Eigen::VectorXd::Constant(band.count, kSineTaperShare);
   out.scale = std::move(scale);
-  SetFlame(Eigen::VectorXcd::Zero(band.count + 1), prior, &out);
+  // What of p above the band is noise no loop has told yet: all is left out.
+  SetFlame(PressureOf(out, Eigen::VectorXcd::Zero(out.above.size())), prior, &out);
   return out;
 }
 
@@ -204,8 +217,9 @@ RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like)
 
 RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise) {
   CHECK_EQ(noise.size(), record.Samples());
-  const Band band{record.below.size(), record.bins()};
-  SetFlame(band.Of(Spectrum(noise)), {}, &record);
+  Eigen::VectorXcd pressure = PressureOf(record, record.above);
+  pressure -= Spectrum(noise).head(pressure.size());
+  SetFlame(pressure, {}, &record);
   return record;
 }
 

@@ -1,14 +1,14 @@
 // A record made ready for the likelihood of its loop (whittle.h): both signals on one band of bins,
 // and what the flame is driven by.
 //
-//   v = dp/dt, p or the integral of p (FlameInput), of recorded p up to the band's upper end
+//   v = dp/dt, p or the integral of p (FlameInput), of recorded p up to twice the band's upper end
 //   q(t) = sum_k c_k b_k(v(t - tau)) + noise
 //
 // Of p a flame does not see its sensor's noise, which a curve would mix into all frequencies, and
-// foretell of q what is not there. So b_k are of v less that noise (DrivenWithout), as far as it is
-// known (pressure_noise.h), and less what lies above the band; beside them stands what both leave
-// out of v, times the mean of d b_k / d v: about the cycle the answer to all of recorded p is F P,
-// as the likelihood has it (whittle.h).
+// foretell of q what is not there. So b_k are of v less that noise (DrivenWithout) as a loop that
+// was fitted tells it (pressure_noise.h), and before one was without all that lies above the band.
+// Beside them stands what they leave out of v, times the mean of d b_k / d v: about the cycle the
+// answer to all of recorded p is F P, as the likelihood has it (whittle.h).
 //
 // b_k are cubic splines of v (flame_basis.h), combined so that over the band their spectra are
 // orthogonal and as large as recorded q's. The band reaches from 0.15 to 6.4 of the cycle's
@@ -70,6 +70,7 @@ struct RecordSpectra {
   Eigen::VectorXcd edge_s;
   Eigen::VectorXcd below;  // P from 0 to the band's lower end
   Eigen::VectorXcd pressure;
+  Eigen::VectorXcd above;  // P from the band's upper end as far as the flame's input reaches
   Eigen::VectorXcd heat_release;
   Eigen::MatrixXcd flame;
   Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
