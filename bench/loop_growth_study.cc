@@ -9,7 +9,6 @@
 // what nats it is worth, its value's error in deviations, and the time.
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -21,7 +20,6 @@
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/analysis/spectra/statistics.h"
 #include "estimation/kept_memory.h"
-#include "model/numerics/fft.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {
@@ -33,26 +31,13 @@ constexpr double kDeviationsOf95 = 1.96;
 
 const char* NameOf(bool low_pass) { return low_pass ? "low-pass" : "none"; }
 
-// Of first order, exact at each frequency of the record, whose end meets its beginning within a
-// sample.
-void LowPass(double cutoff_hz, double sampling_hz, std::vector<double>* x) {
-  std::vector<std::complex<double>> spectrum(x->size() / 2 + 1);
-  Fft fft;
-  fft.Forward(*x, spectrum);
-  const double bin_hz = sampling_hz / static_cast<double>(x->size());
-  for (std::size_t k = 0; k < spectrum.size(); ++k) {
-    spectrum[k] /= std::complex<double>(1.0, static_cast<double>(k) * bin_hz / cutoff_hz);
-  }
-  fft.Inverse(spectrum, *x);
-}
-
 std::vector<LoopRecord> Rig(int rig, int points, double duration_s, bool low_pass) {
   std::vector<LoopRecord> out;
   for (int point = 0; point < points; ++point) {
     const double gain = 1.2 + 0.6 * point / std::max(points - 1, 1);
     const auto seed = static_cast<std::uint64_t>(1000 * rig + point + 1);
     LoopRecord at = DuctAt(gain, duration_s, seed);
-    if (low_pass) LowPass(kCutoff_hz, at.record.sampling_hz, &at.record.heat_release);
+    if (low_pass) LowPass(kCutoff_hz, &at.record);
     out.push_back(std::move(at));
   }
   return out;

@@ -2,10 +2,14 @@
 #ifndef HOWL_TESTS_DIAGNOSIS_LOOP_BUDGET_DUCT_RIG_H_
 #define HOWL_TESTS_DIAGNOSIS_LOOP_BUDGET_DUCT_RIG_H_
 
+#include <complex>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "diagnosis/loop_budget/loop_records.h"
+#include "model/numerics/fft.h"
 #include "tests/estimation/record_fit/modal_loop.h"
 
 namespace howl {
@@ -18,6 +22,20 @@ inline LoopRecord DuctAt(double gain, double duration_s, std::uint64_t seed) {
   loop.slope = gain / loop.Open(cycle_hz).real();
   return {"gain " + std::to_string(gain), gain, cycle_hz,
           SimulateModalLoop(loop, duration_s, seed)};
+}
+
+// q recorded through a low-pass of first order, exact at each frequency of the record, whose end
+// meets its beginning within a sample.
+inline void LowPass(double cutoff_hz, Record* record) {
+  std::vector<double>& q = record->heat_release;
+  std::vector<std::complex<double>> spectrum(q.size() / 2 + 1);
+  Fft fft;
+  fft.Forward(q, spectrum);
+  const double bin_hz = record->sampling_hz / static_cast<double>(q.size());
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
+    spectrum[k] /= std::complex<double>(1.0, static_cast<double>(k) * bin_hz / cutoff_hz);
+  }
+  fft.Inverse(spectrum, q);
 }
 
 // The duct's own: two free modes with complex residues, driven by dp/dt.

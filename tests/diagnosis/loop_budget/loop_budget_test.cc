@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_item.h"
-#include "model/numerics/fft.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {
@@ -139,17 +137,7 @@ TEST(LoopBudget, FindsWhatDrivesTheFlame) {
 TEST(LoopBudget, FindsInstrumentsOfQ) {
   constexpr double kCutoff_hz = 500.0;
   std::vector<LoopRecord> records = DuctsRecords();
-  for (LoopRecord& each : records) {
-    std::vector<double>& q = each.record.heat_release;
-    std::vector<std::complex<double>> spectrum(q.size() / 2 + 1);
-    Fft fft;
-    fft.Forward(q, spectrum);
-    const double bin_hz = each.record.sampling_hz / static_cast<double>(q.size());
-    for (std::size_t k = 0; k < spectrum.size(); ++k) {
-      spectrum[k] /= std::complex<double>(1.0, static_cast<double>(k) * bin_hz / kCutoff_hz);
-    }
-    fft.Inverse(spectrum, q);
-  }
+  for (LoopRecord& each : records) LowPass(kCutoff_hz, &each.record);
   const LoopDiagnosis found = DiagnoseLoops(
       records, DuctsForm(), Among({"q_sensor_lowpass", "channel_skew", "crosstalk_p_to_q"}));
   ASSERT_FALSE(found.diagnosis.budget->entries.empty());

@@ -1,0 +1,63 @@
+// Another item in the place of one that came first.
+#include "diagnosis/loop_budget/loop_exchange.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "tests/diagnosis/loop_budget/duct_rig.h"
+
+namespace howl {
+namespace {
+
+std::vector<LoopItem> ItemsOf(const std::string& id) {
+  std::vector<LoopItem> out;
+  std::ranges::copy_if(AllLoopItems(), std::back_inserter(out),
+                       [&](const LoopItem& item) { return item.id == id; });
+  return out;
+}
+
+// q through a low-pass, for which a mode far above the band came first: it leads q nearly as much.
+TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
+  std::vector<LoopRecord> rig;
+  for (const double gain : {1.2, 1.5, 1.8}) {
+    rig.push_back(DuctAt(gain, 0.8, static_cast<std::uint64_t>(100.0 * gain)));
+    LowPass(2000.0, &rig.back().record);
+  }
+  const LoopRecords records(rig, 0);
+  const LoopForm base = DuctsForm();
+  LoopBudgetOptions options;
+  options.starts = 4;
+  const RecordsFitOptions of_base = FitOptionsOf(options, "base/");
+  const LoopFit without =
+      Scored(records, base, FitRecords(records.Points(base), base.structure, of_base), of_base);
+  const LoopItem mode = ItemsOf("acoustic_mode").at(0);
+  const LoopTrial trial = TryAll(records, without, 0.0, {mode}, "mode/", options)[0];
+  const LoopFit with_mode =
+      FitLoopFrom(records, trial.model, trial.starts, MaximumTaken::kBest, "mode/", options);
+  ASSERT_GT(with_mode.Density(), without.Density() + 100.0);
+  LoopStanding now{with_mode, {{mode, 6.0, ItemsOf("q_sensor_lowpass"), with_mode}}, {without}};
+  std::optional<LoopStanding> next = BestExchange(records, base, "first/", options, &now);
+  ASSERT_TRUE(next.has_value());
+  ASSERT_EQ(next->steps.size(), 1u);
+  const LoopStep& step = next->steps[0];
+  EXPECT_EQ(step.item.id, "q_sensor_lowpass");
+  EXPECT_EQ(step.least, 6.0);
+  EXPECT_GT(next->best.Density(), with_mode.Density());
+  EXPECT_EQ(next->best.model.structure.modes, 2);
+  EXPECT_TRUE(std::ranges::any_of(
+      step.rivals, [&](const LoopItem& each) { return KeyOf(each) == KeyOf(mode); }));
+  // The other way round the mode is no better, and no longer one of a class.
+  next->without = {without};
+  EXPECT_FALSE(BestExchange(records, base, "second/", options, &*next).has_value());
+  EXPECT_TRUE(next->steps[0].equals.empty());
+}
+
+}  // namespace
+}  // namespace howl
