@@ -60,9 +60,7 @@ LoopFit Search::Driven(const LoopFit& fit, const std::string& key) {
 LoopFit Search::FitBase() {
   const RecordsFitOptions fit_options = FitOptionsOf(options_, "base/");
   const std::vector<OperatingPoint> points = records_.Points(base_);
-  const LoopFit fit =
-      Scored(records_, base_, FitRecords(points, base_.structure, fit_options), fit_options);
-  return Driven(fit, "base/");
+  return Driven({base_, FitRecords(points, base_.structure, fit_options), {}}, "base/");
 }
 
 LoopFit Search::Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
