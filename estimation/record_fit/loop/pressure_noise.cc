@@ -58,11 +58,6 @@ Eigen::VectorXd WithoutTaper(const Eigen::VectorXcd& tapered, Eigen::Index first
   return out;
 }
 
-// Of p above the band, where a bin of noise has this power.
-Eigen::VectorXcd NoiseAbove(const Eigen::VectorXcd& pressure, double power) {
-  return pressure.unaryExpr([&](C p) { return std::norm(p) < kMostOfBin * power ? p : 0.0; });
-}
-
 }  // namespace
 
 Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure& structure,
@@ -76,7 +71,8 @@ Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure&
   const auto spectrum = [&](Eigen::Index i, std::size_t j) {
     return at.spectra(i, static_cast<Eigen::Index>(j));
   };
-  Eigen::VectorXcd noise = Eigen::VectorXcd::Zero(record.bins());
+  const Eigen::Index above = record.above.size();
+  Eigen::VectorXcd noise = Eigen::VectorXcd::Zero(record.bins() + above);
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const NoiseDirections directions = DirectionsOf(structure.noise, at, i);
     const ComplexPair error{at.acoustic[i], at.flame[i]};
@@ -86,16 +82,17 @@ Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure&
       noise[i] += share[j] * spectrum(i, j) * Inner(directions[j], weighted);
     }
   }
-  Eigen::VectorXd out = WithoutTaper(noise, record.below.size(), record.Samples());
-  if (record.above.size() == 0) return out;
-  // The taper doubles the power of what is white.
   double power = 0.0;
   for (std::size_t j = 0; j < share.size(); ++j) {
-    power += 0.5 * share[j] * share[j] * spectrum(record.bins() - 1, j);
+    power += share[j] * share[j] * spectrum(record.bins() - 1, j);
   }
-  out += Signal(NoiseAbove(record.above, power), record.below.size() + record.pressure.size(),
-                record.Samples());
-  return out;
+  C before = record.pressure[record.bins()];
+  for (Eigen::Index i = 0; i < above; ++i) {
+    const C tapered = before - record.above[i];
+    if (std::norm(tapered) < kMostOfBin * power) noise[record.bins() + i] = tapered;
+    before = record.above[i];
+  }
+  return WithoutTaper(noise, record.below.size(), record.Samples());
 }
 
 }  // namespace howl
