@@ -109,11 +109,8 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
   for (const Fitted& each : best) {
     if (!(each.fit.Density() > from.Density())) break;
     const LoopTrial& trial = trials[each.trial];
-    LoopFit fit = FitLoopFrom(records_, trial.model, {ParametersOf(each.fit)}, MaximumTaken::kBest,
-                              key + "best/" + KeyOf(trial.item) + "/", options_);
-    if (trial.item.kind == LoopItemKind::kInstrument) {
-      fit = Refined(records_, std::move(fit), trial.item, key, options_);
-    }
+    LoopFit fit = FitTrial(records_, trial, {ParametersOf(each.fit)},
+                           key + "best/" + KeyOf(trial.item) + "/", options_);
     if (fit.Density() > from.Density() + least) {
       return LoopStep{trial.item, least, RivalsOf(trials, best, each.trial, from), std::move(fit)};
     }

@@ -34,14 +34,6 @@ std::vector<Exchange> Possible(const LoopForm& base, const LoopStanding& now) {
   return out;
 }
 
-LoopFit Fitted(const LoopRecords& records, const LoopFit& without, const LoopItem& rival,
-               const std::string& key, const LoopBudgetOptions& options) {
-  const LoopTrial trial = TryAll(records, without, 0.0, {rival}, key, options)[0];
-  LoopFit fit = FitLoopFrom(records, trial.model, trial.starts, MaximumTaken::kBest, key, options);
-  if (rival.kind != LoopItemKind::kInstrument) return fit;
-  return Refined(records, std::move(fit), rival, key, options);
-}
-
 }  // namespace
 
 std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopForm& base,
@@ -50,8 +42,10 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
   std::vector<Exchange> exchanges = Possible(base, *now);
   RunUnits(exchanges.size(), options.threads, [&](std::size_t n) {
     Exchange& each = exchanges[n];
-    each.fit = Fitted(records, now->without[each.step], each.rival,
-                      key + std::to_string(each.step) + "/" + KeyOf(each.rival) + "/", options);
+    const std::string of_this = key + std::to_string(each.step) + "/" + KeyOf(each.rival) + "/";
+    const LoopTrial trial =
+        TryAll(records, now->without[each.step], 0.0, {each.rival}, of_this, options)[0];
+    each.fit = FitTrial(records, trial, trial.starts, of_this, options);
   });
   for (LoopStep& step : now->steps) step.equals.clear();
   const Exchange* best = nullptr;

@@ -89,6 +89,13 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
   return fit;
 }
 
+LoopFit FitTrial(const LoopRecords& records, const LoopTrial& trial, const StartRows& starts,
+                 const std::string& key, const LoopBudgetOptions& options) {
+  LoopFit fit = FitLoopFrom(records, trial.model, starts, MaximumTaken::kBest, key, options);
+  if (trial.item.kind != LoopItemKind::kInstrument) return fit;
+  return Refined(records, std::move(fit), trial.item, key, options);
+}
+
 EstimatedParameter EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
                                       const LoopItem& item, const std::string& key,
                                       const LoopBudgetOptions& options) {

@@ -27,6 +27,11 @@ std::vector<LoopTrial> TryAll(const LoopRecords& records, const LoopFit& from, d
 LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
                 const std::string& key, const LoopBudgetOptions& options);
 
+// A trial's loop, fitted to all points together from these starts to the best that a search of each
+// point finds; an instrument Refined.
+LoopFit FitTrial(const LoopRecords& records, const LoopTrial& trial, const StartRows& starts,
+                 const std::string& key, const LoopBudgetOptions& options);
+
 // Of an instrument that the fit has, with the 95 % interval of its profile.
 EstimatedParameter EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
                                       const LoopItem& item, const std::string& key,

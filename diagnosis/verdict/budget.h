@@ -26,7 +26,7 @@ struct BudgetEntry {
   double lost_gap = 0.0;
   std::array<double, 2> lost_on_halves = {};  // nats of what was left out
   std::size_t experiments_better = 0;         // with the item, of what was left out
-  // Items that would have gained as much at this step, within the odds of a class (odds.h).
+  // Items that in the end, in its place, foretell as well within the odds of a class (odds.h).
   std::vector<std::string> equals;
   std::vector<EstimatedParameter> parameters;
 };

@@ -5,12 +5,11 @@
 #include <complex>
 #include <cstddef>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/record_fit/spectra/unitary_transform.h"
 #include "estimation/record_fit/whittle/noise_covariance.h"
-#include "model/numerics/fft.h"
 
 namespace howl {
 namespace {
@@ -31,22 +30,14 @@ double ShareInPressure(LoopNoise source, double background_ratio) {
   return source == LoopNoise::kBackground ? background_ratio : 0.0;
 }
 
-// The real signal of which these are the bins from `first` on.
-Eigen::VectorXd Signal(const Eigen::VectorXcd& bins, Eigen::Index first, Eigen::Index samples) {
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(samples / 2 + 1);
-  spectrum.segment(first, bins.size()) = bins * std::sqrt(static_cast<double>(samples));
-  Eigen::VectorXd out(samples);
-  Fft().Inverse(std::span(spectrum.data(), static_cast<std::size_t>(spectrum.size())),
-                std::span(out.data(), static_cast<std::size_t>(out.size())));
-  return out;
-}
-
 // The signal that has these bins under the taper: each is a bin of the transform of the signal
 // times 1 - e^(-2 pi j n / N).
 Eigen::VectorXd WithoutTaper(const Eigen::VectorXcd& tapered, Eigen::Index first,
                              Eigen::Index samples) {
-  const Eigen::VectorXd real = Signal(tapered, first, samples);
-  const Eigen::VectorXd imaginary = Signal(C(0.0, -1.0) * tapered, first, samples);
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(samples / 2 + 1);
+  spectrum.segment(first, tapered.size()) = tapered;
+  const Eigen::VectorXd real = UnitarySignal(spectrum, samples);
+  const Eigen::VectorXd imaginary = UnitarySignal(C(0.0, -1.0) * spectrum, samples);
   Eigen::VectorXd out(samples);
   for (Eigen::Index n = 0; n < samples; ++n) {
     const double turn =
@@ -86,12 +77,10 @@ Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure&
   for (std::size_t j = 0; j < share.size(); ++j) {
     power += share[j] * share[j] * spectrum(record.bins() - 1, j);
   }
-  C before = record.pressure[record.bins()];
-  for (Eigen::Index i = 0; i < above; ++i) {
-    const C tapered = before - record.above[i];
-    if (std::norm(tapered) < kMostOfBin * power) noise[record.bins() + i] = tapered;
-    before = record.above[i];
-  }
+  Eigen::VectorXcd edges(above + 1);
+  edges << record.pressure.tail(1), record.above;
+  noise.tail(above) =
+      Tapered(edges).unaryExpr([&](C p) { return std::norm(p) < kMostOfBin * power ? p : C(0.0); });
   return WithoutTaper(noise, record.below.size(), record.Samples());
 }
 

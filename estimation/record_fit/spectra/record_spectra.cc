@@ -6,13 +6,12 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "estimation/record_fit/spectra/flame_basis.h"
 #include "estimation/record_fit/spectra/flame_functions.h"
-#include "model/numerics/fft.h"
+#include "estimation/record_fit/spectra/unitary_transform.h"
 
 namespace howl {
 namespace {
@@ -44,23 +43,6 @@ double RootMeanSquare(const std::vector<double>& samples) {
   return std::sqrt(centred.squaredNorm() / static_cast<double>(centred.size()));
 }
 
-Eigen::VectorXcd Spectrum(const Eigen::VectorXd& signal) {
-  Eigen::VectorXcd out(signal.size() / 2 + 1);
-  Fft fft;
-  fft.Forward(std::span(signal.data(), static_cast<std::size_t>(signal.size())),
-              std::span(out.data(), static_cast<std::size_t>(out.size())));
-  return out / std::sqrt(static_cast<double>(signal.size()));
-}
-
-Eigen::VectorXd Signal(Eigen::VectorXcd spectrum, Eigen::Index samples) {
-  spectrum *= std::sqrt(static_cast<double>(samples));
-  Eigen::VectorXd out(samples);
-  Fft fft;
-  fft.Inverse(std::span(spectrum.data(), static_cast<std::size_t>(spectrum.size())),
-              std::span(out.data(), static_cast<std::size_t>(out.size())));
-  return out;
-}
-
 struct Band {
   Eigen::Index first = 0;
   Eigen::Index count = 0;
@@ -81,7 +63,7 @@ Eigen::VectorXd InputOf(const RecordSpectra& record, const Eigen::VectorXcd& pre
     spectrum[k] = pressure[k] * FlameInputResponse(record.flame_input, C(0.0, at * bin)) * 0.5 *
                   (1.0 + std::cos(std::numbers::pi * over));
   }
-  return Signal(std::move(spectrum), record.Samples());
+  return UnitarySignal(std::move(spectrum), record.Samples());
 }
 
 // Of recorded p, from no frequency on, with as much above the band as `above` has.
@@ -115,11 +97,11 @@ void SetFlame(const Eigen::VectorXcd& pressure, const FlamePrior& prior, RecordS
   const Eigen::VectorXcd rest =
       out->edge_s.unaryExpr([&](C s) { return FlameInputResponse(out->flame_input, s); })
           .cwiseProduct(out->pressure) -
-      band.Of(Spectrum(v));
+      band.Of(UnitarySpectrum(v));
   const Eigen::MatrixXd splines = basis.Columns(v);
   Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
   for (Eigen::Index k = 0; k < splines.cols(); ++k) {
-    spectra.col(k) = band.Of(Spectrum(splines.col(k))) + rises[k] * rest;
+    spectra.col(k) = band.Of(UnitarySpectrum(splines.col(k))) + rises[k] * rest;
   }
   const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
   const Eigen::MatrixXd at_rest = basis.Columns(about_rest);
@@ -150,7 +132,7 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
   band.first = std::max<Eigen::Index>(
       static_cast<Eigen::Index>(std::ceil(kLowestOfCycle / bin_of_cycle)), 1);
   band.count = static_cast<Eigen::Index>(highest / bin_of_cycle) - band.first;
-  const Eigen::VectorXcd pressure = Spectrum(p);
+  const Eigen::VectorXcd pressure = UnitarySpectrum(p);
   out.below = pressure.head(band.first);
   out.pressure = band.Of(pressure);
   const double input_highest =
@@ -159,7 +141,7 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
   out.above = pressure.segment(
       last + 1,
       std::max<Eigen::Index>(static_cast<Eigen::Index>(input_highest / bin_of_cycle) - last, 0));
-  out.heat_release = band.Of(Spectrum(Centred(record.heat_release, scale.heat_release)));
+  out.heat_release = band.Of(UnitarySpectrum(Centred(record.heat_release, scale.heat_release)));
   const Eigen::VectorXd middle =
       (Eigen::ArrayXd::LinSpaced(band.count, 0.0, static_cast<double>(band.count - 1)) +
        static_cast<double>(band.first) + 0.5) *
@@ -218,7 +200,7 @@ RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like)
 RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise) {
   CHECK_EQ(noise.size(), record.Samples());
   Eigen::VectorXcd pressure = PressureOf(record, record.above);
-  pressure -= Spectrum(noise).head(pressure.size());
+  pressure -= UnitarySpectrum(noise).head(pressure.size());
   SetFlame(pressure, {}, &record);
   return record;
 }

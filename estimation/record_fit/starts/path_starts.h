@@ -12,9 +12,6 @@
 
 namespace howl {
 
-// Of second paths, that fits go on from.
-inline constexpr std::size_t kSecondPaths = 3;
-
 class PathStarts {
  public:
   explicit PathStarts(const RecordSpectra& record);

@@ -17,7 +17,8 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kBestDelays = 3;
-constexpr double kRho = 0.2;  // spread of delays
+constexpr std::size_t kSecondPaths = 3;  // of each of them
+constexpr double kRho = 0.2;             // spread of delays
 constexpr double kEulersGamma = 0.5772156649015329;
 constexpr double kQuiet = 0.1;  // share of bins
 constexpr double kWellDamped = 0.1;

@@ -8,12 +8,11 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <span>
 #include <utility>
 
 #include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/record_fit/spectra/unitary_transform.h"
 #include "estimation/record_fit/starts/path_starts.h"
-#include "model/numerics/fft.h"
 #include "tests/estimation/record_fit/identified.h"
 
 namespace howl {
@@ -46,11 +45,7 @@ class PressureNoiseTest : public testing::Test {
   }
 
   Eigen::VectorXcd Band(const Eigen::VectorXd& signal) const {
-    Eigen::VectorXcd spectrum(signal.size() / 2 + 1);
-    Fft().Forward(std::span(signal.data(), static_cast<std::size_t>(signal.size())),
-                  std::span(spectrum.data(), static_cast<std::size_t>(spectrum.size())));
-    return spectrum.segment(recorded_.below.size(), recorded_.bins() + 1) /
-           std::sqrt(static_cast<double>(signal.size()));
+    return UnitarySpectrum(signal).segment(recorded_.below.size(), recorded_.bins() + 1);
   }
 
   double GainOfSpread(const RecordSpectra& record) const {
