@@ -32,8 +32,8 @@ int Run(int argc, char** argv) {
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
   const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(rig), LoopBaseOf(config), {});
   const Budget& budget = *found.diagnosis.budget;
-  std::printf("gap %.3f, left %.3f: %.2f of it; floor %.3f\n", budget.gap_before, budget.gap_left,
-              budget.gap_left / budget.gap_before, budget.floor);
+  std::printf("gap %.3f, left %.3f, floor %.3f\n", budget.gap_before, budget.gap_left,
+              budget.floor);
   for (const BudgetEntry& entry : budget.entries) {
     std::printf(
         "%-24s gap %.3f to %.3f  lost without: %8.1f nats, gap %.3f, halves %.0f %.0f, "

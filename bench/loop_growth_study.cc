@@ -36,9 +36,9 @@ std::vector<LoopRecord> Rig(int rig, int points, double duration_s, bool low_pas
   for (int point = 0; point < points; ++point) {
     const double gain = 1.2 + 0.6 * point / std::max(points - 1, 1);
     const auto seed = static_cast<std::uint64_t>(1000 * rig + point + 1);
-    LoopRecord at = DuctAt(gain, duration_s, seed);
-    if (low_pass) LowPass(kCutoff_hz, &at.record);
-    out.push_back(std::move(at));
+    out.push_back(low_pass ? DuctAt(gain, duration_s, seed,
+                                    [](Record* record) { LowPass(kCutoff_hz, record); })
+                           : DuctAt(gain, duration_s, seed));
   }
   return out;
 }

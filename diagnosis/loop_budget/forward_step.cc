@@ -19,11 +19,10 @@ namespace {
 constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain most
 
 // What comes only where nothing of an earlier one pays.
-enum class Stage : std::uint8_t { kHum, kNoise, kCauses, kLineErrors };
+enum class Stage : std::uint8_t { kHum, kCauses, kLineErrors };
 
 Stage StageOf(const LoopItem& item) {
   if (IsHum(item.noise.source)) return Stage::kHum;
-  if (item.kind == LoopItemKind::kNoise) return Stage::kNoise;
   return item.kind == LoopItemKind::kLineErrors ? Stage::kLineErrors : Stage::kCauses;
 }
 
@@ -131,7 +130,7 @@ std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
   std::vector<LoopTrial> trials;
   std::vector<std::string> fitted;
   std::size_t offered = 0;
-  for (const Stage stage : {Stage::kHum, Stage::kNoise, Stage::kCauses, Stage::kLineErrors}) {
+  for (const Stage stage : {Stage::kHum, Stage::kCauses, Stage::kLineErrors}) {
     if (stage == Stage::kHum && !only_hum_yet) continue;
     std::vector<LoopItem> waiting;
     std::ranges::copy_if(items, std::back_inserter(waiting),

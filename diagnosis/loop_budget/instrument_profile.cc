@@ -6,13 +6,15 @@
 
 #include "estimation/parallel.h"
 #include "estimation/record_fit/point_posterior.h"
+#include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
 
-constexpr int kMostSteps = 10;
-constexpr double kFirstStep = 0.05;  // of the search's range
-constexpr double kReach = 4.0;       // of a step, within which a value known leads on
+constexpr int kMostSteps = 20;
+constexpr int kMostHalvings = 5;
+constexpr double kLongestStep = 0.1;  // of the search's range
+constexpr double kDifference = 1e-5;  // of the same
 
 }  // namespace
 
@@ -44,75 +46,115 @@ LoopForm InstrumentProfile::FormAt(double u) const {
   return form;
 }
 
-InstrumentPoint InstrumentProfile::At(double u, const InstrumentPoint& near) {
-  const auto distance = [&](const InstrumentPoint& other) {
-    return other.u == near.u ? std::numeric_limits<double>::infinity() : std::abs(other.u - u);
-  };
-  const auto other = std::ranges::min_element(known_, {}, distance);
-  if (other == known_.end() || !(distance(*other) < kReach * std::abs(u - near.u))) {
-    return At(u, near.parameters);
-  }
+InstrumentPoint InstrumentProfile::At(double u, const std::vector<Eigen::VectorXd>& starts,
+                                      const PointFitOptions& options) {
+  const std::string key = key_ + std::to_string(evaluations_++) + "/";
   const LoopForm form = FormAt(u);
-  const double along = (u - near.u) / (near.u - other->u);
-  std::vector<Eigen::VectorXd> starts = near.parameters;
+  InstrumentPoint out{u, 0.0, 0.0, std::vector<PointFit>(records_.size())};
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
-    const Eigen::VectorXd led =
-        near.parameters[e] + along * (near.parameters[e] - other->parameters[e]);
+    out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
+      const RecordSpectra record = records_.Whole(form, e);
+      return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
+                      starts[e], options);
+    });
+  });
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    const double jacobian = records_.LogJacobianOfWhole(form, e);
+    out.log_posterior += out.fits[e].log_posterior + jacobian;
+    out.log_evidence += out.fits[e].log_evidence + jacobian;
+  }
+  return out;
+}
+
+InstrumentPoint InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_null) {
+  // An infinite null is next to the range's end.
+  const double null = ToSearch(parameter_, std::min(parameter_.null_value, parameter_.high));
+  std::vector<double> starts;
+  for (const double start : parameter_.starts) starts.push_back(ToSearch(parameter_, start));
+  std::ranges::sort(starts, {}, [&](double u) { return std::abs(u - null); });
+  InstrumentPoint best = At(null, at_null, kToTheMaximum);
+  InstrumentPoint below = best;
+  InstrumentPoint above = best;
+  for (const double u : starts) {
+    InstrumentPoint& last = u < null ? below : above;
+    last = At(u, ParametersOf(last), kToTheMaximum);
+    if (last.log_evidence > best.log_evidence) best = last;
+  }
+  return best;
+}
+
+InstrumentProfile::Slopes InstrumentProfile::SlopesOfPoint(const InstrumentPoint& point,
+                                                           std::size_t e, double step) const {
+  struct Beside {
+    double value = 0.0;
+    Eigen::VectorXd gradient;
+  };
+  const Eigen::VectorXd& parameters = point.fits[e].parameters;
+  const auto beside = [&](double u) {
+    const LoopForm form = FormAt(u);
     const RecordSpectra record = records_.Whole(form, e);
     const PointPrior prior = PriorOfTrial(records_, from_, form, e, record);
     PointPosterior posterior(record, form.structure, prior);
-    if (posterior.Value(led) > posterior.Value(near.parameters[e])) starts[e] = led;
-  });
-  return At(u, starts);
+    const double value = posterior.Value(parameters) + records_.LogJacobianOfWhole(form, e);
+    return Beside{value, posterior.Gradient(parameters).cwiseQuotient(prior.deviation)};
+  };
+  const Beside below = beside(point.u - step);
+  const Beside here = beside(point.u);
+  const Beside above = beside(point.u + step);
+  const Eigen::VectorXd turn = (above.gradient - below.gradient) / (2.0 * step);
+  const Eigen::VectorXd by = SolveSymmetric(point.fits[e].information, turn);
+  return {(above.value - below.value) / (2.0 * step),
+          (above.value - 2.0 * here.value + below.value) / (step * step) + turn.dot(by),
+          {by}};
 }
 
-InstrumentPoint InstrumentProfile::At(double u, const std::vector<Eigen::VectorXd>& starts) {
-  const std::string key = key_ + std::to_string(evaluations_++) + "/";
-  const LoopForm form = FormAt(u);
-  std::vector<PointFit> fits(records_.size());
-  RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
-    fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
-      const RecordSpectra record = records_.Whole(form, e);
-      return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
-                      starts[e]);
-    });
-  });
-  InstrumentPoint out{u, 0.0, {}};
-  for (std::size_t e = 0; e < records_.size(); ++e) {
-    out.nats += fits[e].log_evidence + records_.LogJacobianOfWhole(form, e);
-    out.parameters.push_back(fits[e].parameters);
+InstrumentProfile::Slopes InstrumentProfile::SlopesAt(const InstrumentPoint& point) const {
+  const double step = kDifference * SearchSpan(parameter_);
+  std::vector<Slopes> of(records_.size());
+  RunUnits(of.size(), options_.threads,
+           [&](std::size_t e) { of[e] = SlopesOfPoint(point, e, step); });
+  Slopes out;
+  for (Slopes& each : of) {
+    out.slope += each.slope;
+    out.curvature += each.curvature;
+    out.by.push_back(std::move(each.by[0]));
   }
-  known_.push_back(out);
   return out;
 }
 
 ProfileMaximum InstrumentProfile::From(InstrumentPoint best, double least) {
   const double low = ToSearch(parameter_, parameter_.low);
   const double high = ToSearch(parameter_, parameter_.high);
-  double step = kFirstStep * SearchSpan(parameter_);
   double std = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostSteps; ++i) {
-    const double u = best.u;
-    InstrumentPoint below = At(std::max(u - step, low), best);
-    InstrumentPoint above = At(std::min(u + step, high), best);
-    const double curvature =
-        2.0 *
-        ((above.nats - best.nats) / (above.u - u) - (best.nats - below.nats) / (u - below.u)) /
-        (above.u - below.u);
-    if (below.nats > best.nats || above.nats > best.nats || !(curvature < 0.0)) {
-      best = below.nats > above.nats ? std::move(below) : std::move(above);
-      if (best.u <= low || best.u >= high) break;
-      step *= 2.0;
-      continue;
+    const Slopes slopes = SlopesAt(best);
+    if (!std::isfinite(slopes.slope) || !std::isfinite(slopes.curvature)) break;
+    const double most = kLongestStep * SearchSpan(parameter_);
+    double step = std::copysign(most, slopes.slope);
+    std = std::numeric_limits<double>::infinity();
+    if (slopes.curvature < 0.0) {
+      std = 1.0 / std::sqrt(-slopes.curvature);
+      const double gain = -0.5 * slopes.slope * slopes.slope / slopes.curvature;
+      if (gain < PointFitOptions{}.converged || best.log_evidence + gain < least) break;
+      step = std::clamp(-slopes.slope / slopes.curvature, -most, most);
     }
-    std = 1.0 / std::sqrt(-curvature);
-    const double slope = (above.nats - below.nats) / (above.u - below.u);
-    if (step <= std || best.nats - 0.5 * slope * slope / curvature < least) break;
-    InstrumentPoint vertex = At(u - slope / curvature, best);
-    if (vertex.nats > best.nats) best = std::move(vertex);
-    step = std::max(step / 4.0, std);
+    step = std::clamp(best.u + step, low, high) - best.u;
+    const double from = best.u;
+    for (int halved = 0; best.u == from && halved < kMostHalvings; ++halved, step *= 0.5) {
+      std::vector<Eigen::VectorXd> starts = ParametersOf(best);
+      for (std::size_t e = 0; e < starts.size(); ++e) starts[e] += step * slopes.by[e];
+      InstrumentPoint next = At(from + step, starts);
+      if (next.log_posterior > best.log_posterior) best = std::move(next);
+    }
+    if (best.u == from) break;
   }
   return {std::move(best), std};
+}
+
+std::vector<Eigen::VectorXd> ParametersOf(const InstrumentPoint& point) {
+  std::vector<Eigen::VectorXd> out;
+  for (const PointFit& fit : point.fits) out.push_back(fit.parameters);
+  return out;
 }
 
 }  // namespace howl

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_trial.h"
+#include "estimation/record_fit/point_fit.h"
 
 namespace howl {
 
@@ -19,11 +20,12 @@ double ToSearch(const EffectParameter& parameter, double value);
 double FromSearch(const EffectParameter& parameter, double u);
 double SearchSpan(const EffectParameter& parameter);
 
-// What a value is worth, and each point's parameters there.
+// What a value is worth, and each point's fit there.
 struct InstrumentPoint {
   double u = 0.0;
-  double nats = -std::numeric_limits<double>::infinity();
-  std::vector<Eigen::VectorXd> parameters;
+  double log_posterior = -std::numeric_limits<double>::infinity();
+  double log_evidence = -std::numeric_limits<double>::infinity();
+  std::vector<PointFit> fits;
 };
 
 struct ProfileMaximum {
@@ -39,26 +41,38 @@ class InstrumentProfile {
 
   const EffectParameter& parameter() const { return parameter_; }
   LoopForm FormAt(double u) const;
-  InstrumentPoint At(double u, const std::vector<Eigen::VectorXd>& starts);
-  // The maximum next to `best`: up by ever longer steps and then by parabolas through three values
-  // each, until they stand closer than the profile's own width, or until a parabola's top is not
-  // worth `least`.
+  InstrumentPoint At(double u, const std::vector<Eigen::VectorXd>& starts,
+                     const PointFitOptions& options = {});
+  // The best of the values that a search begins with, the null among them: outwards from it, each
+  // from where its neighbour's fits came to.
+  InstrumentPoint Begin(const std::vector<Eigen::VectorXd>& at_null);
+  // The maximum of the log posterior next to `best`, by Newton's steps, or as far as their top has
+  // the evidence `least`.
   ProfileMaximum From(InstrumentPoint best,
                       double least = -std::numeric_limits<double>::infinity());
 
  private:
-  // From `near`, or from where the line through it and the last value known near it leads.
-  InstrumentPoint At(double u, const InstrumentPoint& near);
+  // Of the points' log posteriors by u, all else moving along `by` to stay most likely:
+  //
+  //   d/du = v_u,   d^2/du^2 = v_uu + v_ux H^-1 v_xu,   dx/du = H^-1 v_xu,   H = -v_xx
+  struct Slopes {
+    double slope = 0.0;
+    double curvature = 0.0;
+    std::vector<Eigen::VectorXd> by;
+  };
+  Slopes SlopesAt(const InstrumentPoint& point) const;
+  Slopes SlopesOfPoint(const InstrumentPoint& point, std::size_t e, double step) const;
 
   const LoopRecords& records_;
   const LoopFit& from_;
   const EffectParameter& parameter_;
   LoopForm form_;
   std::string key_;
-  std::vector<InstrumentPoint> known_;
   std::size_t evaluations_ = 0;  // each is a unit of its own, the same value from another start too
   const LoopBudgetOptions& options_;
 };
+
+std::vector<Eigen::VectorXd> ParametersOf(const InstrumentPoint& point);
 
 }  // namespace howl
 

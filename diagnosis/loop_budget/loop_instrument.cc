@@ -46,6 +46,11 @@ RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& inst
         (record.heat_release[i] - LeakOf(instrument, hz) * record.pressure[i]) /
         ResponseOf(instrument, hz);
   }
+  if (record.instrument_power.size() == 0) record.instrument_power.setOnes(record.bins());
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const double hz = record.s[i].imag() * record.scale.cycle_hz;
+    record.instrument_power[i] *= std::norm(ResponseOf(instrument, hz));
+  }
   return record;
 }
 

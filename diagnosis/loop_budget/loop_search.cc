@@ -71,12 +71,13 @@ LoopFit Search::Without(const LoopFit& from, const std::vector<LoopStep>& steps,
                      key + "without/" + std::to_string(which) + "/", options_);
 }
 
+// Beside a loop that stands: whether such errors lead to another the search has tried.
 LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const {
   if (from.model.structure.*lines > 0) return from;
   LoopForm model = from.model;
   model.structure.*lines = kCycleLines;
   return FitLoopFrom(records_, model, StartsWith(records_, from, model, options_.threads).rows,
-                     MaximumTaken::kBest, key, options_);
+                     MaximumTaken::kNext, key, options_);
 }
 
 void Search::Forward(LoopFound* out) {

@@ -18,6 +18,7 @@ namespace howl {
 namespace {
 
 constexpr double kFirstDamping = 0.1;
+constexpr double kLeastDamping = 1e-9;  // no step is the shorter for
 constexpr double kMostDamping = 1e12;
 // Of a parameter, in deviations of what it may be on any rig (point_prior.h): from a start far from
 // any maximum a quadratic may point to where no rig is, and the likelihood be flat.
@@ -25,6 +26,8 @@ constexpr double kLongestStep = 3.0;
 // Of frequencies and the delay, in the same deviations: no rig has them farther out.
 constexpr double kFarthest = 10.0;
 constexpr int kMostCorrections = 12;
+constexpr int kMostShortened = 2;   // of a step, by at most
+constexpr double kShortest = 0.1;   // each time
 constexpr double kFromEdge = 1.02;  // of delays, and of their spread, that fits begin with
 constexpr int kMostHalvings = 20;   // of a start's flame
 
@@ -107,18 +110,26 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
         out.converged = true;
         break;
       }
-      here.information = posterior.Curvature(out.parameters);
+      here.information = posterior.Curvature(out.parameters, here);
       source = Source::kCurvature;
       continue;
     }
     const bool far = source == Source::kInformation && foretold >= kNearMaximum;
     step *= posterior.ShareWithin(out.parameters, step);
+    Eigen::VectorXd there;
+    double value = -std::numeric_limits<double>::infinity();
+    double gain = value;
+    // A step that leads down is shortened to where a parabola through what it lost has its top.
+    for (int shortened = 0;; ++shortened) {
+      there = out.parameters + step.cwiseProduct(prior.deviation);
+      const bool on_a_rig = farthest(there) <= std::max(kFarthest, farthest(out.parameters));
+      value = on_a_rig ? posterior.Value(there) : -std::numeric_limits<double>::infinity();
+      gain = value - out.log_posterior;
+      if (gain > 0.0 || shortened == kMostShortened) break;
+      const double slope = here.gradient.dot(step);
+      step *= std::clamp(0.5 * slope / (slope - gain), kShortest, 0.5);
+    }
     foretold = gain_of(step);
-    const Eigen::VectorXd there = out.parameters + step.cwiseProduct(prior.deviation);
-    const bool on_a_rig = farthest(there) <= std::max(kFarthest, farthest(out.parameters));
-    const double value =
-        on_a_rig ? posterior.Value(there) : -std::numeric_limits<double>::infinity();
-    const double gain = value - out.log_posterior;
     // Where spectra leave the range of numbers the likelihood may still have a value, and no slope.
     PosteriorSlopes next;
     if (std::isfinite(value) && (gain > 0.0 || !far)) next.gradient = posterior.Gradient(there);
@@ -132,7 +143,8 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
       here.information = next.information;
       source = Source::kCorrected;
       if (++corrections > kMostCorrections) {
-        next.information = posterior.Curvature(taken ? there : out.parameters);
+        next.information =
+            taken ? posterior.Curvature(there, next) : posterior.Curvature(out.parameters, here);
         here.information = next.information;
         source = Source::kCurvature;
         corrections = 0;
@@ -147,7 +159,12 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     out.log_posterior = value;
     here = std::move(next);
     damping *= std::max(1.0 / 5.0, 1.0 - std::pow(2.0 * gain / foretold - 1.0, 3.0));
+    damping = std::max(damping, kLeastDamping);
     raise = 2.0;
+  }
+  // Corrections show the curvature along the way alone.
+  if (source == Source::kCorrected && options.converged < kNearMaximum) {
+    here.information = posterior.Curvature(out.parameters, here);
   }
   here.information = Positive(here.information);
   out.log_likelihood = out.log_posterior - posterior.LogPrior(out.parameters);

@@ -1,5 +1,6 @@
 #include "estimation/record_fit/point_posterior.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "estimation/record_fit/loop/possible_loop.h"
@@ -8,7 +9,7 @@
 namespace howl {
 namespace {
 
-constexpr double kDifference = 1e-5;  // of the prior's deviation
+constexpr double kDifference = 1e-5;  // of what a parameter is known by, all others being given
 constexpr double kLeastCosine =
     1e-8;  // of a correction's denominator (Nocedal & Wright 2006, 6.26)
 // Of the way to an edge (the fraction to the boundary of interior-point methods, the same, 19.9).
@@ -43,16 +44,16 @@ Eigen::MatrixXd PointPosterior::Information(const Eigen::VectorXd& parameters) {
   return out;
 }
 
-Eigen::MatrixXd PointPosterior::Curvature(const Eigen::VectorXd& parameters) {
+Eigen::MatrixXd PointPosterior::Curvature(const Eigen::VectorXd& parameters,
+                                          const PosteriorSlopes& here) {
   const Eigen::Index size = parameters.size();
-  const auto gradient = [&](Eigen::Index i, double step) {
-    Eigen::VectorXd moved = parameters;
-    moved[i] += step * prior_.deviation[i];
-    return Gradient(moved);
-  };
   Eigen::MatrixXd out(size, size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    out.col(i) = (gradient(i, -kDifference) - gradient(i, kDifference)) / (2.0 * kDifference);
+    // Less than the prior tells no parameter is known by.
+    const double step = kDifference / std::sqrt(std::max(here.information(i, i), 1.0));
+    Eigen::VectorXd moved = parameters;
+    moved[i] += step * prior_.deviation[i];
+    out.col(i) = (here.gradient - Gradient(moved)) / step;
   }
   return 0.5 * (out + out.transpose());
 }

@@ -76,6 +76,9 @@ struct RecordSpectra {
   Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
   Eigen::VectorXd rest_slopes;  // d b_k / d v at v = 0
   Eigen::VectorXd share;        // what each bin counts for
+  // |H_q|^2 of the instruments of q that were taken out of the record: noise that came in behind
+  // them was divided by it. Empty: 1.
+  Eigen::VectorXd instrument_power;
 
   Eigen::Index bins() const { return s.size(); }
   Eigen::Index Samples() const { return std::lround(sampling_hz / bin_hz); }

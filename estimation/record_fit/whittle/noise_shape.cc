@@ -9,10 +9,7 @@ namespace {
 // Of the cycle's frequency: as far as its lines reach (loop_point.h).
 constexpr double kBesideCycle = 0.06;
 
-}  // namespace
-
-Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
-  if (!IsHum(term.source)) return Eigen::VectorXd::Ones(record.bins());
+Eigen::VectorXd HumLines(const NoiseTerm& term, const RecordSpectra& record) {
   const double cycle_hz = record.scale.cycle_hz;
   const Eigen::VectorXd f_hz = cycle_hz * record.s.imag();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(record.bins());
@@ -24,6 +21,22 @@ Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
       const double bins = (f_hz[i] - line_hz) / record.bin_hz;
       out[i] += 1.0 / std::max(1.0, std::pow(4.0 * bins * bins - 1.0, 2));
     }
+  }
+  return out;
+}
+
+// Whether it comes in behind the instruments of q.
+bool IsOfHeatReleaseRecord(LoopNoise source) {
+  return source == LoopNoise::kHeatReleaseSensor || source == LoopNoise::kHeatReleaseHum;
+}
+
+}  // namespace
+
+Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
+  Eigen::VectorXd out =
+      IsHum(term.source) ? HumLines(term, record) : Eigen::VectorXd::Ones(record.bins()).eval();
+  if (record.instrument_power.size() > 0 && IsOfHeatReleaseRecord(term.source)) {
+    out = out.cwiseQuotient(record.instrument_power);
   }
   return out;
 }

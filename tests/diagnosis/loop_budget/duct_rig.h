@@ -15,17 +15,27 @@
 namespace howl {
 
 // Its operating parameter is the loop's gain, with which the delay grows a little.
-inline LoopRecord DuctAt(double gain, double duration_s, std::uint64_t seed) {
+inline LoopRecord DuctAt(double gain, double duration_s, std::uint64_t seed,
+                         const ModalInstruments& instruments = {}) {
   ModalLoop loop = DuctOfModes(2);
   loop.tau_s *= 1.0 + 0.03 * (gain - 1.3);
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
   loop.slope = gain / loop.Open(cycle_hz).real();
   return {"gain " + std::to_string(gain), gain, cycle_hz,
-          SimulateModalLoop(loop, duration_s, seed)};
+          SimulateModalLoop(loop, duration_s, seed, instruments)};
 }
 
-// q recorded through a low-pass of first order, exact at each frequency of the record, whose end
-// meets its beginning within a sample.
+inline std::vector<LoopRecord> DuctsAt(const std::vector<double>& gains,
+                                       const ModalInstruments& instruments = {}) {
+  std::vector<LoopRecord> out;
+  for (const double gain : gains) {
+    out.push_back(DuctAt(gain, 0.8, static_cast<std::uint64_t>(100.0 * gain), instruments));
+  }
+  return out;
+}
+
+// q through a low-pass of first order, exact at each frequency of the record, whose end meets its
+// beginning within a sample.
 inline void LowPass(double cutoff_hz, Record* record) {
   std::vector<double>& q = record->heat_release;
   std::vector<std::complex<double>> spectrum(q.size() / 2 + 1);

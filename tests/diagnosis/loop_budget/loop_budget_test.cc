@@ -15,13 +15,7 @@
 namespace howl {
 namespace {
 
-std::vector<LoopRecord> DuctsRecords() {
-  std::vector<LoopRecord> out;
-  for (const double gain : {1.2, 1.5, 1.8}) {
-    out.push_back(DuctAt(gain, 0.8, static_cast<std::uint64_t>(100.0 * gain)));
-  }
-  return out;
-}
+std::vector<LoopRecord> DuctsRecords() { return DuctsAt({1.2, 1.5, 1.8}); }
 
 LoopBudgetOptions Among(const std::vector<std::string>& kept) {
   LoopBudgetOptions out;
@@ -136,8 +130,8 @@ TEST(LoopBudget, FindsWhatDrivesTheFlame) {
 // Recorded q is q through a low-pass of first order.
 TEST(LoopBudget, FindsInstrumentsOfQ) {
   constexpr double kCutoff_hz = 500.0;
-  std::vector<LoopRecord> records = DuctsRecords();
-  for (LoopRecord& each : records) LowPass(kCutoff_hz, &each.record);
+  const std::vector<LoopRecord> records =
+      DuctsAt({1.2, 1.5, 1.8}, [](Record* record) { LowPass(kCutoff_hz, record); });
   const LoopDiagnosis found = DiagnoseLoops(
       records, DuctsForm(), Among({"q_sensor_lowpass", "channel_skew", "crosstalk_p_to_q"}));
   ASSERT_FALSE(found.diagnosis.budget->entries.empty());

@@ -25,12 +25,8 @@ std::vector<LoopItem> ItemsOf(const std::string& id) {
 
 // q through a low-pass, for which a mode far above the band came first: it leads q nearly as much.
 TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
-  std::vector<LoopRecord> rig;
-  for (const double gain : {1.2, 1.5, 1.8}) {
-    rig.push_back(DuctAt(gain, 0.8, static_cast<std::uint64_t>(100.0 * gain)));
-    LowPass(2000.0, &rig.back().record);
-  }
-  const LoopRecords records(rig, 0);
+  const LoopRecords records(
+      DuctsAt({1.2, 1.5, 1.8}, [](Record* record) { LowPass(2000.0, record); }), 0);
   const LoopForm base = DuctsForm();
   LoopBudgetOptions options;
   options.starts = 4;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -71,7 +72,11 @@ inline double RootMeanSquare(const std::vector<double>& x) {
   return std::sqrt(square / n - sum * sum / (n * n));
 }
 
-inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::uint64_t seed) {
+// What comes in between the signals and their sensors' noise.
+using ModalInstruments = std::function<void(Record*)>;
+
+inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::uint64_t seed,
+                                const ModalInstruments& instruments = {}) {
   struct State {
     double w, xi, a, b;
     double e00, e01, e10, e11, input0, input1;  // over one step
@@ -130,6 +135,7 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
     }
     q = next;
   }
+  if (instruments) instruments(&out);
   for (std::vector<double>* signal : {&out.pressure, &out.heat_release}) {
     const double deviation = loop.sensor_noise * RootMeanSquare(*signal);
     for (double& value : *signal) value += deviation * random.Normal();

@@ -1,0 +1,108 @@
+// Instruments of q that a record shows, and those that it does not.
+#include "diagnosis/loop_budget/loop_instrument.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_budget.h"
+#include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "estimation/record_fit/whittle/noise_shape.h"
+#include "tests/diagnosis/loop_budget/duct_rig.h"
+
+namespace howl {
+namespace {
+
+std::vector<LoopRecord> Ducts(const ModalInstruments& instruments) {
+  return DuctsAt({1.2, 1.5, 1.8}, instruments);
+}
+
+// Of the loop itself, each instrument tried beside it.
+std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig) {
+  const LoopRecords records(rig, 0);
+  const LoopForm base = DuctsForm();
+  LoopBudgetOptions options;
+  options.starts = 4;
+  const RecordsFitOptions of_base = FitOptionsOf(options, "base/");
+  const LoopFit from =
+      Scored(records, base, FitRecords(records.Points(base), base.structure, of_base), of_base);
+  const double standing = StandingEvidence(records, from, "", options);
+  std::vector<LoopTrial> out;
+  for (const LoopItem& item : AllLoopItems()) {
+    if (item.kind != LoopItemKind::kInstrument) continue;
+    out.push_back(TryInstrument(records, from, standing, item, "", options));
+  }
+  return out;
+}
+
+// The loop is a special case of each: no more is lost than the parameter's prior asks.
+TEST(LoopInstrument, CostsItsPriorWhereThereIsNone) {
+  for (const LoopTrial& trial : TrialsOn(Ducts({}))) {
+    EXPECT_GT(trial.gain, -15.0) << KeyOf(trial.item);
+    EXPECT_LT(trial.gain, 3.0) << KeyOf(trial.item);
+  }
+}
+
+const LoopTrial& BestOf(const std::vector<LoopTrial>& trials) {
+  return *std::ranges::max_element(trials, {}, &LoopTrial::gain);
+}
+
+TEST(LoopInstrument, FindsAStrongLowPass) {
+  const std::vector<LoopTrial> trials =
+      TrialsOn(Ducts([](Record* record) { LowPass(120.0, record); }));
+  EXPECT_EQ(BestOf(trials).item.id, "q_sensor_lowpass");
+  EXPECT_GT(BestOf(trials).gain, 100.0);
+  EXPECT_NEAR(BestOf(trials).model.instruments.back().value, 120.0, 2.0);
+}
+
+TEST(LoopInstrument, FindsAStrongLeak) {
+  constexpr double kLeak = 0.5;
+  const auto ratio_of = [](const Record& record) {
+    return RootMeanSquare(record.heat_release) / RootMeanSquare(record.pressure);
+  };
+  double relative_to_record = 0.0;  // a leak is stated over q as it is recorded
+  const std::vector<LoopRecord> rig = Ducts([&](Record* record) {
+    const double leak = kLeak * ratio_of(*record);
+    for (std::size_t i = 0; i < record->pressure.size(); ++i) {
+      record->heat_release[i] += leak * record->pressure[i];
+    }
+    relative_to_record += leak / ratio_of(*record) / 3.0;
+  });
+  const std::vector<LoopTrial> trials = TrialsOn(rig);
+  EXPECT_EQ(BestOf(trials).item.id, "crosstalk_p_to_q");
+  EXPECT_GT(BestOf(trials).gain, 100.0);
+  EXPECT_NEAR(BestOf(trials).model.instruments.back().value, relative_to_record, 0.01);
+}
+
+TEST(LoopInstrument, ShapesTheNoiseBehindIt) {
+  LoopRecord of = DuctAt(1.5, 0.8, 1);
+  const RecordSpectra plain = MakeRecordSpectra(of.record, of.cycle_hz, FlameInput::kPressureRate);
+  const RecordSpectra record = WithoutInstrument(plain, {InstrumentsOfHeatRelease()[0], 300.0});
+  const NoiseTerm sensor{LoopNoise::kHeatReleaseSensor, 1};
+  const Eigen::VectorXd shape = NoiseShape(sensor, record);
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const double hz = record.s[i].imag() * record.scale.cycle_hz;
+    EXPECT_NEAR(shape[i], 1.0 + std::pow(hz / 300.0, 2), 1e-9 * shape[i]);
+  }
+  EXPECT_EQ(NoiseShape({LoopNoise::kCombustion, 6}, record), NoiseShape(sensor, plain));
+}
+
+// White noise of the sensor's electronics comes in behind its low-pass, and stays white there.
+TEST(LoopInstrument, HasNoColouredNoiseBesideIt) {
+  const std::vector<LoopRecord> rig = Ducts([](Record* record) { LowPass(150.0, record); });
+  LoopBudgetOptions options;
+  options.starts = 4;
+  for (const std::string& id : LoopItemIds()) {
+    if (id != "q_sensor_lowpass" && id != "q_sensor_noise") options.withheld.push_back(id);
+  }
+  const LoopDiagnosis found = DiagnoseLoops(rig, DuctsForm(), options);
+  EXPECT_EQ(found.diagnosis.effect, "q_sensor_lowpass");
+}
+
+}  // namespace
+}  // namespace howl
