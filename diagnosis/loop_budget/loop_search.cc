@@ -37,11 +37,11 @@ class Search {
   void Forward(LoopFound* out);
   void Backward(const std::string& prefix, LoopStanding* out);
   void Exchange(LoopStanding* out);
-  void TakeAway(const std::vector<std::size_t>& which, const std::string& key,
-                LoopStanding* out) const;
-  static std::vector<std::size_t> Idle(const LoopStanding& found);
+  // Each item by itself.
+  void TakeAway(MaximumTaken taken, const std::string& key, LoopStanding* out) const;
+  static std::optional<std::size_t> Idle(const LoopStanding& found);
   LoopFit Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
-                  const std::string& key) const;
+                  MaximumTaken taken, const std::string& key) const;
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
 
   LoopRecords records_;
@@ -64,10 +64,10 @@ LoopFit Search::FitBase() {
 }
 
 LoopFit Search::Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
-                        const std::string& key) const {
+                        MaximumTaken taken, const std::string& key) const {
   const LoopForm model = howl::Without(from.model, steps[which].item, base_);
   const LoopStarts starts = StartsWithout(records_, from, model, ModeOf(steps, which, base_));
-  return FitLoopFrom(records_, model, starts.rows, MaximumTaken::kBest,
+  return FitLoopFrom(records_, model, starts.rows, taken,
                      key + "without/" + std::to_string(which) + "/", options_);
 }
 
@@ -95,58 +95,53 @@ void Search::Forward(LoopFound* out) {
   }
 }
 
-// What pays least goes first, as long as something does not pay what it had to when it came. What
-// did not pay a round ago is tried before the rest: where it still does not, what the rest pays
-// need not be known yet.
+// What pays least goes first, as long as something does not pay what it had to when it came. A fit
+// to the maximum next to the loop that stands loses more than one that looks for others: what is
+// idle by the former is so. Where nothing is, the latter decides.
 void Search::Backward(const std::string& prefix, LoopStanding* out) {
-  std::vector<std::size_t> first;
   for (std::size_t round = 0; !out->steps.empty(); ++round) {
     const std::string key = prefix + "back/" + std::to_string(round) + "/";
     out->without.assign(out->steps.size(), {});
-    TakeAway(first, key, out);
-    std::vector<std::size_t> idle = Idle(*out);
-    if (idle.empty() && first.size() < out->steps.size()) {
-      std::vector<std::size_t> rest;
-      for (std::size_t i = 0; i < out->steps.size(); ++i) {
-        if (std::ranges::find(first, i) == first.end()) rest.push_back(i);
-      }
-      TakeAway(rest, key, out);
-      idle = Idle(*out);
+    TakeAway(MaximumTaken::kNext, key + "next/", out);
+    std::optional<std::size_t> least = Idle(*out);
+    if (least) {
+      const LoopFit& next = out->without[*least];
+      out->best = Driven(FitLoopFrom(records_, next.model, {ParametersOf(next)},
+                                     MaximumTaken::kBest, key + "best/", options_),
+                         key);
+    } else {
+      TakeAway(MaximumTaken::kBest, key, out);
+      least = Idle(*out);
+      if (!least) return;
+      out->best = Driven(out->without[*least], key);
     }
-    if (idle.empty()) return;
-    const std::size_t least = idle[0];
-    out->best = Driven(out->without[least], key);
-    out->steps.erase(out->steps.begin() + static_cast<std::ptrdiff_t>(least));
-    first.clear();
-    for (const std::size_t i : idle) {
-      if (i != least) first.push_back(i > least ? i - 1 : i);
-    }
+    out->steps.erase(out->steps.begin() + static_cast<std::ptrdiff_t>(*least));
   }
   out->without.clear();
 }
 
-void Search::TakeAway(const std::vector<std::size_t>& which, const std::string& key,
-                      LoopStanding* out) const {
-  RunUnits(which.size(), options_.threads, [&](std::size_t n) {
-    out->without[which[n]] = Without(out->best, out->steps, which[n], key);
+void Search::TakeAway(MaximumTaken taken, const std::string& key, LoopStanding* out) const {
+  RunUnits(out->steps.size(), options_.threads, [&](std::size_t i) {
+    LoopFit& without = out->without[i];
+    without = without.log_density.empty()
+                  ? Without(out->best, out->steps, i, taken, key)
+                  : FitLoopFrom(records_, without.model, {ParametersOf(without)}, taken,
+                                key + "without/" + std::to_string(i) + "/", options_);
   });
-  for (const std::size_t i : which) {
+  for (std::size_t i = 0; i < out->steps.size(); ++i) {
     VLOG(1) << key << out->steps[i].item.id << " "
             << out->best.Density() - out->without[i].Density() << " nats lost";
   }
 }
 
-// The steps that are known not to pay, that which pays least first.
-std::vector<std::size_t> Search::Idle(const LoopStanding& found) {
-  std::vector<std::size_t> out;
+// Of the steps that do not pay what they had to that which pays least.
+std::optional<std::size_t> Search::Idle(const LoopStanding& found) {
+  std::optional<std::size_t> out;
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
-    const LoopFit& without = found.without[i];
-    const double least = found.steps[i].least;
-    if (without.log_density.empty() || without.Density() < found.best.Density() - least) continue;
-    out.push_back(i);
+    const double density = found.without[i].Density();
+    if (density < found.best.Density() - found.steps[i].least) continue;
+    if (!out || density > found.without[*out].Density()) out = i;
   }
-  std::ranges::stable_sort(out, std::ranges::greater(),
-                           [&](std::size_t i) { return found.without[i].Density(); });
   return out;
 }
 

@@ -66,7 +66,7 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
   if (answer || acoustic_lines) {
     Leave(record_.pressure, answer_, acoustic_factors_, &residuals_.acoustic);
   }
-  if (path) MovePath();
+  if (path) SetPath(record_, structure_, point_, &path_);
   if (burning) {
     burning_.resize(record_.edge_s.size());
     burning_.real() = flame_real_ * point_.flame;
@@ -76,7 +76,7 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
     residuals_.f = record_.slopes.dot(point_.flame) * path_.at;
     arriving_.resize(burning_.size());
     for (Eigen::Index i = 0; i < burning_.size(); ++i) {
-      arriving_[i] = Times(edge_path_.at[i], burning_[i]);
+      arriving_[i] = Times(path_.edge_at[i], burning_[i]);
     }
   }
   if (flame_lines) {
@@ -129,25 +129,6 @@ void KeptLoop::MoveAnswer() {
                               C(mode.h * mode.omega, mode.g * x),
                           modes_[k].edge_over[i]);
     }
-  }
-}
-
-void KeptLoop::MovePath() {
-  const auto parameters = static_cast<std::size_t>(structure_.Delays());
-  path_.Set(point_.path, parameters, record_.s);
-  for (Eigen::Index i = 0; i < record_.bins(); ++i) {
-    path_.at[i] = Times(path_.at[i], record_.input[i]);
-  }
-  edge_path_.Set(point_.path, parameters, record_.edge_s);
-}
-
-void KeptLoop::Path::Set(const FlamePath& path, std::size_t parameters, const Eigen::VectorXcd& s) {
-  at.resize(s.size());
-  for (std::size_t k = 0; k < parameters; ++k) by[k].resize(s.size());
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    const PathSlopes slopes = path.WithSlopes(s[i]);
-    at[i] = slopes.at;
-    for (std::size_t k = 0; k < parameters; ++k) by[k][i] = slopes.by[k];
   }
 }
 

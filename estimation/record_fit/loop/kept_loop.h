@@ -13,6 +13,7 @@
 
 #include "estimation/record_fit/loop/line_shapes.h"
 #include "estimation/record_fit/loop/loop_point.h"
+#include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/whittle/whittle_weights.h"
 
 namespace howl {
@@ -27,16 +28,11 @@ class KeptLoop {
 
   const LoopPoint& point() const { return point_; }
   const LoopResiduals& residuals() const { return residuals_; }
+  const PathOnGrids& path() const { return path_; }
   // By all parameters.
   Eigen::VectorXd Slope(const WhittleWeights& weights);
 
  private:
-  // Of one grid of frequencies: the record's bins, or the transform's.
-  struct Path {
-    void Set(const FlamePath& path, std::size_t parameters, const Eigen::VectorXcd& s);
-    Eigen::VectorXcd at;
-    std::array<Eigen::VectorXcd, kMostPathParameters> by;
-  };
   // 1 / (s^2 + 2 xi omega s + omega^2) on both grids.
   struct ModeGrids {
     Eigen::VectorXcd over, edge_over;
@@ -46,7 +42,6 @@ class KeptLoop {
   bool Moved(const Eigen::VectorXd& parameters, Eigen::Index begin, Eigen::Index count) const;
   void MoveModes();
   void MoveAnswer();
-  void MovePath();
   bool HasLines() const { return structure_.acoustic_lines + structure_.flame_lines > 0; }
   // Of the lines' factors on the record's bins, by the errors of one cut.
   Eigen::VectorXd SlopeByBandLines(const WhittleWeights& weights,
@@ -65,8 +60,7 @@ class KeptLoop {
   LoopPoint point_;
   LoopResiduals residuals_;
   std::vector<ModeGrids> modes_;
-  Path path_;  // with V in it
-  Path edge_path_;
+  PathOnGrids path_;
   Eigen::VectorXcd burning_;  // sum of c_k b_k
   // Of the two cuts before the taper: without the lines' errors, and 1 + those.
   Eigen::VectorXcd answer_, acoustic_factors_;

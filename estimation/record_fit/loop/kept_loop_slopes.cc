@@ -111,7 +111,7 @@ void KeptLoop::SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out)
   }
   for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
     edge_weights_[i] = Times(edge_weights_[i], flame_factors_[i]);
-    weighted_[i] = Times(edge_weights_[i], edge_path_.at[i]);
+    weighted_[i] = Times(edge_weights_[i], path_.edge_at[i]);
   }
   out->segment(structure_.Flame(), flame) =
       flame_real_.transpose() * weighted_.real() - flame_imag_.transpose() * weighted_.imag();
@@ -121,7 +121,7 @@ void KeptLoop::SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out)
   for (Eigen::Index i = 0; i < structure_.Delays(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     (*out)[structure_.Delay() + i] =
-        Sum(weights.f, residuals_.f, path_.by[k]) + Sum(edge_weights_, arriving_, edge_path_.by[k]);
+        Sum(weights.f, residuals_.f, path_.by[k]) + Sum(edge_weights_, arriving_, path_.edge_by[k]);
   }
 }
 

@@ -20,17 +20,6 @@ Eigen::MatrixXcd TaperedColumns(const Eigen::MatrixXcd& x) {
   return x.topRows(x.rows() - 1) - x.bottomRows(x.rows() - 1);
 }
 
-// Of the logarithm of the path's answer, by its parameters, one column each.
-Eigen::MatrixXcd PathSlopesOf(const FlamePath& path, Eigen::Index parameters,
-                              const Eigen::VectorXcd& s) {
-  Eigen::MatrixXcd out(s.size(), parameters);
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    const PathDerivatives by = path.WithSlopes(s[i]).by;
-    for (Eigen::Index k = 0; k < parameters; ++k) out(i, k) = by[static_cast<std::size_t>(k)];
-  }
-  return out;
-}
-
 Eigen::VectorXcd LineFactors(const Eigen::VectorXcd& s, const Eigen::VectorXcd& errors) {
   Eigen::VectorXcd out;
   LineShapes(s, errors.size()).Factors(errors, &out);
@@ -107,8 +96,35 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   return out;
 }
 
+void SetPath(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
+             PathOnGrids* out) {
+  const auto set = [&](const Eigen::VectorXcd& s, Eigen::VectorXcd* at, auto* by) {
+    at->resize(s.size());
+    for (Eigen::Index k = 0; k < structure.Delays(); ++k) {
+      (*by)[static_cast<std::size_t>(k)].resize(s.size());
+    }
+    for (Eigen::Index i = 0; i < s.size(); ++i) {
+      const PathSlopes slopes = point.path.WithSlopes(s[i]);
+      (*at)[i] = slopes.at;
+      for (Eigen::Index k = 0; k < structure.Delays(); ++k) {
+        (*by)[static_cast<std::size_t>(k)][i] = slopes.by[static_cast<std::size_t>(k)];
+      }
+    }
+  };
+  set(record.s, &out->at, &out->by);
+  set(record.edge_s, &out->edge_at, &out->edge_by);
+  for (Eigen::Index i = 0; i < record.bins(); ++i) out->at[i] = Times(out->at[i], record.input[i]);
+}
+
 LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
                               const LoopPoint& point) {
+  PathOnGrids path;
+  SetPath(record, structure, point, &path);
+  return DerivativesOf(record, structure, point, path);
+}
+
+LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,
+                              const LoopPoint& point, const PathOnGrids& path) {
   LoopDerivatives out;
   out.r = TransferColumns(structure, point, record.s);
   Eigen::MatrixXcd of_pressure =
@@ -123,18 +139,20 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   const Eigen::Index flame = point.flame.size();
   const Eigen::Index delays = structure.Delays();
   const Eigen::Index of_flame = delays + flame + structure.FlameLines();
-  const Eigen::VectorXcd path = point.path.At(record.s).cwiseProduct(record.input);
   out.f.setZero(record.bins(), of_flame);
-  const Eigen::VectorXcd sloped = record.slopes.dot(point.flame) * path;
-  out.f.leftCols(delays) = sloped.asDiagonal() * PathSlopesOf(point.path, delays, record.s);
-  out.f.middleCols(delays, flame) = path * record.slopes.transpose();
+  const double slope = record.slopes.dot(point.flame);
+  for (Eigen::Index k = 0; k < delays; ++k) {
+    out.f.col(k) = slope * path.at.cwiseProduct(path.by[static_cast<std::size_t>(k)]);
+  }
+  out.f.middleCols(delays, flame) = path.at * record.slopes.transpose();
   const Eigen::VectorXcd factors = LineFactors(record.edge_s, point.flame_lines);
-  const Eigen::MatrixXcd delayed =
-      point.path.At(record.edge_s).cwiseProduct(factors).asDiagonal() * record.flame;
+  const Eigen::MatrixXcd delayed = path.edge_at.cwiseProduct(factors).asDiagonal() * record.flame;
   const Eigen::VectorXcd answer = delayed * point.flame;
   out.flame.resize(record.bins(), of_flame);
-  out.flame.leftCols(delays) =
-      -TaperedColumns(answer.asDiagonal() * PathSlopesOf(point.path, delays, record.edge_s));
+  for (Eigen::Index k = 0; k < delays; ++k) {
+    out.flame.col(k) =
+        -TaperedColumns(answer.cwiseProduct(path.edge_by[static_cast<std::size_t>(k)]));
+  }
   out.flame.middleCols(delays, flame) = -TaperedColumns(delayed);
   out.flame.rightCols(structure.FlameLines()) = -TaperedColumns(
       LineShapes(record.edge_s, structure.flame_lines).Columns(answer.cwiseQuotient(factors)));

@@ -39,7 +39,7 @@ Eigen::VectorXd PointLikelihood::Gradient(const Eigen::VectorXd& parameters) {
 Eigen::MatrixXd PointLikelihood::Information(const Eigen::VectorXd& parameters) {
   MoveTo(parameters);
   return WhittleInformation(structure_.noise, record_.share, loop_.residuals(),
-                            DerivativesOf(record_, structure_, loop_.point()));
+                            DerivativesOf(record_, structure_, loop_.point(), loop_.path()));
 }
 
 }  // namespace howl
