@@ -17,10 +17,17 @@ Eigen::VectorXd WithBestFlame(const RecordSpectra& record, const PointStructure&
 PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior) {
   PointFit best = FitPoint(record, structure, prior, prior.Within(at));
-  if (from_prior || !std::isfinite(best.log_posterior)) {
-    PointFit other =
-        FitPoint(record, structure, prior, WithBestFlame(record, structure, prior.mean));
+  const auto consider = [&](const Eigen::VectorXd& start) {
+    PointFit other = FitPoint(record, structure, prior, WithBestFlame(record, structure, start));
     if (other.log_posterior > best.log_posterior) best = std::move(other);
+  };
+  if (from_prior || !std::isfinite(best.log_posterior)) {
+    consider(prior.mean);
+    // The two cuts depend on one another little: its own acoustics, with the path that others tell.
+    Eigen::VectorXd path = best.parameters;
+    path.segment(structure.Delay(), structure.Delays()) =
+        prior.mean.segment(structure.Delay(), structure.Delays());
+    consider(path);
   }
   return best;
 }

@@ -1,6 +1,6 @@
 // A fit of one operating point under a prior that other points tell: begun where the point stands
-// and, if asked, at what the prior expects too, with the flame that then leaves least of q. The
-// more likely of the two.
+// and, if asked, at what the prior expects too, of all or of the flame's path alone, with the flame
+// that then leaves least of q. The most likely of these.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_FIT_UNDER_PRIOR_H_
 #define HOWL_ESTIMATION_RECORD_FIT_FIT_UNDER_PRIOR_H_
 

@@ -116,19 +116,20 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     }
     const bool far = source == Source::kInformation && foretold >= kNearMaximum;
     step *= posterior.ShareWithin(out.parameters, step);
-    Eigen::VectorXd there;
-    double value = -std::numeric_limits<double>::infinity();
-    double gain = value;
+    const auto value_after = [&](const Eigen::VectorXd& by) {
+      const Eigen::VectorXd moved = out.parameters + by.cwiseProduct(prior.deviation);
+      const bool on_a_rig = farthest(moved) <= std::max(kFarthest, farthest(out.parameters));
+      return on_a_rig ? posterior.Value(moved) : -std::numeric_limits<double>::infinity();
+    };
+    double value = value_after(step);
     // A step that leads down is shortened to where a parabola through what it lost has its top.
-    for (int shortened = 0;; ++shortened) {
-      there = out.parameters + step.cwiseProduct(prior.deviation);
-      const bool on_a_rig = farthest(there) <= std::max(kFarthest, farthest(out.parameters));
-      value = on_a_rig ? posterior.Value(there) : -std::numeric_limits<double>::infinity();
-      gain = value - out.log_posterior;
-      if (gain > 0.0 || shortened == kMostShortened) break;
+    for (int i = 0; i < kMostShortened && !(value > out.log_posterior); ++i) {
       const double slope = here.gradient.dot(step);
-      step *= std::clamp(0.5 * slope / (slope - gain), kShortest, 0.5);
+      step *= std::clamp(0.5 * slope / (slope - (value - out.log_posterior)), kShortest, 0.5);
+      value = value_after(step);
     }
+    const Eigen::VectorXd there = out.parameters + step.cwiseProduct(prior.deviation);
+    const double gain = value - out.log_posterior;
     foretold = gain_of(step);
     // Where spectra leave the range of numbers the likelihood may still have a value, and no slope.
     PosteriorSlopes next;
