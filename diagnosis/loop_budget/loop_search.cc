@@ -37,9 +37,12 @@ class Search {
   void Forward(LoopFound* out);
   void Backward(const std::string& prefix, LoopStanding* out);
   void Exchange(LoopStanding* out);
-  // Each item by itself.
-  void TakeAway(MaximumTaken taken, const std::string& key, LoopStanding* out) const;
-  static std::optional<std::size_t> Idle(const LoopStanding& found);
+  // Each of these by itself.
+  void TakeAway(const std::vector<std::size_t>& which, MaximumTaken taken, const std::string& key,
+                LoopStanding* out) const;
+  static std::vector<std::size_t> Others(const LoopStanding& found,
+                                         const std::vector<std::size_t>& than);
+  static std::vector<std::size_t> Idle(const LoopStanding& found);
   LoopFit Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
                   MaximumTaken taken, const std::string& key) const;
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
@@ -97,51 +100,76 @@ void Search::Forward(LoopFound* out) {
 
 // What pays least goes first, as long as something does not pay what it had to when it came. A fit
 // to the maximum next to the loop that stands loses more than one that looks for others: what is
-// idle by the former is so. Where nothing is, the latter decides.
+// idle by the former is so, and what was idle a round ago is tried before the rest. Where nothing
+// is, the latter decides.
 void Search::Backward(const std::string& prefix, LoopStanding* out) {
+  std::vector<std::size_t> first;
   for (std::size_t round = 0; !out->steps.empty(); ++round) {
     const std::string key = prefix + "back/" + std::to_string(round) + "/";
     out->without.assign(out->steps.size(), {});
-    TakeAway(MaximumTaken::kNext, key + "next/", out);
-    std::optional<std::size_t> least = Idle(*out);
-    if (least) {
-      const LoopFit& next = out->without[*least];
+    TakeAway(first, MaximumTaken::kNext, key + "next/", out);
+    std::vector<std::size_t> idle = Idle(*out);
+    if (idle.empty()) {
+      TakeAway(Others(*out, first), MaximumTaken::kNext, key + "next/", out);
+      idle = Idle(*out);
+    }
+    if (!idle.empty()) {
+      const LoopFit& next = out->without[idle[0]];
       out->best = Driven(FitLoopFrom(records_, next.model, {ParametersOf(next)},
                                      MaximumTaken::kBest, key + "best/", options_),
                          key);
     } else {
-      TakeAway(MaximumTaken::kBest, key, out);
-      least = Idle(*out);
-      if (!least) return;
-      out->best = Driven(out->without[*least], key);
+      TakeAway(Others(*out, {}), MaximumTaken::kBest, key, out);
+      idle = Idle(*out);
+      if (idle.empty()) return;
+      out->best = Driven(out->without[idle[0]], key);
     }
-    out->steps.erase(out->steps.begin() + static_cast<std::ptrdiff_t>(*least));
+    const std::size_t least = idle[0];
+    out->steps.erase(out->steps.begin() + static_cast<std::ptrdiff_t>(least));
+    first.clear();
+    for (const std::size_t i : idle) {
+      if (i != least) first.push_back(i > least ? i - 1 : i);
+    }
   }
   out->without.clear();
 }
 
-void Search::TakeAway(MaximumTaken taken, const std::string& key, LoopStanding* out) const {
-  RunUnits(out->steps.size(), options_.threads, [&](std::size_t i) {
+std::vector<std::size_t> Search::Others(const LoopStanding& found,
+                                        const std::vector<std::size_t>& than) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < found.steps.size(); ++i) {
+    if (std::ranges::find(than, i) == than.end()) out.push_back(i);
+  }
+  return out;
+}
+
+void Search::TakeAway(const std::vector<std::size_t>& which, MaximumTaken taken,
+                      const std::string& key, LoopStanding* out) const {
+  RunUnits(which.size(), options_.threads, [&](std::size_t n) {
+    const std::size_t i = which[n];
     LoopFit& without = out->without[i];
     without = without.log_density.empty()
                   ? Without(out->best, out->steps, i, taken, key)
                   : FitLoopFrom(records_, without.model, {ParametersOf(without)}, taken,
                                 key + "without/" + std::to_string(i) + "/", options_);
   });
-  for (std::size_t i = 0; i < out->steps.size(); ++i) {
+  for (const std::size_t i : which) {
     VLOG(1) << key << out->steps[i].item.id << " "
             << out->best.Density() - out->without[i].Density() << " nats lost";
   }
 }
 
-// Of the steps that do not pay what they had to that which pays least.
-std::optional<std::size_t> Search::Idle(const LoopStanding& found) {
-  std::optional<std::size_t> out;
+// The steps that are known not to pay what they had to, that which pays least first.
+std::vector<std::size_t> Search::Idle(const LoopStanding& found) {
+  std::vector<std::size_t> out;
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
-    const double density = found.without[i].Density();
-    if (density < found.best.Density() - found.steps[i].least) continue;
-    if (!out || density > found.without[*out].Density()) out = i;
+    const LoopFit& without = found.without[i];
+    const double least = found.steps[i].least;
+    if (without.log_density.empty() || without.Density() < found.best.Density() - least) continue;
+    out.push_back(i);
   }
+  std::ranges::stable_sort(out, std::ranges::greater(),
+                           [&](std::size_t i) { return found.without[i].Density(); });
   return out;
 }
 
