@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostSteps = 20;
 constexpr int kMostHalvings = 5;
-constexpr double kLongestStep = 0.1;  // of the search's range
+constexpr double kLongestStep = 0.03;  // of the search's range, so that fits follow
 // Of the same: ten times as long differences see the third derivative, a tenth as long ones the
 // last digits of sums over thousands of bins.
 constexpr double kDifference = 1e-5;
