@@ -32,13 +32,13 @@ constexpr double kDeviationsOf95 = 1.96;
 const char* NameOf(bool low_pass) { return low_pass ? "low-pass" : "none"; }
 
 std::vector<LoopRecord> Rig(int rig, int points, double duration_s, bool low_pass) {
+  ModalInstruments instruments;
+  if (low_pass) instruments = [](Record* record) { LowPass(kCutoff_hz, record); };
   std::vector<LoopRecord> out;
   for (int point = 0; point < points; ++point) {
     const double gain = 1.2 + 0.6 * point / std::max(points - 1, 1);
     const auto seed = static_cast<std::uint64_t>(1000 * rig + point + 1);
-    out.push_back(low_pass ? DuctAt(gain, duration_s, seed,
-                                    [](Record* record) { LowPass(kCutoff_hz, record); })
-                           : DuctAt(gain, duration_s, seed));
+    out.push_back(DuctAt(gain, duration_s, seed, instruments));
   }
   return out;
 }

@@ -79,48 +79,41 @@ InstrumentPoint InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_
   InstrumentPoint above = best;
   for (const double u : starts) {
     InstrumentPoint& last = u < null ? below : above;
-    last = At(u, ParametersOf(last), kToTheMaximum);
+    last = At(u, ParametersOf(last.fits), kToTheMaximum);
     if (last.log_evidence > best.log_evidence) best = last;
   }
-  return best;
+  return At(best.u, ParametersOf(best.fits));
 }
 
 InstrumentProfile::Slopes InstrumentProfile::SlopesOfPoint(const InstrumentPoint& point,
-                                                           std::size_t e, double step) const {
+                                                           std::size_t e) const {
   struct Beside {
     double value = 0.0;
     Eigen::VectorXd gradient;
   };
-  const Eigen::VectorXd& parameters = point.fits[e].parameters;
+  const PointFit& fit = point.fits[e];
   const auto beside = [&](double u) {
     const LoopForm form = FormAt(u);
     const RecordSpectra record = records_.Whole(form, e);
     const PointPrior prior = PriorOfTrial(records_, from_, form, e, record);
     PointPosterior posterior(record, form.structure, prior);
-    const double value = posterior.Value(parameters) + records_.LogJacobianOfWhole(form, e);
-    return Beside{value, posterior.Gradient(parameters).cwiseQuotient(prior.deviation)};
+    const double value = posterior.Value(fit.parameters) + records_.LogJacobianOfWhole(form, e);
+    return Beside{value, posterior.Gradient(fit.parameters).cwiseQuotient(prior.deviation)};
   };
+  const double step = kDifference * SearchSpan(parameter_);
   const Beside below = beside(point.u - step);
-  const Beside here = beside(point.u);
   const Beside above = beside(point.u + step);
+  const double here = fit.log_posterior + records_.LogJacobianOfWhole(FormAt(point.u), e);
   const Eigen::VectorXd turn = (above.gradient - below.gradient) / (2.0 * step);
-  const Eigen::VectorXd by = SolveSymmetric(point.fits[e].information, turn);
+  const Eigen::VectorXd by = SolveSymmetric(fit.information, turn);
   return {(above.value - below.value) / (2.0 * step),
-          (above.value - 2.0 * here.value + below.value) / (step * step) + turn.dot(by),
-          {by}};
+          (above.value - 2.0 * here + below.value) / (step * step) + turn.dot(by), by};
 }
 
-InstrumentProfile::Slopes InstrumentProfile::SlopesAt(const InstrumentPoint& point) const {
-  const double step = kDifference * SearchSpan(parameter_);
-  std::vector<Slopes> of(records_.size());
-  RunUnits(of.size(), options_.threads,
-           [&](std::size_t e) { of[e] = SlopesOfPoint(point, e, step); });
-  Slopes out;
-  for (Slopes& each : of) {
-    out.slope += each.slope;
-    out.curvature += each.curvature;
-    out.by.push_back(std::move(each.by[0]));
-  }
+std::vector<InstrumentProfile::Slopes> InstrumentProfile::SlopesAt(
+    const InstrumentPoint& point) const {
+  std::vector<Slopes> out(records_.size());
+  RunUnits(out.size(), options_.threads, [&](std::size_t e) { out[e] = SlopesOfPoint(point, e); });
   return out;
 }
 
@@ -129,35 +122,35 @@ ProfileMaximum InstrumentProfile::From(InstrumentPoint best, double least) {
   const double high = ToSearch(parameter_, parameter_.high);
   double std = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostSteps; ++i) {
-    const Slopes slopes = SlopesAt(best);
-    if (!std::isfinite(slopes.slope) || !std::isfinite(slopes.curvature)) break;
+    const std::vector<Slopes> slopes = SlopesAt(best);
+    double slope = 0.0;
+    double curvature = 0.0;
+    for (const Slopes& each : slopes) {
+      slope += each.slope;
+      curvature += each.curvature;
+    }
+    if (!std::isfinite(slope) || !std::isfinite(curvature)) break;
     const double most = kLongestStep * SearchSpan(parameter_);
-    double step = std::copysign(most, slopes.slope);
+    double step = std::copysign(most, slope);
     std = std::numeric_limits<double>::infinity();
-    if (slopes.curvature < 0.0) {
-      std = 1.0 / std::sqrt(-slopes.curvature);
-      const double gain = -0.5 * slopes.slope * slopes.slope / slopes.curvature;
+    if (curvature < 0.0) {
+      std = 1.0 / std::sqrt(-curvature);
+      const double gain = -0.5 * slope * slope / curvature;
       if (gain < PointFitOptions{}.converged || best.log_evidence + gain < least) break;
-      step = std::clamp(-slopes.slope / slopes.curvature, -most, most);
+      step = std::clamp(-slope / curvature, -most, most);
     }
     step = std::clamp(best.u + step, low, high) - best.u;
     if (step == 0.0) break;
     const double from = best.u;
     for (int halved = 0; best.u == from && halved < kMostHalvings; ++halved, step *= 0.5) {
-      std::vector<Eigen::VectorXd> starts = ParametersOf(best);
-      for (std::size_t e = 0; e < starts.size(); ++e) starts[e] += step * slopes.by[e];
+      std::vector<Eigen::VectorXd> starts = ParametersOf(best.fits);
+      for (std::size_t e = 0; e < starts.size(); ++e) starts[e] += step * slopes[e].by;
       InstrumentPoint next = At(from + step, starts);
       if (next.log_posterior > best.log_posterior) best = std::move(next);
     }
     if (best.u == from) break;
   }
   return {std::move(best), std};
-}
-
-std::vector<Eigen::VectorXd> ParametersOf(const InstrumentPoint& point) {
-  std::vector<Eigen::VectorXd> out;
-  for (const PointFit& fit : point.fits) out.push_back(fit.parameters);
-  return out;
 }
 
 }  // namespace howl

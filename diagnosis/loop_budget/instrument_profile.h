@@ -44,7 +44,7 @@ class InstrumentProfile {
   InstrumentPoint At(double u, const std::vector<Eigen::VectorXd>& starts,
                      const PointFitOptions& options = {});
   // The best of the values that a search begins with, the null among them: outwards from it, each
-  // from where its neighbour's fits came to.
+  // from where its neighbour's fits came to; at its maximum.
   InstrumentPoint Begin(const std::vector<Eigen::VectorXd>& at_null);
   // The maximum of the log posterior next to `best`, by Newton's steps, or as far as their top has
   // the evidence `least`.
@@ -52,16 +52,16 @@ class InstrumentProfile {
                       double least = -std::numeric_limits<double>::infinity());
 
  private:
-  // Of the points' log posteriors by u, all else moving along `by` to stay most likely:
+  // Of a point's log posterior v by u, all else, x, moving along `by` to stay most likely:
   //
   //   d/du = v_u,   d^2/du^2 = v_uu + v_ux H^-1 v_xu,   dx/du = H^-1 v_xu,   H = -v_xx
   struct Slopes {
     double slope = 0.0;
     double curvature = 0.0;
-    std::vector<Eigen::VectorXd> by;
+    Eigen::VectorXd by;
   };
-  Slopes SlopesAt(const InstrumentPoint& point) const;
-  Slopes SlopesOfPoint(const InstrumentPoint& point, std::size_t e, double step) const;
+  std::vector<Slopes> SlopesAt(const InstrumentPoint& point) const;
+  Slopes SlopesOfPoint(const InstrumentPoint& point, std::size_t e) const;
 
   const LoopRecords& records_;
   const LoopFit& from_;
@@ -71,8 +71,6 @@ class InstrumentProfile {
   std::size_t evaluations_ = 0;  // each is a unit of its own, the same value from another start too
   const LoopBudgetOptions& options_;
 };
-
-std::vector<Eigen::VectorXd> ParametersOf(const InstrumentPoint& point);
 
 }  // namespace howl
 

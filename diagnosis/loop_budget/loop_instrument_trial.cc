@@ -39,14 +39,12 @@ LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, double 
                         const LoopItem& item, const std::string& key,
                         const LoopBudgetOptions& options) {
   InstrumentProfile profile(records, from, item, key + "trial/" + KeyOf(item) + "/", options);
-  InstrumentPoint begun = profile.Begin(ParametersOf(from));
-  begun = profile.At(begun.u, ParametersOf(begun));
   double without = standing;
   for (std::size_t e = 0; e < records.size(); ++e) {
     without += records.LogJacobianOfWhole(from.model, e);
   }
-  const ProfileMaximum maximum = profile.From(std::move(begun), without);
-  LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {ParametersOf(maximum.at)}};
+  const ProfileMaximum maximum = profile.From(profile.Begin(ParametersOf(from)), without);
+  LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {ParametersOf(maximum.at.fits)}};
   const double span = SearchSpan(profile.parameter());
   const double width = std::sqrt(2.0 * std::numbers::pi) * maximum.std;
   out.gain = maximum.at.log_evidence - without + std::log(std::min(width, span) / span);
@@ -78,8 +76,9 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
     const double before = ToSearch(profile.parameter(), ValueOf(fit, item));
     const ProfileMaximum maximum = profile.From(profile.At(before, ParametersOf(fit)));
     if (std::abs(maximum.at.u - before) < kStands * maximum.std) break;
-    LoopFit next = FitLoopFrom(records, profile.FormAt(maximum.at.u), {ParametersOf(maximum.at)},
-                               MaximumTaken::kNext, of_round, options);
+    LoopFit next =
+        FitLoopFrom(records, profile.FormAt(maximum.at.u), {ParametersOf(maximum.at.fits)},
+                    MaximumTaken::kNext, of_round, options);
     if (!(next.Density() > fit.Density())) break;
     fit = std::move(next);
   }

@@ -63,10 +63,14 @@ double LoopFit::Density() const {
   return std::accumulate(log_density.begin(), log_density.end(), 0.0);
 }
 
-std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit) {
+std::vector<Eigen::VectorXd> ParametersOf(const std::vector<PointFit>& fits) {
   std::vector<Eigen::VectorXd> out;
-  for (const PointFit& point : fit.fit.points) out.push_back(point.parameters);
+  for (const PointFit& fit : fits) out.push_back(fit.parameters);
   return out;
+}
+
+std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit) {
+  return ParametersOf(fit.fit.points);
 }
 
 LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with,

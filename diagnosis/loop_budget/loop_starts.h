@@ -18,6 +18,7 @@ struct LoopFit {
   double Density() const;
 };
 
+std::vector<Eigen::VectorXd> ParametersOf(const std::vector<PointFit>& fits);
 std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit);
 
 struct LoopStarts {

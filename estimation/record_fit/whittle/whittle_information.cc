@@ -41,10 +41,10 @@ class Panel {
 };
 
 // So that x^T times the rows is the sum of Re(x alpha y + x beta conj(y)): those of y in `part`.
-void Weigh(const Coupling& by, const Panel& y, Eigen::Index part, Eigen::Index bins,
-           Eigen::Index column, Eigen::MatrixXd* out) {
-  const auto alpha = by.alpha.head(bins).array();
-  const auto beta = by.beta.head(bins).array();
+void Weigh(const Eigen::VectorXcd& alphas, const Eigen::VectorXcd& betas, const Panel& y,
+           Eigen::Index part, Eigen::Index bins, Eigen::Index column, Eigen::MatrixXd* out) {
+  const auto alpha = alphas.head(bins).array();
+  const auto beta = betas.head(bins).array();
   const Eigen::ArrayXd real_real = alpha.real() + beta.real();
   const Eigen::ArrayXd real_imag = beta.imag() - alpha.imag();
   const Eigen::ArrayXd imag_real = -(alpha.imag() + beta.imag());
@@ -60,10 +60,12 @@ void Weigh(const Coupling& by, const Panel& y, Eigen::Index part, Eigen::Index b
 }
 
 // What the slopes of R, or of F, share with the noise: the real part of the product.
-void WeighNoise(const Eigen::VectorXcd& by, const Eigen::MatrixXd& basis, Eigen::Index first,
-                Eigen::Index bins, Eigen::Index column, Eigen::MatrixXd* out) {
+void WeighNoise(const Eigen::Ref<const Eigen::VectorXcd>& by,
+                const Eigen::Ref<const Eigen::MatrixXd>& basis, Eigen::Index column,
+                Eigen::MatrixXd* out) {
+  const Eigen::Index bins = basis.rows();
   for (Eigen::Index k = 0; k < basis.cols(); ++k) {
-    const auto of = basis.col(k).segment(first, bins).array();
+    const auto of = basis.col(k).array();
     out->col(column + k).head(bins).array() = of * by.head(bins).array().real();
     out->col(column + k).segment(kChunk, bins).array() = -of * by.head(bins).array().imag();
   }
@@ -93,6 +95,9 @@ class Gathering {
   const LoopDerivatives& d_;
   const Eigen::Index size_;
   Panel acoustic_, flame_;
+  const Eigen::VectorXcd none_ = Eigen::VectorXcd::Zero(kChunk);
+  const Eigen::MatrixXd ones_ = Eigen::MatrixXd::Ones(kChunk, 1);
+  // Of the last chunk's missing rows what stands here meets zeros of the panels.
   Eigen::MatrixXd weighted_;
   Eigen::MatrixXd upper_;  // of which the lower half is not filled
 };
@@ -100,15 +105,13 @@ class Gathering {
 void Gathering::Add(const InformationWeights& weights, Eigen::Index first, Eigen::Index bins) {
   acoustic_.MoveTo(first, bins);
   flame_.MoveTo(first, bins);
-  weighted_.setZero();
-  const Eigen::VectorXcd none = Eigen::VectorXcd::Zero(bins);
-  Weigh(weights.rr, acoustic_, 0, bins, 0, &weighted_);
-  Weigh({none, weights.aa}, acoustic_, 2, bins, 0, &weighted_);
-  Weigh(weights.rf, flame_, 0, bins, acoustic_.cols(), &weighted_);
-  Weigh({none, weights.ab}, flame_, 2, bins, acoustic_.cols(), &weighted_);
+  Weigh(weights.rr.alpha, weights.rr.beta, acoustic_, 0, bins, 0, &weighted_);
+  Weigh(none_, weights.aa, acoustic_, 2, bins, 0, &weighted_);
+  Weigh(weights.rf.alpha, weights.rf.beta, flame_, 0, bins, acoustic_.cols(), &weighted_);
+  Weigh(none_, weights.ab, flame_, 2, bins, acoustic_.cols(), &weighted_);
   AddLoop(acoustic_, 0, weights.r_spectra, weights.r_ratio, first, bins);
-  Weigh(weights.ff, flame_, 0, bins, acoustic_.cols(), &weighted_);
-  Weigh({none, weights.bb}, flame_, 2, bins, acoustic_.cols(), &weighted_);
+  Weigh(weights.ff.alpha, weights.ff.beta, flame_, 0, bins, acoustic_.cols(), &weighted_);
+  Weigh(none_, weights.bb, flame_, 2, bins, acoustic_.cols(), &weighted_);
   AddLoop(flame_, acoustic_.cols(), weights.f_spectra, weights.f_ratio, first, bins);
   AddNoise(weights, first, bins);
 }
@@ -118,12 +121,12 @@ void Gathering::AddLoop(const Panel& x, Eigen::Index row, const Eigen::MatrixXcd
   Eigen::Index column = acoustic_.cols() + flame_.cols();
   for (std::size_t j = 0; j < d_.log_spectra.size(); ++j) {
     const Eigen::MatrixXd& basis = d_.log_spectra[j];
-    WeighNoise(with_noise.col(static_cast<Eigen::Index>(j)), basis, first, bins, column,
+    WeighNoise(with_noise.col(static_cast<Eigen::Index>(j)), basis.middleRows(first, bins), column,
                &weighted_);
     column += basis.cols();
   }
   if (HasBackground(noise_)) {
-    WeighNoise(with_ratio, Eigen::VectorXd::Ones(d_.r.rows()), first, bins, column, &weighted_);
+    WeighNoise(with_ratio, ones_.topRows(bins), column, &weighted_);
   }
   const Eigen::Index beside = row + x.cols();
   const Eigen::Index noise = acoustic_.cols() + flame_.cols();

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_records.h"
+#include "diagnosis/loop_budget/loop_trial.h"
 #include "model/numerics/fft.h"
 #include "tests/estimation/record_fit/modal_loop.h"
 
@@ -54,6 +54,13 @@ inline LoopForm DuctsForm() {
   out.structure.modes = 2;
   out.structure.noise = LeastNoise();
   return out;
+}
+
+// That form, fitted to all points together.
+inline LoopFit DuctsFit(const LoopRecords& records, const LoopBudgetOptions& options) {
+  const LoopForm form = DuctsForm();
+  const RecordsFitOptions of_fit = FitOptionsOf(options, "base/");
+  return Scored(records, form, FitRecords(records.Points(form), form.structure, of_fit), of_fit);
 }
 
 }  // namespace howl

@@ -30,9 +30,7 @@ TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
   const LoopForm base = DuctsForm();
   LoopBudgetOptions options;
   options.starts = 4;
-  const RecordsFitOptions of_base = FitOptionsOf(options, "base/");
-  const LoopFit without =
-      Scored(records, base, FitRecords(records.Points(base), base.structure, of_base), of_base);
+  const LoopFit without = DuctsFit(records, options);
   const LoopItem mode = ItemsOf("acoustic_mode").at(0);
   const LoopTrial trial = TryAll(records, without, 0.0, {mode}, "mode/", options)[0];
   const LoopFit with_mode =

@@ -25,12 +25,9 @@ std::vector<LoopRecord> Ducts(const ModalInstruments& instruments) {
 // Of the loop itself, each instrument tried beside it.
 std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig) {
   const LoopRecords records(rig, 0);
-  const LoopForm base = DuctsForm();
   LoopBudgetOptions options;
   options.starts = 4;
-  const RecordsFitOptions of_base = FitOptionsOf(options, "base/");
-  const LoopFit from =
-      Scored(records, base, FitRecords(records.Points(base), base.structure, of_base), of_base);
+  const LoopFit from = DuctsFit(records, options);
   const double standing = StandingEvidence(records, from, "", options);
   std::vector<LoopTrial> out;
   for (const LoopItem& item : AllLoopItems()) {
