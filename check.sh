@@ -31,8 +31,7 @@ howl_install_packages "${howl_install_test_packages[@]}" ||
 # Tests of measured records and practice rigs read the folders that HOWL_DATA and
 # HOWL_PRACTICE name (docs/development.md); where one is not set, its tests skip, saying so.
 cd "$root"
-find . -path './build*' -prune -o \( -name '*.h' -o -name '*.cc' \) -print0 |
-  xargs -0 clang-format --dry-run -Werror
+tests/structure/check_format.sh "$root"  # A test as well; here it fails before the build.
 howl_build "$root" all
 case $also in
   --tidy)

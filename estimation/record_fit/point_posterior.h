@@ -32,9 +32,9 @@ class PointPosterior {
   PosteriorSlopes Expand(const Eigen::VectorXd& parameters) {
     return {Gradient(parameters), Information(parameters)};
   }
-  // The curvature itself, by differences of the gradient from that in `here`, whose information sets
-  // their length. Where the model misses what the record shows it differs from the information, and
-  // steps on the latter come near the maximum slowly.
+  // The curvature itself, by differences of the gradient from that in `here`, whose information
+  // sets their length. Where the model misses what the record shows it differs from the
+  // information, and steps on the latter come near the maximum slowly.
   Eigen::MatrixXd Curvature(const Eigen::VectorXd& parameters, const PosteriorSlopes& here);
   // How much of a step, in units of the prior's deviations, stays among possible loops with room to
   // the edge.
