@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "estimation/parallel.h"
 #include "estimation/record_fit/point_posterior.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
@@ -49,19 +51,24 @@ LoopForm InstrumentProfile::FormAt(double u) const {
 }
 
 InstrumentPoint InstrumentProfile::At(double u, const std::vector<Eigen::VectorXd>& starts,
-                                      const PointFitOptions& options) {
+                                      const PointFitOptions& options, RecordExtent extent) {
   const std::string key = key_ + std::to_string(evaluations_++) + "/";
   const LoopForm form = FormAt(u);
   InstrumentPoint out{u, 0.0, 0.0, std::vector<PointFit>(records_.size())};
+  std::vector<double> jacobians(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
+    RecordSpectra record = records_.Whole(form, e);
+    if (extent == RecordExtent::kMiddle) {
+      if (std::optional<RecordSpectra> part = MiddlePart(record)) record = std::move(*part);
+    }
+    jacobians[e] = LogJacobian(record, form.instruments);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
-      const RecordSpectra record = records_.Whole(form, e);
       return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
                       starts[e], options);
     });
   });
   for (std::size_t e = 0; e < records_.size(); ++e) {
-    const double jacobian = records_.LogJacobianOfWhole(form, e);
+    const double jacobian = jacobians[e];
     out.log_posterior += out.fits[e].log_posterior + jacobian;
     out.log_evidence += out.fits[e].log_evidence + jacobian;
   }
@@ -74,15 +81,21 @@ InstrumentPoint InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_
   std::vector<double> starts;
   for (const double start : parameter_.starts) starts.push_back(ToSearch(parameter_, start));
   std::ranges::sort(starts, {}, [&](double u) { return std::abs(u - null); });
-  InstrumentPoint best = At(null, at_null, kToTheMaximum);
+  const auto roughly_at = [&](double u, const std::vector<Eigen::VectorXd>& from) {
+    return At(u, from, kToTheMaximum, RecordExtent::kMiddle);
+  };
+  InstrumentPoint best = roughly_at(null, at_null);
   InstrumentPoint below = best;
   InstrumentPoint above = best;
   for (const double u : starts) {
     InstrumentPoint& last = u < null ? below : above;
-    last = At(u, ParametersOf(last.fits), kToTheMaximum);
+    last = roughly_at(u, ParametersOf(last.fits));
     if (last.log_evidence > best.log_evidence) best = last;
   }
-  return At(best.u, ParametersOf(best.fits));
+  if (best.u == null) return At(null, at_null);
+  std::vector<Eigen::VectorXd> whole = ParametersOf(best.fits);
+  for (Eigen::VectorXd& each : whole) each = OfWhole(form_.structure, std::move(each));
+  return At(best.u, whole);
 }
 
 InstrumentProfile::Slopes InstrumentProfile::SlopesOfPoint(const InstrumentPoint& point,

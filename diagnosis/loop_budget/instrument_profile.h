@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ namespace howl {
 double ToSearch(const EffectParameter& parameter, double value);
 double FromSearch(const EffectParameter& parameter, double u);
 double SearchSpan(const EffectParameter& parameter);
+
+// What of each record is fitted.
+enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
 
 // What a value is worth, and each point's fit there.
 struct InstrumentPoint {
@@ -42,9 +46,10 @@ class InstrumentProfile {
   const EffectParameter& parameter() const { return parameter_; }
   LoopForm FormAt(double u) const;
   InstrumentPoint At(double u, const std::vector<Eigen::VectorXd>& starts,
-                     const PointFitOptions& options = {});
+                     const PointFitOptions& options = {},
+                     RecordExtent extent = RecordExtent::kWhole);
   // The best of the values that a search begins with, the null among them: outwards from it, each
-  // from where its neighbour's fits came to; at its maximum.
+  // from where its neighbour's fits came to, by the records' middles; at its maximum.
   InstrumentPoint Begin(const std::vector<Eigen::VectorXd>& at_null);
   // The maximum of the log posterior next to `best`, by Newton's steps, or as far as their top has
   // the evidence `least`.

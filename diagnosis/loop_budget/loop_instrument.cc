@@ -64,4 +64,10 @@ double LogJacobian(const RecordSpectra& record, const LoopInstrument& instrument
   return sum;
 }
 
+double LogJacobian(const RecordSpectra& record, const std::vector<LoopInstrument>& instruments) {
+  double sum = 0.0;
+  for (const LoopInstrument& each : instruments) sum += LogJacobian(record, each);
+  return sum;
+}
+
 }  // namespace howl

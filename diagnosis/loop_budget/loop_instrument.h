@@ -25,8 +25,9 @@ std::vector<EffectPointer> InstrumentsOfHeatRelease();
 // The record as it would be without the instrument.
 RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& instrument);
 
-// ln of the Jacobian.
+// ln of the Jacobian, of one and of several.
 double LogJacobian(const RecordSpectra& record, const LoopInstrument& instrument);
+double LogJacobian(const RecordSpectra& record, const std::vector<LoopInstrument>& instruments);
 
 }  // namespace howl
 

@@ -17,14 +17,6 @@ RecordSpectra Without(const LoopForm& form, RecordSpectra record) {
   return record;
 }
 
-double Jacobian(const LoopForm& form, const RecordSpectra& record) {
-  double sum = 0.0;
-  for (const LoopInstrument& instrument : form.instruments) {
-    sum += LogJacobian(record, instrument);
-  }
-  return sum;
-}
-
 }  // namespace
 
 LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
@@ -79,11 +71,11 @@ RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t
 }
 
 double LoopRecords::LogJacobianOfWhole(const LoopForm& form, std::size_t e) const {
-  return Jacobian(form, Of(form.flame_input).points[e].record);
+  return LogJacobian(Of(form.flame_input).points[e].record, form.instruments);
 }
 
 double LoopRecords::LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const {
-  return Jacobian(form, Of(form.flame_input).halves[e][half]);
+  return LogJacobian(Of(form.flame_input).halves[e][half], form.instruments);
 }
 
 }  // namespace howl

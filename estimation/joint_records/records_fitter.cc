@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "estimation/joint_records/record_evidence.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
 #include "estimation/record_fit/second_path_starts.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "estimation/unit_seed.h"
@@ -167,11 +169,16 @@ std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
   PointFitOptions rough;
   rough.iterations = kIterationsOfCandidate;
   std::vector<std::vector<PointFit>> all(starts.size(), std::vector<PointFit>(size()));
+  // Where there is a choice it is by the records' middles.
+  std::vector<std::optional<RecordSpectra>> parts(size());
+  RunUnits(starts.size() > 1 ? size() : 0, threads_,
+           [&](std::size_t e) { parts[e] = MiddlePart(points_[e].record); });
   RunUnits(starts.size() * size(), threads_, [&](std::size_t i) {
     const std::size_t c = i / size();
     const std::size_t e = i % size();
     all[c][e] = KeptFit(options.units, UnitKey(options, "candidate", c, e), [&] {
-      return FitPoint(points_[e].record, structure_, base_[e], starts[c][e], rough);
+      return FitPoint(parts[e] ? *parts[e] : points_[e].record, structure_, base_[e], starts[c][e],
+                      rough);
     });
   });
   std::size_t best = 0;
@@ -182,7 +189,15 @@ std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
     if (sum > most) best = c;
     most = std::max(sum, most);
   }
-  return all[best];
+  std::vector<PointFit> out = std::move(all[best]);
+  RunUnits(size(), threads_, [&](std::size_t e) {
+    if (!parts[e]) return;
+    out[e] = KeptFit(options.units, UnitKey(options, "chosen", best, e), [&] {
+      return FitPoint(points_[e].record, structure_, base_[e],
+                      OfWhole(structure_, out[e].parameters), rough);
+    });
+  });
+  return out;
 }
 
 std::vector<ParameterEvidence> RecordsFitter::Evidence(

@@ -2,9 +2,11 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "estimation/record_fit/point_fit.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 
 namespace howl {
 namespace {
@@ -42,14 +44,20 @@ std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
 
 }  // namespace
 
+Eigen::VectorXd OfWhole(const PointStructure& structure, Eigen::VectorXd of_part) {
+  of_part.segment(structure.Transfer(), structure.Transients()).setZero();
+  return of_part;
+}
+
 PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options) {
   CHECK(!starts.empty());
-  const auto fit_all = [&](const std::vector<Eigen::VectorXd>& from, const PointFitOptions& stage) {
+  const auto fit_all = [&](const RecordSpectra& of, const std::vector<Eigen::VectorXd>& from,
+                           const PointFitOptions& stage) {
     std::vector<PointFit> fits;
     for (const Eigen::VectorXd& start : from) {
-      fits.push_back(FitPoint(record, structure, prior, start, stage));
+      fits.push_back(FitPoint(of, structure, prior, start, stage));
     }
     std::ranges::stable_sort(fits, std::ranges::greater(), &PointFit::log_posterior);
     return fits;
@@ -57,18 +65,20 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   // Near a maximum, then past the valleys that lead there, and at last on it.
   PointFitOptions near = options;
   near.converged = kNearMaximum;
-  const std::vector<PointFit> all = fit_all(starts, near);
+  const std::optional<RecordSpectra> part = MiddlePart(record);
+  const std::vector<PointFit> all = fit_all(part ? *part : record, starts, near);
   std::vector<Eigen::VectorXd> best;
   for (std::size_t i = 0; i < std::min(all.size(), kMostToCompare); ++i) {
     best.push_back(all[i].parameters);
+    if (part) best[i] = OfWhole(structure, std::move(best[i]));
   }
   PointFitOptions stage = options;
   stage.iterations = std::min(options.iterations, kIterationsToCompare);
-  std::vector<PointFit> fits = fit_all(best, stage);
+  std::vector<PointFit> fits = fit_all(record, best, stage);
   std::vector<Eigen::VectorXd> crossed = OtherDelays(structure, fits[0].parameters, all);
   if (!crossed.empty()) {
     crossed.push_back(fits[0].parameters);
-    fits = fit_all(crossed, stage);
+    fits = fit_all(record, crossed, stage);
   }
   if (fits[0].converged) return fits[0];
   return FitPoint(record, structure, prior, fits[0].parameters, options);

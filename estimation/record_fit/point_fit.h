@@ -47,11 +47,15 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, Eigen::VectorXd start,
                   const PointFitOptions& options = {});
 
-// The best of the fits from all starts: all come near a maximum, and the best of them then go on to
-// it.
+// The best of the fits from all starts: all come near a maximum, of the record's middle where that
+// is much shorter, and the best of them then go on to that of the record.
 PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options = {});
+
+// Where a fit of the whole record may begin, after one of its middle (middle_part.h): what modes
+// held at the part's ends is not what they held at the record's.
+Eigen::VectorXd OfWhole(const PointStructure& structure, Eigen::VectorXd of_part);
 
 double LogLikelihood(const RecordSpectra& record, const PointStructure& structure,
                      const Eigen::VectorXd& parameters);

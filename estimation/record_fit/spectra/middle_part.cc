@@ -1,0 +1,97 @@
+#include "estimation/record_fit/spectra/middle_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "estimation/record_fit/spectra/unitary_transform.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+// Of the part's bins, at either end of the band, that are left out.
+constexpr Eigen::Index kBesideBand = 2;
+
+class Middle {
+ public:
+  Middle(const RecordSpectra& record, Eigen::Index samples)
+      : whole_(record.Samples()),
+        samples_(samples),
+        first_whole_(record.below.size()),
+        bins_of_part_(static_cast<double>(whole_) / static_cast<double>(samples)) {
+    const auto first = static_cast<double>(first_whole_) / bins_of_part_;
+    const auto last = static_cast<double>(first_whole_ + record.bins()) / bins_of_part_;
+    first_ = static_cast<Eigen::Index>(std::ceil(first)) + kBesideBand;
+    edges_ = static_cast<Eigen::Index>(last) - kBesideBand - first_ + 1;
+  }
+
+  Eigen::Index first() const { return first_; }
+  Eigen::Index bins() const { return edges_ - 1; }
+  double bin_hz(const RecordSpectra& record) const { return record.bin_hz * bins_of_part_; }
+  // Where the middle of the part's bin stands among the whole's bins.
+  Eigen::Index InWhole(Eigen::Index bin) const {
+    return static_cast<Eigen::Index>((static_cast<double>(first_ + bin) + 0.5) * bins_of_part_) -
+           first_whole_;
+  }
+
+  template <typename Spectrum>
+  Eigen::VectorXcd Of(const Spectrum& edges) const {
+    Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(whole_ / 2 + 1);
+    spectrum.segment(first_whole_, edges.size()) = edges;
+    const Eigen::VectorXd signal = UnitarySignal(std::move(spectrum), whole_);
+    return UnitarySpectrum(signal.segment((whole_ - samples_) / 2, samples_))
+        .segment(first_, edges_);
+  }
+
+ private:
+  Eigen::Index whole_, samples_, first_whole_;
+  double bins_of_part_;
+  Eigen::Index first_ = 0;
+  Eigen::Index edges_ = 0;
+};
+
+}  // namespace
+
+std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record, double cycles) {
+  const auto samples =
+      static_cast<Eigen::Index>(cycles * record.sampling_hz / record.scale.cycle_hz);
+  if (2 * samples > record.Samples()) return std::nullopt;
+  const Middle middle(record, samples);
+  RecordSpectra out;
+  out.scale = record.scale;
+  out.flame_input = record.flame_input;
+  out.sampling_hz = record.sampling_hz;
+  out.bin_hz = middle.bin_hz(record);
+  out.pressure = middle.Of(record.pressure);
+  out.heat_release = middle.Of(record.heat_release);
+  out.flame.resize(middle.bins() + 1, record.flame.cols());
+  for (Eigen::Index k = 0; k < record.flame.cols(); ++k) {
+    out.flame.col(k) = middle.Of(record.flame.col(k));
+  }
+  const double bin = out.bin_hz / out.scale.cycle_hz;
+  const auto first = static_cast<double>(middle.first());
+  const auto bins = static_cast<double>(middle.bins());
+  out.edge_s = C(0.0, bin) * Eigen::VectorXd::LinSpaced(middle.bins() + 1, first, first + bins);
+  out.s = out.edge_s.head(middle.bins()).array() + C(0.0, 0.5 * bin);
+  out.input = out.s.unaryExpr([&](C s) { return FlameInputResponse(out.flame_input, s); });
+  // As the whole record has it, so that spectra keep their shape.
+  const double low = record.s[0].imag();
+  const double high = record.s[record.bins() - 1].imag();
+  out.position = 2.0 * (out.s.imag().array() / low).log() / std::log(high / low) - 1.0;
+  out.slopes = record.slopes;
+  out.rest_slopes = record.rest_slopes;
+  out.share = Eigen::VectorXd::Constant(middle.bins(), kSineTaperShare);
+  if (record.instrument_power.size() > 0) {
+    out.instrument_power.resize(middle.bins());
+    for (Eigen::Index i = 0; i < middle.bins(); ++i) {
+      const Eigen::Index at = std::clamp<Eigen::Index>(middle.InWhole(i), 0, record.bins() - 1);
+      out.instrument_power[i] = record.instrument_power[at];
+    }
+  }
+  return out;
+}
+
+}  // namespace howl

@@ -1,0 +1,29 @@
+// The middle of a record's spectra (record_spectra.h): what a record of these cycles alone would
+// show, in the same units and with the same functions of the flame. A fit of it costs as much less
+// as it is shorter, and comes to the same loop, to within its own larger errors: enough to tell
+// good starts from poor ones.
+//
+// It is cut in time from the signals of the band alone, which p, q and the flame's functions are
+// linear in, so that instruments that were taken out, and noise, are out of it too. Only where the
+// band ends, and at the record's ends, would it differ from what a shorter record had shown, and
+// those it leaves out.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_SPECTRA_MIDDLE_PART_H_
+#define HOWL_ESTIMATION_RECORD_FIT_SPECTRA_MIDDLE_PART_H_
+
+#include <optional>
+
+#include "estimation/record_fit/spectra/record_spectra.h"
+
+namespace howl {
+
+// What a search compares starts on: a record of a hundred cycles tells all that the base priors
+// leave open (point_prior.h).
+inline constexpr double kCyclesOfStarts = 100.0;
+
+// None of a record that is less than twice as long: a fit of the whole costs little more.
+std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record,
+                                        double cycles = kCyclesOfStarts);
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_SPECTRA_MIDDLE_PART_H_
