@@ -19,10 +19,9 @@ namespace {
 constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain most
 
 // What comes only where nothing of an earlier one pays.
-enum class Stage : std::uint8_t { kHum, kCauses, kLineErrors };
+enum class Stage : std::uint8_t { kCauses, kLineErrors };
 
 Stage StageOf(const LoopItem& item) {
-  if (IsHum(item.noise.source)) return Stage::kHum;
   return item.kind == LoopItemKind::kLineErrors ? Stage::kLineErrors : Stage::kCauses;
 }
 
@@ -119,8 +118,6 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
 
 std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
                                             const std::vector<LoopStep>& steps) {
-  const bool only_hum_yet = std::ranges::all_of(
-      steps, [](const LoopStep& each) { return StageOf(each.item) == Stage::kHum; });
   std::vector<LoopItem> items = LoopItems(from.model, base_);
   std::erase_if(items, [&](const LoopItem& item) {
     return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
@@ -130,8 +127,7 @@ std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
   std::vector<LoopTrial> trials;
   std::vector<std::string> fitted;
   std::size_t offered = 0;
-  for (const Stage stage : {Stage::kHum, Stage::kCauses, Stage::kLineErrors}) {
-    if (stage == Stage::kHum && !only_hum_yet) continue;
+  for (const Stage stage : {Stage::kCauses, Stage::kLineErrors}) {
     std::vector<LoopItem> waiting;
     std::ranges::copy_if(items, std::back_inserter(waiting),
                          [&](const LoopItem& item) { return StageOf(item) == stage; });

@@ -23,7 +23,7 @@ constexpr double kMostDamping = 1e12;
 // Of a parameter, in deviations of what it may be on any rig (point_prior.h): from a start far from
 // any maximum a quadratic may point to where no rig is, and the likelihood be flat.
 constexpr double kLongestStep = 3.0;
-// Of frequencies and the delay, in the same deviations: no rig has them farther out.
+// Of frequencies and the flame's path, in the same deviations: no rig has them farther out.
 constexpr double kFarthest = 10.0;
 constexpr int kMostCorrections = 12;
 constexpr int kMostShortened = 2;   // of a step, by at most
@@ -83,7 +83,8 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   const Eigen::VectorXd narrower = prior.deviation.cwiseQuotient(of_rigs.deviation);
   const auto farthest = [&](const Eigen::VectorXd& parameters) {
     const Eigen::ArrayXd z = (parameters - of_rigs.mean).array().abs() / of_rigs.deviation.array();
-    return std::max(z.head(structure.Frequencies()).maxCoeff(), z[structure.Delay()]);
+    return std::max(z.head(structure.Frequencies()).maxCoeff(),
+                    z.segment(structure.Delay(), structure.Delays()).maxCoeff());
   };
   double damping = kFirstDamping;
   double raise = 2.0;

@@ -55,6 +55,8 @@ Eigen::MatrixXd PointPosterior::Curvature(const Eigen::VectorXd& parameters,
     moved[i] += step * prior_.deviation[i];
     out.col(i) = (here.gradient - Gradient(moved)) / step;
   }
+  // Next to parameters where spectra leave the range of numbers there may be no slope.
+  if (!out.allFinite()) return Information(parameters);
   return 0.5 * (out + out.transpose());
 }
 
