@@ -2,18 +2,61 @@
 
 #include <atomic>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "diagnosis/loop_budget/parameter_labels.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/mode_maxima.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 
 namespace howl {
 namespace {
 
-struct Unit {
-  std::size_t trial, row, point;
-};
+// So that the gains of ten operating points are told to within a nat.
+constexpr PointFitOptions kOfTrial{.iterations = 60, .converged = 0.1};
+
+// Of several rows of starts the one from which the middles of the records (middle_part.h) become
+// most likely, or of each point its own where they may begin apart.
+std::vector<Eigen::VectorXd> BestRow(const LoopRecords& records, const LoopFit& from,
+                                     const LoopForm& with, const LoopStarts& starts,
+                                     const std::string& key, const LoopBudgetOptions& options) {
+  const std::size_t rows = starts.rows.size();
+  const std::size_t points = records.size();
+  std::vector<PointFit> fits(rows * points);
+  RunUnits(fits.size(), options.threads, [&](std::size_t i) {
+    const std::size_t row = i / points;
+    const std::size_t e = i % points;
+    const std::string of = key + "middle/" + std::to_string(row) + "/" + std::to_string(e);
+    fits[i] = KeptFit(options.units, of, [&] {
+      RecordSpectra record = records.Whole(with, e);
+      if (std::optional<RecordSpectra> part = MiddlePart(record)) record = std::move(*part);
+      return FitPoint(record, with.structure, PriorOfTrial(records, from, with, e, record),
+                      starts.rows[row][e], kOfTrial);
+    });
+  });
+  const auto evidence = [&](std::size_t row, std::size_t e) {
+    return fits[row * points + e].log_evidence;
+  };
+  const auto sum = [&](std::size_t row) {
+    double nats = 0.0;
+    for (std::size_t e = 0; e < points; ++e) nats += evidence(row, e);
+    return nats;
+  };
+  std::size_t best = 0;
+  for (std::size_t row = 1; row < rows; ++row) {
+    if (sum(row) > sum(best)) best = row;
+  }
+  std::vector<Eigen::VectorXd> out;
+  for (std::size_t e = 0; e < points; ++e) {
+    std::size_t of = best;
+    for (std::size_t row = 0; starts.apart && row < rows; ++row) {
+      if (evidence(row, e) > evidence(of, e)) of = row;
+    }
+    out.push_back(OfWhole(with.structure, fits[of * points + e].parameters));
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -49,58 +92,33 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
                                 const std::vector<LoopItem>& items, const std::string& key,
                                 const LoopBudgetOptions& options) {
   std::vector<LoopTrial> out;
-  std::vector<LoopStarts> starts;
-  std::vector<Unit> units;
+  const auto key_of = [&](const LoopItem& item) { return key + "trial/" + KeyOf(item) + "/"; };
   for (const LoopItem& item : items) {
-    out.push_back({item, With(from.model, item)});
-    starts.push_back(StartsWith(records, from, out.back().model, options.threads));
-    for (std::size_t row = 0; row < starts.back().rows.size(); ++row) {
-      for (std::size_t e = 0; e < records.size(); ++e) units.push_back({out.size() - 1, row, e});
-    }
+    LoopTrial& trial = out.emplace_back(LoopTrial{item, With(from.model, item), -standing, {}});
+    const LoopStarts starts = StartsWith(records, from, trial.model, options.threads);
+    trial.starts = {starts.rows.size() == 1
+                        ? starts.rows[0]
+                        : BestRow(records, from, trial.model, starts, key_of(item), options)};
   }
-  std::vector<PointFit> fits(units.size());
+  std::vector<PointFit> fits(items.size() * records.size());
   std::atomic<std::size_t> done = 0;
-  RunUnits(units.size(), options.threads, [&](std::size_t i) {
-    const Unit& unit = units[i];
-    const LoopForm& model = out[unit.trial].model;
-    const std::string of = key + "trial/" + KeyOf(items[unit.trial]) + "/" +
-                           std::to_string(unit.row) + "/" + std::to_string(unit.point);
-    fits[i] = KeptFit(options.units, of, [&] {
-      const RecordSpectra record = records.Whole(model, unit.point);
-      const PointPrior prior = PriorOfTrial(records, from, model, unit.point, record);
-      PointFit fit =
-          FitPoint(record, model.structure, prior, starts[unit.trial].rows[unit.row][unit.point]);
+  RunUnits(fits.size(), options.threads, [&](std::size_t i) {
+    const std::size_t e = i % records.size();
+    const LoopTrial& trial = out[i / records.size()];
+    fits[i] = KeptFit(options.units, key_of(trial.item) + std::to_string(e), [&] {
+      const RecordSpectra record = records.Whole(trial.model, e);
+      const PointPrior prior = PriorOfTrial(records, from, trial.model, e, record);
+      PointFit fit = FitPoint(record, trial.model.structure, prior, trial.starts[0][e], kOfTrial);
       // Without hum a mode may have taken its line for a resonance, and would keep it.
-      if (!IsHum(items[unit.trial].noise.source)) return fit;
-      return BestByModes(record, model.structure, prior, std::move(fit));
+      if (!IsHum(trial.item.noise.source)) return fit;
+      return BestByModes(record, trial.model.structure, prior, std::move(fit));
     });
-    if (options.progress) options.progress(++done, units.size());
+    if (options.progress) options.progress(++done, fits.size());
   });
-  for (std::size_t t = 0, first = 0; t < out.size(); ++t) {
-    const std::size_t rows = starts[t].rows.size();
-    const auto fit = [&](std::size_t row, std::size_t e) -> const PointFit& {
-      return fits[first + row * records.size() + e];
-    };
-    const auto sum = [&](std::size_t row) {
-      double nats = 0.0;
-      for (std::size_t e = 0; e < records.size(); ++e) nats += fit(row, e).log_evidence;
-      return nats;
-    };
-    std::size_t best = 0;
-    for (std::size_t row = 1; row < rows; ++row) {
-      if (sum(row) > sum(best)) best = row;
-    }
-    out[t].starts.resize(1);
-    for (std::size_t e = 0; e < records.size(); ++e) {
-      std::size_t of = best;
-      for (std::size_t row = 0; starts[t].apart && row < rows; ++row) {
-        if (fit(row, e).log_evidence > fit(of, e).log_evidence) of = row;
-      }
-      out[t].gain += fit(of, e).log_evidence;
-      out[t].starts[0].push_back(fit(of, e).parameters);
-    }
-    out[t].gain -= standing;
-    first += rows * records.size();
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    LoopTrial& trial = out[i / records.size()];
+    trial.gain += fits[i].log_evidence;
+    trial.starts[0][i % records.size()] = fits[i].parameters;
   }
   return out;
 }
