@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "estimation/parallel.h"
 #include "estimation/record_fit/point_posterior.h"
-#include "estimation/record_fit/spectra/middle_part.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
@@ -57,10 +55,8 @@ InstrumentPoint InstrumentProfile::At(double u, const std::vector<Eigen::VectorX
   InstrumentPoint out{u, 0.0, 0.0, std::vector<PointFit>(records_.size())};
   std::vector<double> jacobians(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
-    RecordSpectra record = records_.Whole(form, e);
-    if (extent == RecordExtent::kMiddle) {
-      if (std::optional<RecordSpectra> part = MiddlePart(record)) record = std::move(*part);
-    }
+    const RecordSpectra record =
+        extent == RecordExtent::kMiddle ? records_.Middle(form, e) : records_.Whole(form, e);
     jacobians[e] = LogJacobian(record, form.instruments);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
       return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
@@ -94,7 +90,7 @@ InstrumentPoint InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_
   }
   if (best.u == null) return At(null, at_null);
   std::vector<Eigen::VectorXd> whole = ParametersOf(best.fits);
-  for (Eigen::VectorXd& each : whole) each = OfWhole(form_.structure, std::move(each));
+  for (Eigen::VectorXd& each : whole) each = WithoutTransients(form_.structure, std::move(each));
   return At(best.u, whole);
 }
 

@@ -2,10 +2,12 @@
 
 #include <glog/logging.h>
 
+#include <optional>
 #include <utility>
 
 #include "diagnosis/cuts/make_cut_records.h"
 #include "estimation/parallel.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 
 namespace howl {
 namespace {
@@ -15,6 +17,11 @@ RecordSpectra Without(const LoopForm& form, RecordSpectra record) {
     record = WithoutInstrument(std::move(record), instrument);
   }
   return record;
+}
+
+RecordSpectra MiddleOf(const RecordSpectra& record) {
+  std::optional<RecordSpectra> part = MiddlePart(record);
+  return part ? std::move(*part) : record;
 }
 
 }  // namespace
@@ -27,6 +34,7 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   }
   for (Spectra& spectra : spectra_) {
     spectra.points.resize(records.size());
+    spectra.middles.resize(records.size());
     spectra.halves.resize(records.size());
   }
   RunUnits(spectra_.size() * records.size(), threads, [&](std::size_t i) {
@@ -36,6 +44,7 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
     Spectra& spectra = spectra_[input];
     spectra.points[e] = {of.operating_parameter,
                          MakeRecordSpectra(of.record, of.cycle_hz, static_cast<FlameInput>(input))};
+    spectra.middles[e] = MiddleOf(spectra.points[e].record);
     for (std::size_t half = 0; half < 2; ++half) {
       spectra.halves[e][half] =
           MakeRecordSpectra(HalfOf(of.record, half == 1), spectra.points[e].record);
@@ -51,6 +60,7 @@ void LoopRecords::DriveWithout(const std::vector<Eigen::VectorXd>& noise, int th
       *record = DrivenWithout(std::move(*record), noise[e].segment(first, record->Samples()));
     };
     drive(&spectra.points[e].record, 0);
+    spectra.middles[e] = MiddleOf(spectra.points[e].record);
     drive(&spectra.halves[e][0], 0);
     drive(&spectra.halves[e][1], spectra.halves[e][0].Samples());
   });
@@ -64,6 +74,10 @@ std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
 
 RecordSpectra LoopRecords::Whole(const LoopForm& form, std::size_t e) const {
   return Without(form, Of(form.flame_input).points[e].record);
+}
+
+RecordSpectra LoopRecords::Middle(const LoopForm& form, std::size_t e) const {
+  return Without(form, Of(form.flame_input).middles[e]);
 }
 
 RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t half) const {

@@ -1,5 +1,5 @@
-// The records of a rig's operating points, whole and in halves, made ready for the likelihood
-// (record_spectra.h) with each of the flame's inputs.
+// The records of a rig's operating points, whole, their middles and in halves, made ready for the
+// likelihood (record_spectra.h) with each of the flame's inputs.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
 
@@ -32,6 +32,8 @@ class LoopRecords {
   // As `form` has them, without its instruments.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
+  // What a search compares starts on (middle_part.h); of a short record the whole.
+  RecordSpectra Middle(const LoopForm& form, std::size_t e) const;
   // How many coefficients the flame has.
   Eigen::Index FlameTerms(FlameInput input, std::size_t e) const {
     return Of(input).points[e].record.flame.cols();
@@ -48,6 +50,7 @@ class LoopRecords {
  private:
   struct Spectra {
     std::vector<OperatingPoint> points;
+    std::vector<RecordSpectra> middles;
     std::vector<std::array<RecordSpectra, 2>> halves;
   };
   const Spectra& Of(FlameInput input) const { return spectra_[static_cast<std::size_t>(input)]; }

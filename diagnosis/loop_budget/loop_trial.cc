@@ -2,13 +2,11 @@
 
 #include <atomic>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "diagnosis/loop_budget/parameter_labels.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/mode_maxima.h"
-#include "estimation/record_fit/spectra/middle_part.h"
 
 namespace howl {
 namespace {
@@ -29,8 +27,7 @@ std::vector<Eigen::VectorXd> BestRow(const LoopRecords& records, const LoopFit& 
     const std::size_t e = i % points;
     const std::string of = key + "middle/" + std::to_string(row) + "/" + std::to_string(e);
     fits[i] = KeptFit(options.units, of, [&] {
-      RecordSpectra record = records.Whole(with, e);
-      if (std::optional<RecordSpectra> part = MiddlePart(record)) record = std::move(*part);
+      const RecordSpectra record = records.Middle(with, e);
       return FitPoint(record, with.structure, PriorOfTrial(records, from, with, e, record),
                       starts.rows[row][e], kOfTrial);
     });
@@ -53,7 +50,7 @@ std::vector<Eigen::VectorXd> BestRow(const LoopRecords& records, const LoopFit& 
     for (std::size_t row = 0; starts.apart && row < rows; ++row) {
       if (evidence(row, e) > evidence(of, e)) of = row;
     }
-    out.push_back(OfWhole(with.structure, fits[of * points + e].parameters));
+    out.push_back(WithoutTransients(with.structure, fits[of * points + e].parameters));
   }
   return out;
 }

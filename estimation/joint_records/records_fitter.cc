@@ -194,7 +194,7 @@ std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
     if (!parts[e]) return;
     out[e] = KeptFit(options.units, UnitKey(options, "chosen", best, e), [&] {
       return FitPoint(points_[e].record, structure_, base_[e],
-                      OfWhole(structure_, out[e].parameters), rough);
+                      WithoutTransients(structure_, out[e].parameters), rough);
     });
   });
   return out;

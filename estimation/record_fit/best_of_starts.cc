@@ -44,11 +44,6 @@ std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
 
 }  // namespace
 
-Eigen::VectorXd OfWhole(const PointStructure& structure, Eigen::VectorXd of_part) {
-  of_part.segment(structure.Transfer(), structure.Transients()).setZero();
-  return of_part;
-}
-
 PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options) {
@@ -70,7 +65,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   std::vector<Eigen::VectorXd> best;
   for (std::size_t i = 0; i < std::min(all.size(), kMostToCompare); ++i) {
     best.push_back(all[i].parameters);
-    if (part) best[i] = OfWhole(structure, std::move(best[i]));
+    if (part) best[i] = WithoutTransients(structure, std::move(best[i]));
   }
   PointFitOptions stage = options;
   stage.iterations = std::min(options.iterations, kIterationsToCompare);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "estimation/record_fit/point_posterior.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 #include "estimation/record_fit/starts/path_starts.h"
 
 namespace howl {
@@ -28,20 +30,23 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
     return std::exp(fit.parameters[structure.Delay()]);
   };
   std::vector<PointFit> begun;
+  const std::optional<RecordSpectra> part = MiddlePart(record);
   const PathStarts paths(record);
   for (const double tau : paths.Delays(kDelays)) {
     Eigen::VectorXd start = parameters;
     start[structure.Delay()] = std::log(tau);
     const FlamePath path = ToPoint(structure, record.flame.cols(), start).path;
     start.segment(structure.Flame(), record.flame.cols()) = paths.Flame(path);
-    begun.push_back(FitPoint(record, structure, prior, start, kFirstSteps));
+    begun.push_back(FitPoint(part ? *part : record, structure, prior,
+                             part ? WithoutTransients(structure, start) : start, kFirstSteps));
   }
   std::ranges::stable_sort(begun, std::ranges::greater(), &PointFit::log_posterior);
   begun.resize(std::min(begun.size(), followed));
   std::vector<PointFit> all = {FitPoint(record, structure, prior, parameters, kToTheMaximum)};
   for (const PointFit& fit : begun) {
-    all.push_back(
-        fit.converged ? fit : FitPoint(record, structure, prior, fit.parameters, kToTheMaximum));
+    all.push_back(FitPoint(record, structure, prior,
+                           part ? WithoutTransients(structure, fit.parameters) : fit.parameters,
+                           kToTheMaximum));
   }
   std::ranges::stable_sort(all, std::ranges::greater(), &PointFit::log_posterior);
   std::vector<PointFit> out;

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "estimation/record_fit/other_starts.h"
 #include "estimation/record_fit/starts/path_starts.h"
 
 namespace howl {
@@ -17,19 +19,18 @@ Eigen::VectorXd WithBestFlame(const RecordSpectra& record, const PointStructure&
 PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior) {
   PointFit best = FitPoint(record, structure, prior, prior.Within(at));
-  const auto consider = [&](const Eigen::VectorXd& start) {
-    PointFit other = FitPoint(record, structure, prior, WithBestFlame(record, structure, start));
-    if (other.log_posterior > best.log_posterior) best = std::move(other);
+  if (!from_prior && std::isfinite(best.log_posterior)) return best;
+  // The two cuts depend on one another little: the acoustics that others tell with its own path,
+  // and the reverse.
+  const auto path_of = [&](Eigen::VectorXd parameters, const Eigen::VectorXd& path) {
+    const Eigen::Index first = structure.Delay();
+    parameters.segment(first, structure.Delays()) = path.segment(first, structure.Delays());
+    return WithBestFlame(record, structure, parameters);
   };
-  if (from_prior || !std::isfinite(best.log_posterior)) {
-    consider(prior.mean);
-    // The two cuts depend on one another little: its own acoustics, with the path that others tell.
-    Eigen::VectorXd path = best.parameters;
-    path.segment(structure.Delay(), structure.Delays()) =
-        prior.mean.segment(structure.Delay(), structure.Delays());
-    consider(path);
-  }
-  return best;
+  const std::vector<Eigen::VectorXd> starts = {path_of(prior.mean, prior.mean),
+                                               path_of(prior.mean, best.parameters),
+                                               path_of(best.parameters, prior.mean)};
+  return BestWith(record, structure, prior, std::move(best), starts);
 }
 
 }  // namespace howl

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "estimation/record_fit/other_starts.h"
 #include "estimation/record_fit/starts/pole_starts.h"
 
 namespace howl {
@@ -39,11 +40,9 @@ PointFit BestByModes(const RecordSpectra& record, const PointStructure& structur
   const PoleStarts starts(record, structure);
   for (int scan = 0; scan < kMostScans; ++scan) {
     const double before = fit.log_posterior;
-    for (const Eigen::VectorXd& start :
-         Elsewhere(record, structure, prior, starts, fit.parameters)) {
-      PointFit other = FitPoint(record, structure, prior, start, kToTheMaximum);
-      if (other.log_posterior > fit.log_posterior) fit = std::move(other);
-    }
+    const std::vector<Eigen::VectorXd> elsewhere =
+        Elsewhere(record, structure, prior, starts, fit.parameters);
+    fit = BestWith(record, structure, prior, std::move(fit), elsewhere, kToTheMaximum);
     if (fit.log_posterior - before < kToTheMaximum.converged) break;
   }
   return fit;

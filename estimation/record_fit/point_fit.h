@@ -53,10 +53,6 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options = {});
 
-// Where a fit of the whole record may begin, after one of its middle (middle_part.h): what modes
-// held at the part's ends is not what they held at the record's.
-Eigen::VectorXd OfWhole(const PointStructure& structure, Eigen::VectorXd of_part);
-
 double LogLikelihood(const RecordSpectra& record, const PointStructure& structure,
                      const Eigen::VectorXd& parameters);
 

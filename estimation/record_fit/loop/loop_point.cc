@@ -104,6 +104,11 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   return out;
 }
 
+Eigen::VectorXd WithoutTransients(const PointStructure& structure, Eigen::VectorXd parameters) {
+  parameters.segment(structure.Transfer(), structure.Transients()).setZero();
+  return parameters;
+}
+
 C AcousticTransfer(const LoopPoint& point, C s) {
   C out = 0.0;
   for (const LoopMode& mode : point.modes) {

@@ -110,6 +110,9 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
 // The tied frequencies and dampings are those of the first mode.
 Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& point);
 
+// With nothing left by the record's ends: where a fit of another part of it may begin.
+Eigen::VectorXd WithoutTransients(const PointStructure& structure, Eigen::VectorXd parameters);
+
 // R at s.
 std::complex<double> AcousticTransfer(const LoopPoint& point, std::complex<double> s);
 // Adds the real part of `by` times dR at s, for each of the acoustics' parameters.

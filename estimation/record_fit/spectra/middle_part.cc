@@ -14,6 +14,8 @@ using C = std::complex<double>;
 
 // Of the part's bins, at either end of the band, that are left out.
 constexpr Eigen::Index kBesideBand = 2;
+constexpr double kCycles = 100.0;
+constexpr double kShare = 0.2;
 
 class Middle {
  public:
@@ -55,9 +57,10 @@ class Middle {
 
 }  // namespace
 
-std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record, double cycles) {
+std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record) {
   const auto samples =
-      static_cast<Eigen::Index>(cycles * record.sampling_hz / record.scale.cycle_hz);
+      std::max(static_cast<Eigen::Index>(kCycles * record.sampling_hz / record.scale.cycle_hz),
+               static_cast<Eigen::Index>(kShare * static_cast<double>(record.Samples())));
   if (2 * samples > record.Samples()) return std::nullopt;
   const Middle middle(record, samples);
   RecordSpectra out;

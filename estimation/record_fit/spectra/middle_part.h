@@ -16,13 +16,10 @@
 
 namespace howl {
 
-// What a search compares starts on: a record of a hundred cycles tells all that the base priors
-// leave open (point_prior.h).
-inline constexpr double kCyclesOfStarts = 100.0;
-
-// None of a record that is less than twice as long: a fit of the whole costs little more.
-std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record,
-                                        double cycles = kCyclesOfStarts);
+// A fifth of the record, or of a shorter one the hundred cycles that tell all that the base priors
+// leave open (point_prior.h). None where the whole is not twice as long: a fit of it costs little
+// more.
+std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record);
 
 }  // namespace howl
 

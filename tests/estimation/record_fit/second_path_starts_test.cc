@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "estimation/record_fit/fit_under_prior.h"
+#include "estimation/record_fit/mode_maxima.h"
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "tests/estimation/record_fit/drawn_record.h"
 #include "tests/estimation/record_fit/identified.h"
@@ -16,6 +17,8 @@ namespace howl {
 namespace {
 
 // The best of the fits that begin there is the one that begins at the truth, and its start is near.
+// Acoustics that made up for the missing path may rest beside their place, which a search for other
+// places of the modes then finds, as every fit's does.
 TEST(SecondPathStarts, LeadToThePathThatIsThere) {
   const ModalLoop loop = BroadDuct();
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
@@ -46,6 +49,8 @@ TEST(SecondPathStarts, LeadToThePathThatIsThere) {
         const PointFit fit = FitPoint(record, two, prior, start);
         if (fit.log_posterior > best.log_posterior) best = fit;
       }
+      best = BestByModes(record, two, prior, best);
+      best = FitPoint(record, two, prior, best.parameters);
       EXPECT_GT(best.log_posterior, right.log_posterior - 0.1) << share << " " << lambda;
       EXPECT_NEAR(best.parameters[two.SecondPath()], share, 0.1) << lambda;
     }

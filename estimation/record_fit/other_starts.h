@@ -1,0 +1,22 @@
+// Whether a fit from elsewhere comes to a better maximum than a known one.
+#ifndef HOWL_ESTIMATION_RECORD_FIT_OTHER_STARTS_H_
+#define HOWL_ESTIMATION_RECORD_FIT_OTHER_STARTS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "estimation/record_fit/loop/point_prior.h"
+#include "estimation/record_fit/point_fit.h"
+
+namespace howl {
+
+// `fit`, or what is more likely of the fits from these starts. Each is followed on the middle of
+// the record (middle_part.h), and goes on to the whole where it comes to what is more likely there
+// than `fit` is.
+PointFit BestWith(const RecordSpectra& record, const PointStructure& structure,
+                  const PointPrior& prior, PointFit fit, const std::vector<Eigen::VectorXd>& starts,
+                  const PointFitOptions& options = {});
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_OTHER_STARTS_H_
