@@ -55,8 +55,7 @@ InstrumentPoint InstrumentProfile::At(double u, const std::vector<Eigen::VectorX
   InstrumentPoint out{u, 0.0, 0.0, std::vector<PointFit>(records_.size())};
   std::vector<double> jacobians(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
-    const RecordSpectra record =
-        extent == RecordExtent::kMiddle ? records_.Middle(form, e) : records_.Whole(form, e);
+    const RecordSpectra record = records_.Of(form, e, extent);
     jacobians[e] = LogJacobian(record, form.instruments);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
       return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
@@ -78,7 +77,7 @@ InstrumentPoint InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_
   for (const double start : parameter_.starts) starts.push_back(ToSearch(parameter_, start));
   std::ranges::sort(starts, {}, [&](double u) { return std::abs(u - null); });
   const auto roughly_at = [&](double u, const std::vector<Eigen::VectorXd>& from) {
-    return At(u, from, kToTheMaximum, RecordExtent::kMiddle);
+    return At(u, from, kToCompare, RecordExtent::kMiddle);
   };
   InstrumentPoint best = roughly_at(null, at_null);
   InstrumentPoint below = best;
@@ -86,11 +85,13 @@ InstrumentPoint InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_
   for (const double u : starts) {
     InstrumentPoint& last = u < null ? below : above;
     last = roughly_at(u, ParametersOf(last.fits));
-    if (last.log_evidence > best.log_evidence) best = last;
+    if (last.log_posterior > best.log_posterior) best = last;
   }
   if (best.u == null) return At(null, at_null);
   std::vector<Eigen::VectorXd> whole = ParametersOf(best.fits);
-  for (Eigen::VectorXd& each : whole) each = WithoutTransients(form_.structure, std::move(each));
+  for (std::size_t e = 0; e < whole.size(); ++e) {
+    whole[e] = BesideMiddle(records_.Whole(form_, e), form_.structure, std::move(whole[e]));
+  }
   return At(best.u, whole);
 }
 

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -20,9 +19,6 @@ namespace howl {
 double ToSearch(const EffectParameter& parameter, double value);
 double FromSearch(const EffectParameter& parameter, double u);
 double SearchSpan(const EffectParameter& parameter);
-
-// What of each record is fitted.
-enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
 
 // What a value is worth, and each point's fit there.
 struct InstrumentPoint {

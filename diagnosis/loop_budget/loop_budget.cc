@@ -55,7 +55,9 @@ double DensityWithoutLines(const LoopFound& found) {
 Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
                 const LoopBudgetOptions& options) {
   const HeldOutScore base = ScoreHeldOut(records, found.base, "base/", options);
-  const HeldOutScore best = ScoreHeldOut(records, found.best, "best/", options);
+  // With nothing added the best loop is the base, driven as it was.
+  const HeldOutScore best =
+      found.steps.empty() ? base : ScoreHeldOut(records, found.best, "best/", options);
   std::vector<HeldOutScore> after(found.steps.size());
   std::vector<HeldOutScore> without(found.steps.size());
   RunUnits(found.steps.size(), options.threads, [&](std::size_t i) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <memory>
 #include <span>
 
 #include "model/effects/catalogue.h"
@@ -50,6 +51,10 @@ RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& inst
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const double hz = record.s[i].imag() * record.scale.cycle_hz;
     record.instrument_power[i] *= std::norm(ResponseOf(instrument, hz));
+  }
+  if (record.middle) {
+    record.middle =
+        std::make_shared<const RecordSpectra>(WithoutInstrument(*record.middle, instrument));
   }
   return record;
 }

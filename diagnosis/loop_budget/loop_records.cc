@@ -2,7 +2,6 @@
 
 #include <glog/logging.h>
 
-#include <optional>
 #include <utility>
 
 #include "diagnosis/cuts/make_cut_records.h"
@@ -19,11 +18,6 @@ RecordSpectra Without(const LoopForm& form, RecordSpectra record) {
   return record;
 }
 
-RecordSpectra MiddleOf(const RecordSpectra& record) {
-  std::optional<RecordSpectra> part = MiddlePart(record);
-  return part ? std::move(*part) : record;
-}
-
 }  // namespace
 
 LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
@@ -34,7 +28,6 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   }
   for (Spectra& spectra : spectra_) {
     spectra.points.resize(records.size());
-    spectra.middles.resize(records.size());
     spectra.halves.resize(records.size());
   }
   RunUnits(spectra_.size() * records.size(), threads, [&](std::size_t i) {
@@ -44,7 +37,6 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
     Spectra& spectra = spectra_[input];
     spectra.points[e] = {of.operating_parameter,
                          MakeRecordSpectra(of.record, of.cycle_hz, static_cast<FlameInput>(input))};
-    spectra.middles[e] = MiddleOf(spectra.points[e].record);
     for (std::size_t half = 0; half < 2; ++half) {
       spectra.halves[e][half] =
           MakeRecordSpectra(HalfOf(of.record, half == 1), spectra.points[e].record);
@@ -60,36 +52,36 @@ void LoopRecords::DriveWithout(const std::vector<Eigen::VectorXd>& noise, int th
       *record = DrivenWithout(std::move(*record), noise[e].segment(first, record->Samples()));
     };
     drive(&spectra.points[e].record, 0);
-    spectra.middles[e] = MiddleOf(spectra.points[e].record);
     drive(&spectra.halves[e][0], 0);
     drive(&spectra.halves[e][1], spectra.halves[e][0].Samples());
   });
 }
 
 std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
-  std::vector<OperatingPoint> out = Of(form.flame_input).points;
+  std::vector<OperatingPoint> out = With(form.flame_input).points;
   for (OperatingPoint& point : out) point.record = Without(form, std::move(point.record));
   return out;
 }
 
 RecordSpectra LoopRecords::Whole(const LoopForm& form, std::size_t e) const {
-  return Without(form, Of(form.flame_input).points[e].record);
+  return Without(form, With(form.flame_input).points[e].record);
 }
 
-RecordSpectra LoopRecords::Middle(const LoopForm& form, std::size_t e) const {
-  return Without(form, Of(form.flame_input).middles[e]);
+RecordSpectra LoopRecords::Of(const LoopForm& form, std::size_t e, RecordExtent extent) const {
+  RecordSpectra whole = Whole(form, e);
+  return extent == RecordExtent::kMiddle ? MiddleOf(whole) : whole;
 }
 
 RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t half) const {
-  return Without(form, Of(form.flame_input).halves[e][half]);
+  return Without(form, With(form.flame_input).halves[e][half]);
 }
 
 double LoopRecords::LogJacobianOfWhole(const LoopForm& form, std::size_t e) const {
-  return LogJacobian(Of(form.flame_input).points[e].record, form.instruments);
+  return LogJacobian(With(form.flame_input).points[e].record, form.instruments);
 }
 
 double LoopRecords::LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const {
-  return LogJacobian(Of(form.flame_input).halves[e][half], form.instruments);
+  return LogJacobian(With(form.flame_input).halves[e][half], form.instruments);
 }
 
 }  // namespace howl

@@ -1,10 +1,11 @@
-// The records of a rig's operating points, whole, their middles and in halves, made ready for the
-// likelihood (record_spectra.h) with each of the flame's inputs.
+// The records of a rig's operating points, whole and in halves, made ready for the likelihood
+// (record_spectra.h) with each of the flame's inputs.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct LoopRecord {
   Record record;
 };
 
+// What of a record is fitted: the whole, or what is enough to compare starts (middle_part.h).
+enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
+
 class LoopRecords {
  public:
   LoopRecords() = default;
@@ -32,11 +36,10 @@ class LoopRecords {
   // As `form` has them, without its instruments.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
-  // What a search compares starts on (middle_part.h); of a short record the whole.
-  RecordSpectra Middle(const LoopForm& form, std::size_t e) const;
+  RecordSpectra Of(const LoopForm& form, std::size_t e, RecordExtent extent) const;
   // How many coefficients the flame has.
   Eigen::Index FlameTerms(FlameInput input, std::size_t e) const {
-    return Of(input).points[e].record.flame.cols();
+    return With(input).points[e].record.flame.cols();
   }
   // In the units of the whole.
   RecordSpectra Half(const LoopForm& form, std::size_t e, std::size_t half) const;
@@ -50,10 +53,9 @@ class LoopRecords {
  private:
   struct Spectra {
     std::vector<OperatingPoint> points;
-    std::vector<RecordSpectra> middles;
     std::vector<std::array<RecordSpectra, 2>> halves;
   };
-  const Spectra& Of(FlameInput input) const { return spectra_[static_cast<std::size_t>(input)]; }
+  const Spectra& With(FlameInput input) const { return spectra_[static_cast<std::size_t>(input)]; }
 
   std::vector<std::string> names_;
   std::vector<double> cycle_hz_;

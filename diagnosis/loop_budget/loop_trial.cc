@@ -27,17 +27,17 @@ std::vector<Eigen::VectorXd> BestRow(const LoopRecords& records, const LoopFit& 
     const std::size_t e = i % points;
     const std::string of = key + "middle/" + std::to_string(row) + "/" + std::to_string(e);
     fits[i] = KeptFit(options.units, of, [&] {
-      const RecordSpectra record = records.Middle(with, e);
+      const RecordSpectra record = records.Of(with, e, RecordExtent::kMiddle);
       return FitPoint(record, with.structure, PriorOfTrial(records, from, with, e, record),
-                      starts.rows[row][e], kOfTrial);
+                      starts.rows[row][e], kToCompare);
     });
   });
-  const auto evidence = [&](std::size_t row, std::size_t e) {
-    return fits[row * points + e].log_evidence;
+  const auto likely = [&](std::size_t row, std::size_t e) {
+    return fits[row * points + e].log_posterior;
   };
   const auto sum = [&](std::size_t row) {
     double nats = 0.0;
-    for (std::size_t e = 0; e < points; ++e) nats += evidence(row, e);
+    for (std::size_t e = 0; e < points; ++e) nats += likely(row, e);
     return nats;
   };
   std::size_t best = 0;
@@ -48,9 +48,10 @@ std::vector<Eigen::VectorXd> BestRow(const LoopRecords& records, const LoopFit& 
   for (std::size_t e = 0; e < points; ++e) {
     std::size_t of = best;
     for (std::size_t row = 0; starts.apart && row < rows; ++row) {
-      if (evidence(row, e) > evidence(of, e)) of = row;
+      if (likely(row, e) > likely(of, e)) of = row;
     }
-    out.push_back(WithoutTransients(with.structure, fits[of * points + e].parameters));
+    out.push_back(
+        BesideMiddle(records.Whole(with, e), with.structure, fits[of * points + e].parameters));
   }
   return out;
 }

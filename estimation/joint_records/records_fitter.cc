@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "estimation/joint_records/record_evidence.h"
@@ -164,21 +163,16 @@ StartRows RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
   return out;
 }
 
-std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
-                                          const RecordsFitOptions& options) const {
-  PointFitOptions rough;
-  rough.iterations = kIterationsOfCandidate;
+std::vector<Eigen::VectorXd> RecordsFitter::BestRow(const StartRows& starts,
+                                                    const RecordsFitOptions& options) const {
   std::vector<std::vector<PointFit>> all(starts.size(), std::vector<PointFit>(size()));
-  // Where there is a choice it is by the records' middles.
-  std::vector<std::optional<RecordSpectra>> parts(size());
-  RunUnits(starts.size() > 1 ? size() : 0, threads_,
-           [&](std::size_t e) { parts[e] = MiddlePart(points_[e].record); });
   RunUnits(starts.size() * size(), threads_, [&](std::size_t i) {
     const std::size_t c = i / size();
     const std::size_t e = i % size();
     all[c][e] = KeptFit(options.units, UnitKey(options, "candidate", c, e), [&] {
-      return FitPoint(parts[e] ? *parts[e] : points_[e].record, structure_, base_[e], starts[c][e],
-                      rough);
+      PointFitOptions compared = kToCompare;
+      compared.iterations = kIterationsOfCandidate;
+      return FitPoint(MiddleOf(points_[e].record), structure_, base_[e], starts[c][e], compared);
     });
   });
   std::size_t best = 0;
@@ -189,12 +183,23 @@ std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
     if (sum > most) best = c;
     most = std::max(sum, most);
   }
-  std::vector<PointFit> out = std::move(all[best]);
+  std::vector<Eigen::VectorXd> out;
+  for (std::size_t e = 0; e < size(); ++e) {
+    out.push_back(BesideMiddle(points_[e].record, structure_, all[best][e].parameters));
+  }
+  return out;
+}
+
+std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
+                                          const RecordsFitOptions& options) const {
+  const std::vector<Eigen::VectorXd> row =
+      starts.size() == 1 ? starts[0] : BestRow(starts, options);
+  PointFitOptions rough;
+  rough.iterations = kIterationsOfCandidate;
+  std::vector<PointFit> out(size());
   RunUnits(size(), threads_, [&](std::size_t e) {
-    if (!parts[e]) return;
-    out[e] = KeptFit(options.units, UnitKey(options, "chosen", best, e), [&] {
-      return FitPoint(points_[e].record, structure_, base_[e],
-                      WithoutTransients(structure_, out[e].parameters), rough);
+    out[e] = KeptFit(options.units, UnitKey(options, "chosen", 0, e), [&] {
+      return FitPoint(points_[e].record, structure_, base_[e], row[e], rough);
     });
   });
   return out;

@@ -62,6 +62,9 @@ class RecordsFitter {
  private:
   // The base prior of each point, in common units, at its mean over the points.
   PointPrior MeanBase() const;
+  // The row from which the middles of the records become most likely, where it leads.
+  std::vector<Eigen::VectorXd> BestRow(const StartRows& starts,
+                                       const RecordsFitOptions& options) const;
   Eigen::VectorXd StartFrom(std::size_t e, const Eigen::VectorXd& common) const;
   // The points that give candidates, evenly.
   std::vector<std::size_t> Drawn() const;

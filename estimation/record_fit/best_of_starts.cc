@@ -2,7 +2,6 @@
 #include <glog/logging.h>
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
 #include "estimation/record_fit/point_fit.h"
@@ -15,6 +14,7 @@ constexpr std::size_t kMostToCompare = 4;
 constexpr int kIterationsToCompare = 30;
 constexpr double kSameDelay = 0.03;  // of a path's parameters
 constexpr std::size_t kMostDelays = 3;
+constexpr double kSameMaximum = 0.01;  // nats
 
 // The best acoustics with each other delay and flame that a fit has come to: the two cuts depend on
 // one another little, so that the best of each may have begun apart.
@@ -42,6 +42,17 @@ std::vector<Eigen::VectorXd> OtherDelays(const PointStructure& structure,
   return out;
 }
 
+// The best of fits that are in order, and the next best that is another maximum.
+std::vector<PointFit> Different(const std::vector<PointFit>& fits) {
+  std::vector<PointFit> out = {fits[0]};
+  for (const PointFit& fit : fits) {
+    if (fit.log_posterior > fits[0].log_posterior - kSameMaximum) continue;
+    out.push_back(fit);
+    break;
+  }
+  return out;
+}
+
 }  // namespace
 
 PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
@@ -57,26 +68,28 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     std::ranges::stable_sort(fits, std::ranges::greater(), &PointFit::log_posterior);
     return fits;
   };
+  const RecordSpectra& compared = MiddleOf(record);
   // Near a maximum, then past the valleys that lead there, and at last on it.
   PointFitOptions near = options;
   near.converged = kNearMaximum;
-  const std::optional<RecordSpectra> part = MiddlePart(record);
-  const std::vector<PointFit> all = fit_all(part ? *part : record, starts, near);
+  near.curvature = false;
+  const std::vector<PointFit> all = fit_all(compared, starts, near);
   std::vector<Eigen::VectorXd> best;
   for (std::size_t i = 0; i < std::min(all.size(), kMostToCompare); ++i) {
     best.push_back(all[i].parameters);
-    if (part) best[i] = WithoutTransients(structure, std::move(best[i]));
   }
   PointFitOptions stage = options;
   stage.iterations = std::min(options.iterations, kIterationsToCompare);
-  std::vector<PointFit> fits = fit_all(record, best, stage);
-  std::vector<Eigen::VectorXd> crossed = OtherDelays(structure, fits[0].parameters, all);
-  if (!crossed.empty()) {
-    crossed.push_back(fits[0].parameters);
-    fits = fit_all(record, crossed, stage);
+  stage.curvature = false;
+  std::vector<PointFit> fits = fit_all(compared, best, stage);
+  const std::vector<Eigen::VectorXd> crossed = OtherDelays(structure, fits[0].parameters, all);
+  for (PointFit& fit : fit_all(compared, crossed, stage)) fits.push_back(std::move(fit));
+  std::ranges::stable_sort(fits, std::ranges::greater(), &PointFit::log_posterior);
+  std::vector<Eigen::VectorXd> of_whole;
+  for (const PointFit& fit : Different(fits)) {
+    of_whole.push_back(BesideMiddle(record, structure, fit.parameters));
   }
-  if (fits[0].converged) return fits[0];
-  return FitPoint(record, structure, prior, fits[0].parameters, options);
+  return fit_all(record, of_whole, options)[0];
 }
 
 }  // namespace howl

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <utility>
 
 #include "estimation/record_fit/point_posterior.h"
@@ -16,7 +15,6 @@ namespace {
 constexpr std::size_t kDelays = 8;
 constexpr double kSame = 0.25;  // radians of the cycle: a quarter of a period at the band's end
 constexpr int kMostScans = 3;
-constexpr PointFitOptions kFirstSteps{.iterations = 10, .converged = kToTheMaximum.converged};
 constexpr std::size_t kMostFollowed = 3;
 
 // The maxima of different delays, that of `parameters` with them, the most likely first. Of the
@@ -30,23 +28,21 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
     return std::exp(fit.parameters[structure.Delay()]);
   };
   std::vector<PointFit> begun;
-  const std::optional<RecordSpectra> part = MiddlePart(record);
   const PathStarts paths(record);
   for (const double tau : paths.Delays(kDelays)) {
     Eigen::VectorXd start = parameters;
     start[structure.Delay()] = std::log(tau);
     const FlamePath path = ToPoint(structure, record.flame.cols(), start).path;
     start.segment(structure.Flame(), record.flame.cols()) = paths.Flame(path);
-    begun.push_back(FitPoint(part ? *part : record, structure, prior,
-                             part ? WithoutTransients(structure, start) : start, kFirstSteps));
+    begun.push_back(FitPoint(MiddleOf(record), structure, prior,
+                             BesideMiddle(record, structure, start), kFirstSteps));
   }
   std::ranges::stable_sort(begun, std::ranges::greater(), &PointFit::log_posterior);
   begun.resize(std::min(begun.size(), followed));
-  std::vector<PointFit> all = {FitPoint(record, structure, prior, parameters, kToTheMaximum)};
+  std::vector<PointFit> all = {FitPoint(record, structure, prior, parameters, kToCompare)};
   for (const PointFit& fit : begun) {
     all.push_back(FitPoint(record, structure, prior,
-                           part ? WithoutTransients(structure, fit.parameters) : fit.parameters,
-                           kToTheMaximum));
+                           BesideMiddle(record, structure, fit.parameters), kToCompare));
   }
   std::ranges::stable_sort(all, std::ranges::greater(), &PointFit::log_posterior);
   std::vector<PointFit> out;
@@ -64,10 +60,9 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
 PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structure,
                      const PointPrior& prior, PointFit fit) {
   for (int scan = 0; scan < kMostScans; ++scan) {
-    PointFit next = FitsByDelay(record, structure, prior, fit.parameters, kMostFollowed)[0];
-    const double gain = next.log_posterior - fit.log_posterior;
-    fit = std::move(next);
-    if (gain < kToTheMaximum.converged) break;
+    const PointFit next = FitsByDelay(record, structure, prior, fit.parameters, kMostFollowed)[0];
+    if (next.log_posterior - fit.log_posterior < kToTheMaximum.converged) break;
+    fit = FitPoint(record, structure, prior, next.parameters, kToTheMaximum);
   }
   return fit;
 }

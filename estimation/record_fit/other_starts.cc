@@ -1,6 +1,7 @@
 #include "estimation/record_fit/other_starts.h"
 
-#include <optional>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "estimation/record_fit/spectra/middle_part.h"
@@ -10,21 +11,23 @@ namespace howl {
 PointFit BestWith(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, PointFit fit, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options) {
-  const std::optional<RecordSpectra> part = MiddlePart(record);
-  const auto on_part = [&](const Eigen::VectorXd& start) {
-    return FitPoint(*part, structure, prior, WithoutTransients(structure, start), kToTheMaximum);
+  const auto begin = [&](const Eigen::VectorXd& start) {
+    return BesideMiddle(record, structure, start);
   };
-  const double known = part ? on_part(fit.parameters).log_posterior : 0.0;
-  for (Eigen::VectorXd start : starts) {
-    if (part) {
-      const PointFit there = on_part(start);
-      if (!(there.log_posterior > known)) continue;
-      start = WithoutTransients(structure, there.parameters);
-    }
-    PointFit other = FitPoint(record, structure, prior, std::move(start), options);
-    if (other.log_posterior > fit.log_posterior) fit = std::move(other);
+  const auto on_middle = [&](const Eigen::VectorXd& start, const PointFitOptions& stage) {
+    return FitPoint(MiddleOf(record), structure, prior, begin(start), stage);
+  };
+  PointFit best;
+  best.log_posterior = -std::numeric_limits<double>::infinity();
+  for (const Eigen::VectorXd& start : starts) {
+    PointFit begun = on_middle(start, kFirstSteps);
+    if (begun.log_posterior > best.log_posterior) best = std::move(begun);
   }
-  return fit;
+  if (!std::isfinite(best.log_posterior)) return fit;
+  best = on_middle(best.parameters, kToCompare);
+  if (!(best.log_posterior > on_middle(fit.parameters, kToCompare).log_posterior)) return fit;
+  PointFit other = FitPoint(record, structure, prior, begin(best.parameters), options);
+  return other.log_posterior > fit.log_posterior ? other : fit;
 }
 
 }  // namespace howl

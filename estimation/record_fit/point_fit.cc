@@ -107,7 +107,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     };
     double foretold = gain_of(step);
     if (damping < 1.0 && foretold < options.converged) {
-      if (source == Source::kCurvature || options.converged >= kNearMaximum) {
+      if (source == Source::kCurvature || !options.curvature) {
         out.converged = true;
         break;
       }
@@ -165,7 +165,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     raise = 2.0;
   }
   // Corrections show the curvature along the way alone.
-  if (source == Source::kCorrected && options.converged < kNearMaximum) {
+  if (source == Source::kCorrected && options.curvature) {
     here.information = posterior.Curvature(out.parameters, here);
   }
   here.information = Positive(here.information);

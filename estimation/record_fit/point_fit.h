@@ -20,10 +20,18 @@ namespace howl {
 struct PointFitOptions {
   int iterations = 100;
   double converged = 1e-3;  // nats that the next step would gain
+  // Whether the curvature is learnt where the fit ends, as its evidence and its errors need: a
+  // third of the work. Without, both are those of what the steps have shown.
+  bool curvature = true;
 };
 
-// To within a nat or so of the maximum, which tells maxima apart.
+// To within a nat or so of the maximum, which tells maxima apart; and that alone.
 inline constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
+inline constexpr PointFitOptions kToCompare{.iterations = 60, .converged = 1.0, .curvature = false};
+
+// After which starts are compared (delay_maxima.h has what they then tell).
+inline constexpr PointFitOptions kFirstSteps{
+    .iterations = 10, .converged = 1.0, .curvature = false};
 
 // Nats that the next step would gain, from which on a fit is near a maximum: steps then learn the
 // curvature, and starts are compared.

@@ -21,7 +21,14 @@ C Exponential(C x) { return std::polar(std::exp(x.real()), x.imag()); }
 
 }  // namespace
 
-PathSlopes FlamePath::FirstWithSlopes(C s) const {
+PathTurns FlamePath::TurnsAt(C s) const {
+  PathTurns out;
+  if (spread == DelaySpread::kNone) out.of_first = Exponential(-tau * s);
+  if (second) out.of_second = Exponential(-second->lambda * s);
+  return out;
+}
+
+PathSlopes FlamePath::FirstWithSlopes(C s, C turn) const {
   const C delayed = tau * s;
   const double square = rho * rho;
   switch (spread) {
@@ -40,13 +47,13 @@ PathSlopes FlamePath::FirstWithSlopes(C s) const {
       return {Exponential(-mean), {-late, 2.0 * (mean - late)}};
     }
   }
-  return {Exponential(-delayed), {-delayed}};
+  return {turn, {-delayed}};
 }
 
-PathSlopes FlamePath::WithSlopes(C s) const {
-  PathSlopes out = FirstWithSlopes(s);
+PathSlopes FlamePath::WithSlopes(C s, const PathTurns& turns) const {
+  PathSlopes out = FirstWithSlopes(s, turns.of_first);
   if (!second) return out;
-  const C later = Exponential(-second->lambda * s);
+  const C later = turns.of_second;
   const C both = 1.0 + second->share * (later - 1.0);
   const C over = Reciprocal(both);
   out.at = Times(out.at, both);

@@ -30,6 +30,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "model/numerics/complex_products.h"
+
 namespace howl {
 
 enum class DelaySpread : std::uint8_t { kNone, kNormal, kGamma };
@@ -43,6 +45,17 @@ using PathDerivatives = std::array<std::complex<double>, kMostPathParameters>;
 struct PathSlopes {
   std::complex<double> at;
   PathDerivatives by = {};
+};
+
+// What a path's answer at s takes from another frequency's when s moves on: those of s1 + s2 are
+// the products of those of s1 and of s2.
+struct PathTurns {
+  std::complex<double> of_first = 1.0;   // e^(-tau s), where delays are not spread
+  std::complex<double> of_second = 1.0;  // e^(-lambda s), where there is a second path
+
+  PathTurns operator*(const PathTurns& other) const {
+    return {Times(of_first, other.of_first), Times(of_second, other.of_second)};
+  }
 };
 
 // How it falls beyond that frequency, and the slopes of this.
@@ -65,7 +78,9 @@ struct FlamePath {
   std::complex<double> At(std::complex<double> s) const;
   Eigen::VectorXcd At(const Eigen::VectorXcd& s) const;
   // All in one, at little more than the cost of the first.
-  PathSlopes WithSlopes(std::complex<double> s) const;
+  PathSlopes WithSlopes(std::complex<double> s) const { return WithSlopes(s, TurnsAt(s)); }
+  PathSlopes WithSlopes(std::complex<double> s, const PathTurns& turns) const;
+  PathTurns TurnsAt(std::complex<double> s) const;
   // At(s) over its integral from s on, and its slopes. Of one path:
   //   none   tau     normal   tau / (sqrt(1 + 2 rho^2 tau s) + rho^2)
   //   gamma  tau (1 - rho^2) / (1 + rho^2 tau s)
@@ -78,7 +93,7 @@ struct FlamePath {
     std::complex<double> fall, by_log_tau, by_log_rho;
   };
 
-  PathSlopes FirstWithSlopes(std::complex<double> s) const;
+  PathSlopes FirstWithSlopes(std::complex<double> s, std::complex<double> turn) const;
   First FirstFall(std::complex<double> s) const;
   // The index of the second path's share.
   std::size_t Second() const { return spread == DelaySpread::kNone ? 1 : 2; }

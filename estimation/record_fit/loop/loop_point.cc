@@ -104,8 +104,9 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   return out;
 }
 
-Eigen::VectorXd WithoutTransients(const PointStructure& structure, Eigen::VectorXd parameters) {
-  parameters.segment(structure.Transfer(), structure.Transients()).setZero();
+Eigen::VectorXd BesideMiddle(const RecordSpectra& record, const PointStructure& structure,
+                             Eigen::VectorXd parameters) {
+  if (record.middle) parameters.segment(structure.Transfer(), structure.Transients()).setZero();
   return parameters;
 }
 

@@ -110,8 +110,10 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
 // The tied frequencies and dampings are those of the first mode.
 Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& point);
 
-// With nothing left by the record's ends: where a fit of another part of it may begin.
-Eigen::VectorXd WithoutTransients(const PointStructure& structure, Eigen::VectorXd parameters);
+// Where a fit of the record may begin after one of its middle, and the reverse: what modes held at
+// the ends of the one is not what they held at those of the other.
+Eigen::VectorXd BesideMiddle(const RecordSpectra& record, const PointStructure& structure,
+                             Eigen::VectorXd parameters);
 
 // R at s.
 std::complex<double> AcousticTransfer(const LoopPoint& point, std::complex<double> s);

@@ -12,6 +12,9 @@ namespace {
 
 using C = std::complex<double>;
 
+// Of edges: as many turns one after the other err by a hundred roundings.
+constexpr Eigen::Index kAnchors = 64;
+
 Eigen::VectorXcd Transfer(const LoopPoint& point, const Eigen::VectorXcd& s) {
   return s.unaryExpr([&](C each) { return AcousticTransfer(point, each); });
 }
@@ -98,22 +101,30 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
 
 void SetPath(const RecordSpectra& record, const PointStructure& structure, const LoopPoint& point,
              PathOnGrids* out) {
-  const auto set = [&](const Eigen::VectorXcd& s, Eigen::VectorXcd* at, auto* by) {
-    at->resize(s.size());
-    for (Eigen::Index k = 0; k < structure.Delays(); ++k) {
-      (*by)[static_cast<std::size_t>(k)].resize(s.size());
-    }
-    for (Eigen::Index i = 0; i < s.size(); ++i) {
-      const PathSlopes slopes = point.path.WithSlopes(s[i]);
-      (*at)[i] = slopes.at;
-      for (Eigen::Index k = 0; k < structure.Delays(); ++k) {
-        (*by)[static_cast<std::size_t>(k)][i] = slopes.by[static_cast<std::size_t>(k)];
-      }
-    }
+  const auto parameters = static_cast<std::size_t>(structure.Delays());
+  const auto set = [&](const PathSlopes& slopes, Eigen::Index i, Eigen::VectorXcd* at, auto* by) {
+    (*at)[i] = slopes.at;
+    for (std::size_t k = 0; k < parameters; ++k) (*by)[k][i] = slopes.by[k];
   };
-  set(record.s, &out->at, &out->by);
-  set(record.edge_s, &out->edge_at, &out->edge_by);
-  for (Eigen::Index i = 0; i < record.bins(); ++i) out->at[i] = Times(out->at[i], record.input[i]);
+  const Eigen::Index bins = record.bins();
+  out->at.resize(bins);
+  out->edge_at.resize(bins + 1);
+  for (std::size_t k = 0; k < parameters; ++k) {
+    out->by[k].resize(bins);
+    out->edge_by[k].resize(bins + 1);
+  }
+  // Bins stand between the edges, all at one distance.
+  const FlamePath& path = point.path;
+  const PathTurns half = path.TurnsAt(record.s[0] - record.edge_s[0]);
+  PathTurns turns;
+  for (Eigen::Index i = 0; i <= bins; ++i) {
+    turns = i % kAnchors == 0 ? path.TurnsAt(record.edge_s[i]) : turns * half;
+    set(path.WithSlopes(record.edge_s[i], turns), i, &out->edge_at, &out->edge_by);
+    if (i == bins) break;
+    turns = turns * half;
+    set(path.WithSlopes(record.s[i], turns), i, &out->at, &out->by);
+    out->at[i] = Times(out->at[i], record.input[i]);
+  }
 }
 
 LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure& structure,

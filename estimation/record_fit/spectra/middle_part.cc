@@ -33,11 +33,6 @@ class Middle {
   Eigen::Index first() const { return first_; }
   Eigen::Index bins() const { return edges_ - 1; }
   double bin_hz(const RecordSpectra& record) const { return record.bin_hz * bins_of_part_; }
-  // Where the middle of the part's bin stands among the whole's bins.
-  Eigen::Index InWhole(Eigen::Index bin) const {
-    return static_cast<Eigen::Index>((static_cast<double>(first_ + bin) + 0.5) * bins_of_part_) -
-           first_whole_;
-  }
 
   template <typename Spectrum>
   Eigen::VectorXcd Of(const Spectrum& edges) const {
@@ -57,11 +52,13 @@ class Middle {
 
 }  // namespace
 
-std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record) {
+void SetMiddle(RecordSpectra* of) {
+  const RecordSpectra& record = *of;
   const auto samples =
       std::max(static_cast<Eigen::Index>(kCycles * record.sampling_hz / record.scale.cycle_hz),
                static_cast<Eigen::Index>(kShare * static_cast<double>(record.Samples())));
-  if (2 * samples > record.Samples()) return std::nullopt;
+  of->middle = nullptr;
+  if (2 * samples > record.Samples()) return;
   const Middle middle(record, samples);
   RecordSpectra out;
   out.scale = record.scale;
@@ -87,14 +84,7 @@ std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record) {
   out.slopes = record.slopes;
   out.rest_slopes = record.rest_slopes;
   out.share = Eigen::VectorXd::Constant(middle.bins(), kSineTaperShare);
-  if (record.instrument_power.size() > 0) {
-    out.instrument_power.resize(middle.bins());
-    for (Eigen::Index i = 0; i < middle.bins(); ++i) {
-      const Eigen::Index at = std::clamp<Eigen::Index>(middle.InWhole(i), 0, record.bins() - 1);
-      out.instrument_power[i] = record.instrument_power[at];
-    }
-  }
-  return out;
+  of->middle = std::make_shared<const RecordSpectra>(std::move(out));
 }
 
 }  // namespace howl

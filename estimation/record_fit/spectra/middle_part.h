@@ -10,8 +10,6 @@
 #ifndef HOWL_ESTIMATION_RECORD_FIT_SPECTRA_MIDDLE_PART_H_
 #define HOWL_ESTIMATION_RECORD_FIT_SPECTRA_MIDDLE_PART_H_
 
-#include <optional>
-
 #include "estimation/record_fit/spectra/record_spectra.h"
 
 namespace howl {
@@ -19,7 +17,12 @@ namespace howl {
 // A fifth of the record, or of a shorter one the hundred cycles that tell all that the base priors
 // leave open (point_prior.h). None where the whole is not twice as long: a fit of it costs little
 // more.
-std::optional<RecordSpectra> MiddlePart(const RecordSpectra& record);
+void SetMiddle(RecordSpectra* record);
+
+// The record itself where it has none.
+inline const RecordSpectra& MiddleOf(const RecordSpectra& record) {
+  return record.middle ? *record.middle : record;
+}
 
 }  // namespace howl
 

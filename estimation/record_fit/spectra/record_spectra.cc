@@ -11,6 +11,7 @@
 
 #include "estimation/record_fit/spectra/flame_basis.h"
 #include "estimation/record_fit/spectra/flame_functions.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 #include "estimation/record_fit/spectra/unitary_transform.h"
 
 namespace howl {
@@ -115,6 +116,7 @@ void SetFlame(const Eigen::VectorXcd& pressure, const FlamePrior& prior, RecordS
   out->slopes = scale.functions.transpose() * rises;
   out->rest_slopes =
       scale.functions.transpose() * (at_rest.row(0) - at_rest.row(1)).transpose() / (2.0 * step);
+  SetMiddle(out);
 }
 
 RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,

@@ -28,6 +28,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 
 #include "estimation/analysis/spectra/record.h"
@@ -79,6 +80,8 @@ struct RecordSpectra {
   // |H_q|^2 of the instruments of q that were taken out of the record: noise that came in behind
   // them was divided by it. Empty: 1.
   Eigen::VectorXd instrument_power;
+  // A part that is enough to compare starts (middle_part.h); of a short record none.
+  std::shared_ptr<const RecordSpectra> middle;
 
   Eigen::Index bins() const { return s.size(); }
   Eigen::Index Samples() const { return std::lround(sampling_hz / bin_hz); }

@@ -48,7 +48,7 @@ double RelativeError(const Eigen::VectorXcd& part, const Eigen::VectorXcd& cut) 
 TEST_F(MiddlePartTest, IsTheRecordOfThoseSamples) {
   const Record samples = DrawnRecord(loop_, path_, 5.0, 3);
   const RecordSpectra whole = WholeOf(samples);
-  const std::optional<RecordSpectra> part = MiddlePart(whole);
+  const RecordSpectra* const part = whole.middle.get();
   ASSERT_TRUE(part);
   const auto count = static_cast<std::size_t>(part->Samples());
   EXPECT_NEAR(static_cast<double>(count),
@@ -80,7 +80,7 @@ TEST_F(MiddlePartTest, IsTheRecordOfThoseSamples) {
 
 TEST_F(MiddlePartTest, OfAShortRecordIsNone) {
   const double seconds = 190.0 / cycle_hz_;
-  EXPECT_FALSE(MiddlePart(WholeOf(DrawnRecord(loop_, path_, seconds, 3))));
+  EXPECT_EQ(WholeOf(DrawnRecord(loop_, path_, seconds, 3)).middle, nullptr);
 }
 
 // A fit of the middle comes to the loop, and the whole's begins near its own maximum there.
@@ -90,10 +90,10 @@ TEST_F(MiddlePartTest, LeadsToTheLoop) {
   structure.noise = {{LoopNoise::kCombustion, 2}, {LoopNoise::kDuct, 2}};
   const PointPrior prior = PriorOf(structure, whole);
   const PointFit right = FitPoint(whole, structure, prior, StartsOf(whole, structure, prior, 6, 1));
-  const std::optional<RecordSpectra> part = MiddlePart(whole);
+  const RecordSpectra* const part = whole.middle.get();
   ASSERT_TRUE(part);
   const PointFit of_part =
-      FitPoint(*part, structure, prior, WithoutTransients(structure, right.parameters));
+      FitPoint(*part, structure, prior, BesideMiddle(whole, structure, right.parameters));
   // All but what modes held at the ends, in deviations of the part's own errors.
   const Eigen::VectorXd deviation = of_part.Covariance().diagonal().cwiseSqrt();
   for (Eigen::Index i = 0; i < right.parameters.size(); ++i) {
@@ -101,7 +101,7 @@ TEST_F(MiddlePartTest, LeadsToTheLoop) {
     EXPECT_NEAR(of_part.parameters[i], right.parameters[i], 4.0 * deviation[i]) << i;
   }
   const PointFit again =
-      FitPoint(whole, structure, prior, WithoutTransients(structure, of_part.parameters));
+      FitPoint(whole, structure, prior, BesideMiddle(whole, structure, of_part.parameters));
   EXPECT_NEAR(again.log_posterior, right.log_posterior, 0.1);
   EXPECT_LT(again.iterations, 15);
 }
