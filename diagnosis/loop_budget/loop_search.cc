@@ -7,22 +7,13 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/loop_removal.h"
 #include "estimation/parallel.h"
 
 namespace howl {
 namespace {
 
 constexpr std::size_t kMostItems = 24;
-
-// The modes that were added stand behind the base's in the order of their steps.
-std::size_t ModeOf(const std::vector<LoopStep>& steps, std::size_t which, const LoopForm& base) {
-  auto mode = static_cast<std::size_t>(base.structure.modes);
-  for (std::size_t i = 0; i < which; ++i) {
-    if (steps[which].item.kind == LoopItemKind::kMode && steps[i].item.kind == LoopItemKind::kMode)
-      ++mode;
-  }
-  return mode;
-}
 
 class Search {
  public:
@@ -37,14 +28,6 @@ class Search {
   void Forward(LoopFound* out);
   void Backward(const std::string& prefix, LoopStanding* out);
   void Exchange(LoopStanding* out);
-  // Each of these by itself.
-  void TakeAway(const std::vector<std::size_t>& which, MaximumTaken taken, const std::string& key,
-                LoopStanding* out) const;
-  static std::vector<std::size_t> Others(const LoopStanding& found,
-                                         const std::vector<std::size_t>& than);
-  static std::vector<std::size_t> Idle(const LoopStanding& found);
-  LoopFit Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
-                  MaximumTaken taken, const std::string& key) const;
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
 
   LoopRecords records_;
@@ -64,14 +47,6 @@ LoopFit Search::FitBase() {
   const RecordsFitOptions fit_options = FitOptionsOf(options_, "base/");
   const std::vector<OperatingPoint> points = records_.Points(base_);
   return Driven({base_, FitRecords(points, base_.structure, fit_options), {}}, "base/");
-}
-
-LoopFit Search::Without(const LoopFit& from, const std::vector<LoopStep>& steps, std::size_t which,
-                        MaximumTaken taken, const std::string& key) const {
-  const LoopForm model = howl::Without(from.model, steps[which].item, base_);
-  const LoopStarts starts = StartsWithout(records_, from, model, ModeOf(steps, which, base_));
-  return FitLoopFrom(records_, model, starts.rows, taken,
-                     key + "without/" + std::to_string(which) + "/", options_);
 }
 
 // Beside a loop that stands: whether such errors lead to another the search has tried.
@@ -107,10 +82,11 @@ void Search::Backward(const std::string& prefix, LoopStanding* out) {
   for (std::size_t round = 0; !out->steps.empty(); ++round) {
     const std::string key = prefix + "back/" + std::to_string(round) + "/";
     out->without.assign(out->steps.size(), {});
-    TakeAway(first, MaximumTaken::kNext, key + "next/", out);
+    TakeAway(records_, base_, first, MaximumTaken::kNext, key + "next/", options_, out);
     std::vector<std::size_t> idle = Idle(*out);
     if (idle.empty()) {
-      TakeAway(Others(*out, first), MaximumTaken::kNext, key + "next/", out);
+      TakeAway(records_, base_, Others(*out, first), MaximumTaken::kNext, key + "next/", options_,
+               out);
       idle = Idle(*out);
     }
     if (!idle.empty()) {
@@ -119,7 +95,7 @@ void Search::Backward(const std::string& prefix, LoopStanding* out) {
                                      MaximumTaken::kBest, key + "best/", options_),
                          key);
     } else {
-      TakeAway(Others(*out, {}), MaximumTaken::kBest, key, out);
+      TakeAway(records_, base_, Others(*out, {}), MaximumTaken::kBest, key, options_, out);
       idle = Idle(*out);
       if (idle.empty()) return;
       out->best = Driven(out->without[idle[0]], key);
@@ -132,45 +108,6 @@ void Search::Backward(const std::string& prefix, LoopStanding* out) {
     }
   }
   out->without.clear();
-}
-
-std::vector<std::size_t> Search::Others(const LoopStanding& found,
-                                        const std::vector<std::size_t>& than) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < found.steps.size(); ++i) {
-    if (std::ranges::find(than, i) == than.end()) out.push_back(i);
-  }
-  return out;
-}
-
-void Search::TakeAway(const std::vector<std::size_t>& which, MaximumTaken taken,
-                      const std::string& key, LoopStanding* out) const {
-  RunUnits(which.size(), options_.threads, [&](std::size_t n) {
-    const std::size_t i = which[n];
-    LoopFit& without = out->without[i];
-    without = without.log_density.empty()
-                  ? Without(out->best, out->steps, i, taken, key)
-                  : FitLoopFrom(records_, without.model, {ParametersOf(without)}, taken,
-                                key + "without/" + std::to_string(i) + "/", options_);
-  });
-  for (const std::size_t i : which) {
-    VLOG(1) << key << out->steps[i].item.id << " "
-            << out->best.Density() - out->without[i].Density() << " nats lost";
-  }
-}
-
-// The steps that are known not to pay what they had to, that which pays least first.
-std::vector<std::size_t> Search::Idle(const LoopStanding& found) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < found.steps.size(); ++i) {
-    const LoopFit& without = found.without[i];
-    const double least = found.steps[i].least;
-    if (without.log_density.empty() || without.Density() < found.best.Density() - least) continue;
-    out.push_back(i);
-  }
-  std::ranges::stable_sort(out, std::ranges::greater(),
-                           [&](std::size_t i) { return found.without[i].Density(); });
-  return out;
 }
 
 void Search::Exchange(LoopStanding* out) {

@@ -4,11 +4,11 @@
 // The score of a model is the density of each operating point's record by the law that the other
 // points give, summed (records_fit.h); of one point alone its evidence. An item comes in where it
 // raises the score by more than the odds against any of so many, and goes where the score without
-// it is not lower by as much. Hum is looked for while nothing else has come, which might take its
-// lines for its own. Noise and other causes come in the order of what they gain: what a poor noise
-// leaves over passes for effects, and what a strong instrument leaves passes for noise. Errors at
-// the cycle's lines come where nothing else pays: were they there from the beginning, they would
-// hide what the lines tell of the flame. What pays beside them then is looked for as before.
+// it is not lower by as much. Noise and other causes come in the order of what they gain: what a
+// poor noise leaves over passes for effects, and what a strong instrument leaves passes for noise,
+// or for hum. Errors at the cycle's lines come where nothing else pays: were they there from the
+// beginning, they would hide what the lines tell of the flame. What pays beside them then is looked
+// for as before.
 //
 // The flames are driven by p without the noise that the loop which stands finds there
 // (pressure_noise.h): whatever is tried beside it is driven so too.

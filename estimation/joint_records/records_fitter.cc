@@ -2,23 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "estimation/joint_records/record_evidence.h"
 #include "estimation/parallel.h"
-#include "estimation/record_fit/fit_under_prior.h"
-#include "estimation/record_fit/second_path_starts.h"
-#include "estimation/record_fit/spectra/middle_part.h"
 #include "estimation/record_fit/starts/point_starts.h"
-#include "estimation/record_fit/starts/richer_structure.h"
 #include "estimation/unit_seed.h"
 
 namespace howl {
 namespace {
 
-constexpr std::size_t kMostCandidates = 4;
-constexpr int kIterationsOfCandidate = 30;
 constexpr double kRounding = 1e-12;
 constexpr double kErrorsConverged = 0.05;  // of ln s
 // Of a parameter's spread, the largest move of the law's mean: as much as a fit leaves open that
@@ -99,107 +92,6 @@ std::vector<PointFit> RecordsFitter::Alone(const RecordsFitOptions& options) con
       return FitPoint(record, structure_, base_[e],
                       StartsOf(record, structure_, base_[e], options.starts,
                                UnitSeed(options.seed, "starts of a point", e)));
-    });
-  });
-  return out;
-}
-
-Eigen::VectorXd RecordsFitter::StartFrom(std::size_t e, const Eigen::VectorXd& common) const {
-  return WithBestFlame(points_[e].record, structure_, units_[e].FromCommon(common, base_[e].mean));
-}
-
-std::vector<std::size_t> RecordsFitter::Drawn() const {
-  const std::size_t count = std::min(size(), kMostCandidates);
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < count; ++i) out.push_back(i * size() / count);
-  return out;
-}
-
-StartRows RecordsFitter::FromOneAnother(const std::vector<PointFit>& alone) const {
-  StartRows out;
-  for (const std::size_t from : Drawn()) {
-    const Eigen::VectorXd common = units_[from].ToCommon(alone[from].parameters);
-    std::vector<Eigen::VectorXd>& row = out.emplace_back();
-    for (std::size_t e = 0; e < size(); ++e) {
-      row.push_back(e == from ? alone[e].parameters : StartFrom(e, common));
-    }
-  }
-  return out;
-}
-
-StartRows RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
-  StartRows out;
-  for (const std::size_t from : Drawn()) {
-    const std::vector<LoopMode> further = FurtherModes(points_[from].record, poorer.structure,
-                                                       poorer.points[from].parameters, structure_);
-    std::vector<Eigen::VectorXd> row;
-    for (std::size_t e = 0; e < size(); ++e) {
-      const RecordScale& at = points_[e].record.scale;
-      const RecordScale& of = points_[from].record.scale;
-      std::vector<LoopMode> here = further;
-      const double cycle = of.cycle_hz / at.cycle_hz;
-      const double residue = cycle * of.pressure / of.heat_release * at.heat_release / at.pressure;
-      for (LoopMode& mode : here) {
-        mode = {mode.omega * cycle, mode.xi, mode.a * residue, mode.b * residue};
-      }
-      row.push_back(InRicherStructure(points_[e].record, poorer.structure,
-                                      poorer.points[e].parameters, structure_, here));
-    }
-    if (structure_.second_path && !poorer.structure.second_path) {
-      StartRows rows(kSecondPathStarts, row);
-      RunUnits(size(), threads_, [&](std::size_t e) {
-        const std::vector<Eigen::VectorXd> starts =
-            WithTwoPaths(points_[e].record, structure_, base_[e], row[e], kSecondPathStarts);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-          rows[i][e] = starts[std::min(i, starts.size() - 1)];
-        }
-      });
-      out.insert(out.end(), rows.begin(), rows.end());
-    } else {
-      out.push_back(std::move(row));
-    }
-    if (further.empty()) break;
-  }
-  return out;
-}
-
-std::vector<Eigen::VectorXd> RecordsFitter::BestRow(const StartRows& starts,
-                                                    const RecordsFitOptions& options) const {
-  std::vector<std::vector<PointFit>> all(starts.size(), std::vector<PointFit>(size()));
-  RunUnits(starts.size() * size(), threads_, [&](std::size_t i) {
-    const std::size_t c = i / size();
-    const std::size_t e = i % size();
-    all[c][e] = KeptFit(options.units, UnitKey(options, "candidate", c, e), [&] {
-      PointFitOptions compared = kToCompare;
-      compared.iterations = kIterationsOfCandidate;
-      return FitPoint(MiddleOf(points_[e].record), structure_, base_[e], starts[c][e], compared);
-    });
-  });
-  std::size_t best = 0;
-  double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < starts.size(); ++c) {
-    double sum = 0.0;
-    for (const PointFit& fit : all[c]) sum += fit.log_posterior;
-    if (sum > most) best = c;
-    most = std::max(sum, most);
-  }
-  std::vector<Eigen::VectorXd> out;
-  for (std::size_t e = 0; e < size(); ++e) {
-    out.push_back(BesideMiddle(points_[e].record, structure_, all[best][e].parameters));
-  }
-  return out;
-}
-
-std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
-                                          const RecordsFitOptions& options) const {
-  const std::vector<Eigen::VectorXd> row =
-      starts.size() == 1 ? starts[0] : BestRow(starts, options);
-  PointFitOptions rough;
-  rough.iterations = kIterationsOfCandidate;
-  std::vector<PointFit> out(size());
-  RunUnits(size(), threads_, [&](std::size_t e) {
-    out[e] = KeptFit(options.units, UnitKey(options, "chosen", 0, e), [&] {
-      return FitPoint(points_[e].record, structure_, base_[e], row[e], rough);
     });
   });
   return out;
