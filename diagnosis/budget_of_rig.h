@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_form.h"
-#include "diagnosis/loop_budget/loop_records.h"
+#include "diagnosis/loop_budget/forms/loop_form.h"
+#include "diagnosis/loop_budget/forms/loop_records.h"
 #include "diagnosis/search/diagnosis_options.h"
 #include "diagnosis/verdict/budget.h"
 

@@ -21,7 +21,7 @@
 #include "app/process/progress_line.h"
 #include "app/text/diagnose_text.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/loop_budget/loop_item.h"
+#include "diagnosis/loop_budget/forms/loop_item.h"
 #include "io/config/reading/config_reading.h"
 #include "io/results/diagnosis_json.h"
 #include "io/whole_file.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/trials/loop_trial.h"
 #include "diagnosis/verdict/diagnosis_result.h"
 
 namespace howl {

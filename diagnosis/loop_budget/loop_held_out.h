@@ -8,7 +8,7 @@
 #include <string>
 
 #include "diagnosis/held_out/held_out_score.h"
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/trials/loop_trial.h"
 
 namespace howl {
 

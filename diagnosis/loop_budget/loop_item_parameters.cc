@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "diagnosis/fit/estimated_parameter.h"
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/trials/loop_trial.h"
 
 namespace howl {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_item.h"
+#include "diagnosis/loop_budget/forms/loop_item.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/trials/loop_trial.h"
 #include "model/numerics/fft.h"
 #include "tests/estimation/record_fit/modal_loop.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_item.h"
+#include "diagnosis/loop_budget/forms/loop_item.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {

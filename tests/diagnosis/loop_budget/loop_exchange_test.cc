@@ -1,5 +1,5 @@
 // Another item in the place of one that came first.
-#include "diagnosis/loop_budget/loop_exchange.h"
+#include "diagnosis/loop_budget/search/loop_exchange.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {

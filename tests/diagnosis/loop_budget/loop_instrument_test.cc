@@ -1,5 +1,5 @@
 // Instruments of q that a record shows, and those that it does not.
-#include "diagnosis/loop_budget/loop_instrument.h"
+#include "diagnosis/loop_budget/forms/loop_instrument.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_budget.h"
-#include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 

@@ -3,14 +3,14 @@
 // Of two that do nearly the same, that which gains more beside a poor noise need not be the right
 // one, and keeps the other out from then on. So once all else stands each item makes room for its
 // rivals of the step in which it came.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_EXCHANGE_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_EXCHANGE_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_EXCHANGE_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_EXCHANGE_H_
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/forward_step.h"
+#include "diagnosis/loop_budget/search/forward_step.h"
 
 namespace howl {
 
@@ -29,4 +29,4 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_EXCHANGE_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_EXCHANGE_H_

@@ -1,7 +1,7 @@
 // The records of a rig's operating points, whole and in halves, made ready for the likelihood
 // (record_spectra.h) with each of the flame's inputs.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_RECORDS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_RECORDS_H_
 
 #include <array>
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_form.h"
+#include "diagnosis/loop_budget/forms/loop_form.h"
 #include "estimation/joint_records/records_fit.h"
 
 namespace howl {
@@ -64,4 +64,4 @@ class LoopRecords {
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_RECORDS_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_RECORDS_H_

@@ -1,11 +1,11 @@
 // The loop that a budget of records has come to, and what an item makes of it (loop_item.h).
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_FORM_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_FORM_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_FORM_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_FORM_H_
 
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_instrument.h"
-#include "diagnosis/loop_budget/loop_item.h"
+#include "diagnosis/loop_budget/forms/loop_instrument.h"
+#include "diagnosis/loop_budget/forms/loop_item.h"
 #include "estimation/joint_records/record_loop_spec.h"
 #include "estimation/record_fit/loop/loop_point.h"
 
@@ -36,4 +36,4 @@ LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base);
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_FORM_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_FORM_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_exchange.h"
+#include "diagnosis/loop_budget/search/loop_exchange.h"
 
 #include <glog/logging.h>
 
@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "diagnosis/loop_budget/loop_instrument_trial.h"
-#include "diagnosis/loop_budget/odds.h"
+#include "diagnosis/loop_budget/forms/odds.h"
+#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
 #include "estimation/parallel.h"
 
 namespace howl {

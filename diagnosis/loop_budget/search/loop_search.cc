@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_search.h"
+#include "diagnosis/loop_budget/search/loop_search.h"
 
 #include <glog/logging.h>
 
@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "diagnosis/loop_budget/loop_instrument_trial.h"
-#include "diagnosis/loop_budget/loop_removal.h"
+#include "diagnosis/loop_budget/search/loop_removal.h"
+#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
 #include "estimation/parallel.h"
 
 namespace howl {

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_records.h"
+#include "diagnosis/loop_budget/forms/loop_records.h"
 
 #include <glog/logging.h>
 

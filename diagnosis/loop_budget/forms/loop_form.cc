@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_form.h"
+#include "diagnosis/loop_budget/forms/loop_form.h"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
 // What a search's loop loses without each of its items (loop_search.h).
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_REMOVAL_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_REMOVAL_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_REMOVAL_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_REMOVAL_H_
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_exchange.h"
+#include "diagnosis/loop_budget/search/loop_exchange.h"
 
 namespace howl {
 
@@ -22,4 +22,4 @@ std::vector<std::size_t> Idle(const LoopStanding& found);
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_REMOVAL_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_REMOVAL_H_

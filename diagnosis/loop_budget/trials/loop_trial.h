@@ -1,15 +1,15 @@
 // What a further item would gain, each operating point by itself: nats of its record's evidence,
 // under the priors that the law of the points gives, and wide ones of what the item brings. A fit
 // of all points together takes ten times as long, and is for those that gain most (loop_search.h).
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_TRIAL_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_TRIAL_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_TRIAL_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_TRIAL_H_
 
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_starts.h"
+#include "diagnosis/loop_budget/trials/loop_starts.h"
 #include "estimation/joint_records/fit_units.h"
 
 namespace howl {
@@ -61,4 +61,4 @@ LoopFit FitLoopFrom(const LoopRecords& records, const LoopForm& model, const Sta
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_TRIAL_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_TRIAL_H_

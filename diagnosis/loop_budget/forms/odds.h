@@ -2,8 +2,8 @@
 // come into loops that are right, and how often what is missing is found, as records grow longer
 // and points more. Nats of what was left out need no law by which these would scale: they are the
 // logarithm of a ratio of densities, whatever the length, the rate, the points and the noise.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ODDS_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_ODDS_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_ODDS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_ODDS_H_
 
 namespace howl {
 
@@ -17,4 +17,4 @@ inline constexpr double kOddsOfUnknown = 20.0;
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ODDS_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_ODDS_H_

@@ -1,7 +1,7 @@
 // What each of a point's parameters (loop_point.h) is, so that those of one structure are found
 // again in another.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_PARAMETER_LABELS_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_PARAMETER_LABELS_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_PARAMETER_LABELS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_PARAMETER_LABELS_H_
 
 #include <string>
 #include <vector>
@@ -20,4 +20,4 @@ PointPrior WithKnown(PointPrior prior, const std::vector<std::string>& labels,
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_PARAMETER_LABELS_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_PARAMETER_LABELS_H_

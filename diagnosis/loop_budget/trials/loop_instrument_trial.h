@@ -1,12 +1,12 @@
 // What an instrument of q would gain, with the value of its parameter that all operating points
 // share: the profile of the evidence over that value, all else of each point fitted anew.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_INSTRUMENT_TRIAL_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_INSTRUMENT_TRIAL_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_INSTRUMENT_TRIAL_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_INSTRUMENT_TRIAL_H_
 
 #include <string>
 
 #include "diagnosis/fit/estimated_parameter.h"
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/trials/loop_trial.h"
 
 namespace howl {
 
@@ -39,4 +39,4 @@ EstimatedParameter EstimateInstrument(const LoopRecords& records, const LoopFit&
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_INSTRUMENT_TRIAL_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_INSTRUMENT_TRIAL_H_

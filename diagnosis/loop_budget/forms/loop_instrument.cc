@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_instrument.h"
+#include "diagnosis/loop_budget/forms/loop_instrument.h"
 
 #include <cmath>
 #include <complex>

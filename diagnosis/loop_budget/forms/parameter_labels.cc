@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/parameter_labels.h"
+#include "diagnosis/loop_budget/forms/parameter_labels.h"
 
 #include <glog/logging.h>
 

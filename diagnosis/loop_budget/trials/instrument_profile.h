@@ -1,7 +1,7 @@
 // The profile of the evidence over the value of an instrument's parameter, which all operating
 // points share, all else of each point fitted anew at each value.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_INSTRUMENT_PROFILE_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_INSTRUMENT_PROFILE_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_INSTRUMENT_PROFILE_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_INSTRUMENT_PROFILE_H_
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/trials/loop_trial.h"
 #include "estimation/record_fit/point_fit.h"
 
 namespace howl {
@@ -75,4 +75,4 @@ class InstrumentProfile {
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_INSTRUMENT_PROFILE_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_INSTRUMENT_PROFILE_H_

@@ -5,8 +5,8 @@
 // was last tried than others do now is not tried again before these have been found not to pay
 // (Minoux 1978, of sums whose terms gain less the more there are). An item is refused only after a
 // trial beside all that has come in.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORWARD_STEP_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORWARD_STEP_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_FORWARD_STEP_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_FORWARD_STEP_H_
 
 #include <cstddef>
 #include <map>
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/trials/loop_trial.h"
 
 namespace howl {
 
@@ -53,4 +53,4 @@ class ForwardSearch {
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORWARD_STEP_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_FORWARD_STEP_H_

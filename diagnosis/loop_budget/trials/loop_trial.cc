@@ -1,10 +1,10 @@
-#include "diagnosis/loop_budget/loop_trial.h"
+#include "diagnosis/loop_budget/trials/loop_trial.h"
 
 #include <atomic>
 #include <numeric>
 #include <utility>
 
-#include "diagnosis/loop_budget/parameter_labels.h"
+#include "diagnosis/loop_budget/forms/parameter_labels.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/mode_maxima.h"
 

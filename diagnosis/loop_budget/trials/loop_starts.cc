@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_starts.h"
+#include "diagnosis/loop_budget/trials/loop_starts.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,9 +1,9 @@
-#include "diagnosis/loop_budget/loop_item.h"
+#include "diagnosis/loop_budget/forms/loop_item.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/loop_budget/loop_instrument.h"
+#include "diagnosis/loop_budget/forms/loop_instrument.h"
 
 namespace howl {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
 
 #include <glog/logging.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "diagnosis/loop_budget/instrument_profile.h"
+#include "diagnosis/loop_budget/trials/instrument_profile.h"
 #include "estimation/parallel.h"
 
 namespace howl {

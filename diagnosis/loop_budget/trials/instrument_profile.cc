@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/instrument_profile.h"
+#include "diagnosis/loop_budget/trials/instrument_profile.h"
 
 #include <algorithm>
 #include <cmath>

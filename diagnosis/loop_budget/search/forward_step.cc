@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/forward_step.h"
+#include "diagnosis/loop_budget/search/forward_step.h"
 
 #include <glog/logging.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
-#include "diagnosis/loop_budget/loop_instrument_trial.h"
-#include "diagnosis/loop_budget/odds.h"
+#include "diagnosis/loop_budget/forms/odds.h"
+#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
 #include "estimation/parallel.h"
 
 namespace howl {

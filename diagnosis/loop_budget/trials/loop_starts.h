@@ -1,11 +1,11 @@
 // Where fits of a loop with one item more, or one less, begin (loop_item.h).
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_STARTS_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_STARTS_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_STARTS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_STARTS_H_
 
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_item.h"
-#include "diagnosis/loop_budget/loop_records.h"
+#include "diagnosis/loop_budget/forms/loop_item.h"
+#include "diagnosis/loop_budget/forms/loop_records.h"
 
 namespace howl {
 
@@ -37,4 +37,4 @@ LoopStarts StartsWithout(const LoopRecords& records, const LoopFit& from, const 
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_STARTS_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_STARTS_H_

@@ -22,8 +22,8 @@
 //
 // Of the others each operating point has its own values, about a law that all of them tell
 // (parameter_law.h).
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_ITEM_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_ITEM_H_
 
 #include <cstdint>
 #include <string>
@@ -74,4 +74,4 @@ const std::vector<LoopItem>& AllLoopItems();
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_ITEM_H_

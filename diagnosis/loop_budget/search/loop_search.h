@@ -12,12 +12,12 @@
 //
 // The flames are driven by p without the noise that the loop which stands finds there
 // (pressure_noise.h): whatever is tried beside it is driven so too.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_SEARCH_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_SEARCH_H_
 
 #include <vector>
 
-#include "diagnosis/loop_budget/loop_exchange.h"
+#include "diagnosis/loop_budget/search/loop_exchange.h"
 
 namespace howl {
 
@@ -35,4 +35,4 @@ LoopFound SearchLoopBudget(LoopRecords records, const LoopForm& base,
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_SEARCH_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_SEARCH_H_

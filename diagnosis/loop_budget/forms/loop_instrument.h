@@ -4,8 +4,8 @@
 //
 // is what the loop is fitted to. The likelihood of what was recorded has the Jacobian of that,
 // which is what a bin counts for times -2 ln |H_q|.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_INSTRUMENT_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_INSTRUMENT_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_INSTRUMENT_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_INSTRUMENT_H_
 
 #include <vector>
 
@@ -31,4 +31,4 @@ double LogJacobian(const RecordSpectra& record, const std::vector<LoopInstrument
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_INSTRUMENT_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_INSTRUMENT_H_

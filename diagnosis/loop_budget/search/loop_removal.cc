@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_removal.h"
+#include "diagnosis/loop_budget/search/loop_removal.h"
 
 #include <glog/logging.h>
 
