@@ -28,6 +28,25 @@ TEST(PointFit, FindsTwoModesOfALimitCycle) {
   EXPECT_LT(found.parameters[2].std, 0.05);
 }
 
+// A fit that is only compared comes to within half a nat of the maximum that a fit goes on to.
+TEST(PointFit, IsComparedAtTheSameMaximum) {
+  const ModalLoop loop = DuctOfModes(2);
+  const RecordSpectra spectra =
+      MakeRecordSpectra(SimulateModalLoop(loop, 1.0, 3), CycleFrequency(loop, 150.0, 300.0),
+                        FlameInput::kPressureRate);
+  const PointStructure structure = FreeStructure(2);
+  const PointPrior prior = PriorOf(structure, spectra);
+  int converged = 0;
+  for (const Eigen::VectorXd& start : StartsOf(spectra, structure, prior, 6, 1)) {
+    const PointFit compared = FitPoint(spectra, structure, prior, start, kToCompare);
+    if (!compared.converged) continue;
+    ++converged;
+    const PointFit known = FitPoint(spectra, structure, prior, compared.parameters);
+    EXPECT_NEAR(compared.log_posterior, known.log_posterior, 0.5);
+  }
+  EXPECT_GE(converged, 10);
+}
+
 // Begun with a flame so steep that the loop grows at all frequencies, a fit ends at the loop that
 // others find, wherever between the points of its sums the return difference vanishes on its way.
 class SteepFlame : public testing::TestWithParam<std::uint64_t> {};
