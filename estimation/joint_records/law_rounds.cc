@@ -80,13 +80,16 @@ RecordsFit FitUnderLaw(const RecordsFitter& fitter, const std::vector<OperatingP
     RunUnits(points.size(), options.threads, [&](std::size_t e) {
       const RecordSpectra& record = points[e].record;
       PointPrior& prior = out.prior[e];
+      const PointPrior before = prior;
       PointFit& fit = out.points[e];
       prior = alone    ? fitter.PriorOfErrors(law)
               : search ? fitter.Prior(e, fitter.LawOfOthers(evidence, e).PredictionAt(out.z[e]))
                        : fitter.Prior(e, law.PriorAt(out.z[e]));
       const auto r = static_cast<std::size_t>(round);
-      fit = KeptFit(options.units, UnitKey(options, "round", r, e),
-                    [&] { return FitUnder(record, out.structure, prior, fit.parameters, false); });
+      fit = KeptFit(options.units, UnitKey(options, "round", r, e), [&] {
+        return search ? FitUnder(record, out.structure, prior, fit.parameters, false)
+                      : FitAgain(record, out.structure, before, prior, fit);
+      });
       if (!search) return;
       if (options.other_maxima) {
         PointFit other = KeptFit(options.units, UnitKey(options, "search", r, e), [&] {

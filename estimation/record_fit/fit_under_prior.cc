@@ -16,6 +16,16 @@ Eigen::VectorXd WithBestFlame(const RecordSpectra& record, const PointStructure&
   return ToParameters(structure, point);
 }
 
+PointFit FitAgain(const RecordSpectra& record, const PointStructure& structure,
+                  const PointPrior& before, const PointPrior& prior, const PointFit& fit) {
+  const Eigen::MatrixXd of_record = fit.InformationOfRecord(before);
+  PointFitOptions options;
+  options.of_record = &of_record;
+  PointFit out = FitPoint(record, structure, prior, prior.Within(fit.parameters), options);
+  if (std::isfinite(out.log_posterior)) return out;
+  return FitUnder(record, structure, prior, fit.parameters, false);
+}
+
 PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior) {
   PointFit best = FitPoint(record, structure, prior, prior.Within(at));

@@ -12,6 +12,10 @@ namespace howl {
 Eigen::VectorXd WithBestFlame(const RecordSpectra& record, const PointStructure& structure,
                               const Eigen::VectorXd& parameters);
 
+// What a fit becomes where its prior moves a little, from `before`.
+PointFit FitAgain(const RecordSpectra& record, const PointStructure& structure,
+                  const PointPrior& before, const PointPrior& prior, const PointFit& fit);
+
 PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior);
 

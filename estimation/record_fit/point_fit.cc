@@ -26,10 +26,11 @@ constexpr double kLongestStep = 3.0;
 // Of frequencies and the flame's path, in the same deviations: no rig has them farther out.
 constexpr double kFarthest = 10.0;
 constexpr int kMostCorrections = 12;
-constexpr int kMostShortened = 2;   // of a step, by at most
-constexpr double kShortest = 0.1;   // each time
-constexpr double kFromEdge = 1.02;  // of delays, and of their spread, that fits begin with
-constexpr int kMostHalvings = 20;   // of a start's flame
+constexpr double kItsOwnErrors = 1.0;  // the square of a way, over the covariance
+constexpr int kMostShortened = 2;      // of a step, by at most
+constexpr double kShortest = 0.1;      // each time
+constexpr double kFromEdge = 1.02;     // of delays, and of their spread, that fits begin with
+constexpr int kMostHalvings = 20;      // of a start's flame
 
 // With delays, and so weak a flame, that the loop is a possible one.
 Eigen::VectorXd Possible(const RecordSpectra& record, const PointStructure& structure,
@@ -68,6 +69,12 @@ Eigen::MatrixXd PointFit::Covariance() const {
                         Eigen::MatrixXd::Identity(information.rows(), information.cols()));
 }
 
+Eigen::MatrixXd PointFit::InformationOfRecord(const PointPrior& prior) const {
+  Eigen::MatrixXd out = information;
+  out.diagonal().array() -= prior.Precision(parameters).array() / prior.deviation.array().square();
+  return out;
+}
+
 double LogLikelihood(const RecordSpectra& record, const PointStructure& structure,
                      const Eigen::VectorXd& parameters) {
   return PointLikelihood(record, structure).Value(parameters);
@@ -90,7 +97,23 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
   double raise = 2.0;
   int corrections = 0;
   Source source = Source::kInformation;
-  PosteriorSlopes here = posterior.Expand(out.parameters);
+  PosteriorSlopes here;
+  if (options.of_record != nullptr) {
+    here = {posterior.Gradient(out.parameters),
+            posterior.WithPrior(*options.of_record, out.parameters)};
+    source = Source::kCurvature;
+  } else {
+    here = posterior.Expand(out.parameters);
+  }
+  const Eigen::VectorXd begun = out.parameters;
+  // Whether the curvature is known, but for what a fit's own errors change of it.
+  const auto curvature_known = [&] {
+    if (source != Source::kCorrected || options.of_record == nullptr) {
+      return source == Source::kCurvature;
+    }
+    const Eigen::VectorXd way = (out.parameters - begun).cwiseQuotient(prior.deviation);
+    return way.dot(here.information * way) < kItsOwnErrors;
+  };
   if (!std::isfinite(out.log_posterior) || !here.gradient.allFinite() ||
       !here.information.allFinite()) {
     return NothingTold(prior, std::move(out.parameters));
@@ -107,7 +130,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     };
     double foretold = gain_of(step);
     if (damping < 1.0 && foretold < options.converged) {
-      if (source == Source::kCurvature || !options.curvature) {
+      if (!options.curvature || curvature_known()) {
         out.converged = true;
         break;
       }
@@ -165,7 +188,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     raise = 2.0;
   }
   // Corrections show the curvature along the way alone.
-  if (source == Source::kCorrected && options.curvature) {
+  if (source == Source::kCorrected && options.curvature && !curvature_known()) {
     here.information = posterior.Curvature(out.parameters, here);
   }
   here.information = Positive(here.information);

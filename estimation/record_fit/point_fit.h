@@ -23,10 +23,13 @@ struct PointFitOptions {
   // Whether the curvature is learnt where the fit ends, as its evidence and its errors need: a
   // third of the work. Without, both are those of what the steps have shown.
   bool curvature = true;
+  // Of minus the log likelihood where the fit begins, as a fit under another prior has learnt it:
+  // it is learnt anew only where the fit goes farther than its own errors.
+  const Eigen::MatrixXd* of_record = nullptr;
 };
 
-// To within a nat or so of the maximum, which tells maxima apart.
-inline constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 1.0};
+// To well within a nat of the maximum, which tells maxima apart.
+inline constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 0.1};
 // The same for fits that are only compared. In the valleys that lead to a maximum steps that do not
 // know the curvature seem to gain less than they do: of 96 fits that ended where the next step
 // seemed to gain a nat 16 were ten nats and more below their maximum, of those that ended at a
@@ -53,6 +56,8 @@ struct PointFit {
   bool converged = false;
 
   Eigen::MatrixXd Covariance() const;
+  // The information without what this prior, under which the fit was, has in it.
+  Eigen::MatrixXd InformationOfRecord(const PointPrior& prior) const;
 };
 
 PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,

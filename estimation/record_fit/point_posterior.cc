@@ -34,14 +34,19 @@ Eigen::VectorXd PointPosterior::Gradient(const Eigen::VectorXd& parameters) {
   return prior_.deviation.cwiseProduct(out) + prior_.Slope(parameters);
 }
 
-Eigen::MatrixXd PointPosterior::Information(const Eigen::VectorXd& parameters) {
+Eigen::MatrixXd PointPosterior::WithPrior(const Eigen::MatrixXd& of_record,
+                                          const Eigen::VectorXd& parameters) const {
   const auto scale = prior_.deviation.asDiagonal();
-  Eigen::MatrixXd of_record = likelihood_.Information(parameters);
-  const Eigen::MatrixXd possible = InformationOfPossible(record_, structure_, PointAt(parameters));
-  of_record.topLeftCorner(possible.rows(), possible.cols()) += possible;
   Eigen::MatrixXd out = scale * of_record * scale;
   out.diagonal() += prior_.Precision(parameters);
   return out;
+}
+
+Eigen::MatrixXd PointPosterior::Information(const Eigen::VectorXd& parameters) {
+  Eigen::MatrixXd of_record = likelihood_.Information(parameters);
+  const Eigen::MatrixXd possible = InformationOfPossible(record_, structure_, PointAt(parameters));
+  of_record.topLeftCorner(possible.rows(), possible.cols()) += possible;
+  return WithPrior(of_record, parameters);
 }
 
 Eigen::MatrixXd PointPosterior::Curvature(const Eigen::VectorXd& parameters,

@@ -29,6 +29,9 @@ class PointPosterior {
   Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters);
   // That of whittle.h, and the prior's.
   Eigen::MatrixXd Information(const Eigen::VectorXd& parameters);
+  // The same from the record's share, in the parameters' own units.
+  Eigen::MatrixXd WithPrior(const Eigen::MatrixXd& of_record,
+                            const Eigen::VectorXd& parameters) const;
   PosteriorSlopes Expand(const Eigen::VectorXd& parameters) {
     return {Gradient(parameters), Information(parameters)};
   }

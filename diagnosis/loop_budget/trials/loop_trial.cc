@@ -11,9 +11,6 @@
 namespace howl {
 namespace {
 
-// So that the gains of ten operating points are told to within a nat.
-constexpr PointFitOptions kOfTrial{.iterations = 60, .converged = 0.1};
-
 // Of several rows of starts the one from which the middles of the records (middle_part.h) become
 // most likely, or of each point its own where they may begin apart.
 std::vector<Eigen::VectorXd> BestRow(const LoopRecords& records, const LoopFit& from,
@@ -106,7 +103,7 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     fits[i] = KeptFit(options.units, key_of(trial.item) + std::to_string(e), [&] {
       const RecordSpectra record = records.Whole(trial.model, e);
       const PointPrior prior = PriorOfTrial(records, from, trial.model, e, record);
-      PointFit fit = FitPoint(record, trial.model.structure, prior, trial.starts[0][e], kOfTrial);
+      PointFit fit = FitPoint(record, trial.model.structure, prior, trial.starts[0][e], kToTheMaximum);
       // Without hum a mode may have taken its line for a resonance, and would keep it.
       if (!IsHum(trial.item.noise.source)) return fit;
       return BestByModes(record, trial.model.structure, prior, std::move(fit));
