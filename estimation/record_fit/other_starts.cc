@@ -14,18 +14,17 @@ PointFit BestWith(const RecordSpectra& record, const PointStructure& structure,
   const auto begin = [&](const Eigen::VectorXd& start) {
     return BesideMiddle(record, structure, start);
   };
-  const auto on_middle = [&](const Eigen::VectorXd& start, const PointFitOptions& stage) {
-    return FitPoint(MiddleOf(record), structure, prior, begin(start), stage);
+  const auto on_middle = [&](const Eigen::VectorXd& start) {
+    return FitPoint(MiddleOf(record), structure, prior, begin(start), kToCompare);
   };
   PointFit best;
   best.log_posterior = -std::numeric_limits<double>::infinity();
   for (const Eigen::VectorXd& start : starts) {
-    PointFit begun = on_middle(start, kFirstSteps);
-    if (begun.log_posterior > best.log_posterior) best = std::move(begun);
+    PointFit there = on_middle(start);
+    if (there.log_posterior > best.log_posterior) best = std::move(there);
   }
   if (!std::isfinite(best.log_posterior)) return fit;
-  best = on_middle(best.parameters, kToCompare);
-  if (!(best.log_posterior > on_middle(fit.parameters, kToCompare).log_posterior)) return fit;
+  if (!(best.log_posterior > on_middle(fit.parameters).log_posterior)) return fit;
   PointFit other = FitPoint(record, structure, prior, begin(best.parameters), options);
   return other.log_posterior > fit.log_posterior ? other : fit;
 }

@@ -10,9 +10,9 @@
 
 namespace howl {
 
-// `fit`, or what is more likely of the fits from these starts. On the middle of the record
-// (middle_part.h) the one that is the most likely after a few steps is followed, and goes on to the
-// whole where it comes to what is more likely there than `fit` is.
+// `fit`, or what is more likely of the fits from these starts. All go to the maximum of the
+// record's middle (middle_part.h), and the most likely of them on to that of the whole where it is
+// more likely there than `fit` is.
 PointFit BestWith(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, PointFit fit, const std::vector<Eigen::VectorXd>& starts,
                   const PointFitOptions& options = {});

@@ -36,9 +36,6 @@ inline constexpr PointFitOptions kToTheMaximum{.iterations = 60, .converged = 0.
 // hundredth of one none but what used up its iterations (bench/fit_end_study.cc).
 inline constexpr PointFitOptions kToCompare{
     .iterations = 60, .converged = 0.01, .curvature = false};
-// After which starts are compared (delay_maxima.h has what they then tell).
-inline constexpr PointFitOptions kFirstSteps{
-    .iterations = 10, .converged = 0.01, .curvature = false};
 
 // Nats that the next step would gain, from which on a fit is near a maximum: steps then learn the
 // curvature, and starts are compared.

@@ -103,7 +103,8 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     fits[i] = KeptFit(options.units, key_of(trial.item) + std::to_string(e), [&] {
       const RecordSpectra record = records.Whole(trial.model, e);
       const PointPrior prior = PriorOfTrial(records, from, trial.model, e, record);
-      PointFit fit = FitPoint(record, trial.model.structure, prior, trial.starts[0][e], kToTheMaximum);
+      PointFit fit =
+          FitPoint(record, trial.model.structure, prior, trial.starts[0][e], kToTheMaximum);
       // Without hum a mode may have taken its line for a resonance, and would keep it.
       if (!IsHum(trial.item.noise.source)) return fit;
       return BestByModes(record, trial.model.structure, prior, std::move(fit));
