@@ -71,6 +71,17 @@ std::string WaterfallText(const Budget& budget) {
   return table.Text();
 }
 
+// Both halves of each record are foretold by fits of the other one.
+std::string DoubtfulText(const Budget& budget) {
+  std::string names;
+  for (const BudgetEntry& entry : budget.entries) {
+    if (std::ranges::min(entry.lost_on_halves) > 0.0) continue;
+    names += (names.empty() ? "" : ", ") + entry.item;
+  }
+  if (names.empty()) return "";
+  return "doubtful, as one half of the records is foretold no better with it: " + names + "\n";
+}
+
 }  // namespace
 
 std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
@@ -89,7 +100,7 @@ std::string BudgetText(const Budget& budget) {
                         ? "gap, left out: " + Fixed(budget.gap_left, 3) + "\n"
                         : "budget, left out: several causes take the gap from " +
                               Fixed(budget.gap_before, 3) + " to " + Fixed(budget.gap_left, 3) +
-                              "\n" + WaterfallText(budget);
+                              "\n" + WaterfallText(budget) + DoubtfulText(budget);
   for (const Place& place : budget.left) {
     const bool acoustics = place.block == LoopBlock::kAcoustics;
     out += "left: " + std::string(acoustics ? "p from q, " : "q from p, ") +

@@ -1,0 +1,33 @@
+// A budget as the terminal shows it.
+#include "app/text/budget_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace howl {
+namespace {
+
+BudgetEntry Entry(const char* item, double first_half, double second_half) {
+  BudgetEntry out;
+  out.item = item;
+  out.gap_before = 0.8;
+  out.gap_after = 0.5;
+  out.lost_on_halves = {first_half, second_half};
+  return out;
+}
+
+TEST(BudgetText, NamesWhatOneHalfDoesNotBearOut) {
+  Budget budget;
+  budget.gap_before = 0.8;
+  budget.gap_left = 0.5;
+  budget.entries = {Entry("duct_noise", 50.0, 54.0), Entry("crosstalk_p_to_q", -25.0, 17.0),
+                    Entry("mains_hum", 2.0, -2.0)};
+  EXPECT_THAT(BudgetText(budget),
+              testing::HasSubstr("doubtful, as one half of the records is foretold no better with "
+                                 "it: crosstalk_p_to_q, mains_hum\n"));
+  budget.entries.resize(1);
+  EXPECT_THAT(BudgetText(budget), testing::Not(testing::HasSubstr("doubtful")));
+}
+
+}  // namespace
+}  // namespace howl
