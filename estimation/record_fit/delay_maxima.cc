@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "estimation/record_fit/other_starts.h"
 #include "estimation/record_fit/point_posterior.h"
 #include "estimation/record_fit/spectra/middle_part.h"
 #include "estimation/record_fit/starts/path_starts.h"
@@ -15,7 +16,6 @@ namespace {
 constexpr std::size_t kDelays = 8;
 constexpr double kSame = 0.25;  // radians of the cycle: a quarter of a period at the band's end
 constexpr int kMostScans = 3;
-constexpr double kGain = 1.0;  // nats, from which on a scan is worth another
 constexpr std::size_t kMostFollowed = 2;
 
 // The maxima of different delays, that of `parameters` with them, the most likely first. Each delay
@@ -63,7 +63,7 @@ PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structur
                      const PointPrior& prior, PointFit fit) {
   for (int scan = 0; scan < kMostScans; ++scan) {
     const PointFit next = FitsByDelay(record, structure, prior, fit.parameters, kMostFollowed)[0];
-    if (next.log_posterior - fit.log_posterior < kGain) break;
+    if (next.log_posterior - fit.log_posterior < kWorthAnother) break;
     fit = FitPoint(record, structure, prior, next.parameters, kToTheMaximum);
   }
   return fit;

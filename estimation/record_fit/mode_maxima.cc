@@ -11,7 +11,6 @@ namespace howl {
 namespace {
 
 constexpr int kMostScans = 4;
-constexpr double kGain = 1.0;  // nats, from which on a scan is worth another
 
 // Parameters with one of the modes elsewhere.
 std::vector<Eigen::VectorXd> Elsewhere(const RecordSpectra& record, const PointStructure& structure,
@@ -44,7 +43,7 @@ PointFit BestByModes(const RecordSpectra& record, const PointStructure& structur
     const std::vector<Eigen::VectorXd> elsewhere =
         Elsewhere(record, structure, prior, starts, fit.parameters);
     fit = BestWith(record, structure, prior, std::move(fit), elsewhere, kToTheMaximum);
-    if (fit.log_posterior - before < kGain) break;
+    if (fit.log_posterior - before < kWorthAnother) break;
   }
   return fit;
 }

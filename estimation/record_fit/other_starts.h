@@ -10,6 +10,9 @@
 
 namespace howl {
 
+// Nats that a search must have found to be worth another from there.
+inline constexpr double kWorthAnother = 1.0;
+
 // `fit`, or what is more likely of the fits from these starts. All go to the maximum of the
 // record's middle (middle_part.h), and the most likely of them on to that of the whole where it is
 // more likely there than `fit` is.
