@@ -73,13 +73,13 @@ std::string WaterfallText(const Budget& budget) {
 
 // Both halves of each record are foretold by fits of the other one.
 std::string DoubtfulText(const Budget& budget) {
-  std::string names;
+  std::vector<std::string> items;
   for (const BudgetEntry& entry : budget.entries) {
-    if (std::ranges::min(entry.lost_on_halves) > 0.0) continue;
-    names += (names.empty() ? "" : ", ") + entry.item;
+    if (!(std::ranges::min(entry.lost_on_halves) > 0.0)) items.push_back(entry.item);
   }
-  if (names.empty()) return "";
-  return "doubtful, as one half of the records is foretold no better with it: " + names + "\n";
+  if (items.empty()) return "";
+  return "doubtful, as one half of the records is foretold no better with it: " +
+         CommaSeparated(items) + "\n";
 }
 
 }  // namespace

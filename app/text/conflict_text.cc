@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t kShownData = 12;
 
-std::string Joined(const std::vector<std::string>& names) {
-  std::string joined;
-  for (const std::string& name : names) joined += (joined.empty() ? "" : ", ") + name;
-  return joined;
-}
-
 void PrintSets(const Conflict& conflict) {
   std::printf("the family is empty%s\n",
               conflict.proved ? " (proved)" : " as far as the search went; this is not a proof");
@@ -30,7 +24,7 @@ void PrintSets(const Conflict& conflict) {
     if (names.empty()) names = {"the bounds of the parameters and the data themselves"};
     std::printf("  exclude each other%s: %s\n",
                 conflict.sets_proved[k] ? "" : ", as far as the search went",
-                Joined(names).c_str());
+                CommaSeparated(names).c_str());
   }
 }
 
@@ -77,9 +71,10 @@ void PrintHelpless(const FamilyProblem& problem, const Conflict& conflict) {
     list.insert(list.end(), own.begin(), own.end());
   }
   if (!names.empty()) {
-    std::printf("no change of one of these alone gives a member:\n  %s\n", Joined(names).c_str());
+    std::printf("no change of one of these alone gives a member:\n  %s\n",
+                CommaSeparated(names).c_str());
   }
-  if (!untried.empty()) std::printf("not tried: %s\n", Joined(untried).c_str());
+  if (!untried.empty()) std::printf("not tried: %s\n", CommaSeparated(untried).c_str());
 }
 
 }  // namespace

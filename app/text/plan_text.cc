@@ -11,12 +11,6 @@ namespace {
 
 constexpr double kWorthSaying = 0.5;  // nats: odds of 1.4 on a plan's temperature
 
-std::string Listed(const std::vector<std::string>& names, const char* between) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : between) + name;
-  return text;
-}
-
 std::string Value(const PlannedEffect& effect, double value) {
   if (!std::isfinite(value)) return "-";
   const std::string unit = effect.unit.empty() ? "" : " " + effect.unit;
@@ -57,9 +51,9 @@ std::string NotToldFrom(const Plan& plan, const PlannedEffect& effect) {
     if (!one_class) names.push_back(rival.effect);
   }
   if (names.empty()) return "";
-  return Wrapped(
-             effect.effect + " at twice its smallest size is not told from " + Listed(names, ", "),
-             2) +
+  return Wrapped(effect.effect + " at twice its smallest size is not told from " +
+                     CommaSeparated(names),
+                 2) +
          "\n";
 }
 
@@ -90,7 +84,7 @@ std::string PlanText(const Plan& plan, const std::string& records) {
   text += table.Text();
   for (const PlannedEffect& effect : plan.effects) text += NotToldFrom(plan, effect);
   for (const std::vector<std::string>& members : plan.classes) {
-    text += Wrapped("one class at twice the smallest size: " + Listed(members, ", "), 2) + "\n";
+    text += Wrapped("one class at twice the smallest size: " + CommaSeparated(members), 2) + "\n";
   }
   if (plan.pairs.empty()) return text + "next: the records tell apart whatever they show\n";
   for (const PlannedPair& pair : plan.pairs) text += "next: " + PairText(pair) + "\n";

@@ -71,6 +71,12 @@ std::string Wrapped(const std::string& text, std::size_t indent) {
   return out;
 }
 
+std::string CommaSeparated(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 std::string Bold(const std::string& text) {
   static const bool shown = isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
   return shown ? "\033[1m" + text + "\033[0m" : text;

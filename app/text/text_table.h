@@ -37,6 +37,8 @@ std::string Fixed(double value, int decimals);
 std::size_t DisplayWidth(const std::string& text);
 // Broken between words into lines of at most kTerminalColumns, each but the first indented.
 std::string Wrapped(const std::string& text, std::size_t indent);
+// "a, b, c"
+std::string CommaSeparated(const std::vector<std::string>& names);
 // Emphasis, where standard output is a terminal and NO_COLOR is not set.
 std::string Bold(const std::string& text);
 
