@@ -47,7 +47,8 @@ class RecordsFitter {
   std::vector<PointFit> Alone(const RecordsFitOptions& options) const;
   StartRows FromOneAnother(const std::vector<PointFit>& alone) const;
   StartRows FromPoorer(const RecordsFit& poorer) const;
-  // Of the row from which all points together become most likely, the fits.
+  // Of the row from which all points together become most likely, by the records' middles where
+  // there is a choice (middle_part.h), the fits.
   std::vector<PointFit> Best(const StartRows& starts, const RecordsFitOptions& options) const;
   ParameterLaw Law(const std::vector<ParameterEvidence>& evidence) const {
     return FitParameterLaw(evidence, common_base_, units_[0].errors());
@@ -62,9 +63,6 @@ class RecordsFitter {
  private:
   // The base prior of each point, in common units, at its mean over the points.
   PointPrior MeanBase() const;
-  // The row from which the middles of the records become most likely, where it leads.
-  std::vector<Eigen::VectorXd> BestRow(const StartRows& starts,
-                                       const RecordsFitOptions& options) const;
   Eigen::VectorXd StartFrom(std::size_t e, const Eigen::VectorXd& common) const;
   // The points that give candidates, evenly.
   std::vector<std::size_t> Drawn() const;

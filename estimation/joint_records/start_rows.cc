@@ -1,10 +1,10 @@
 // The rows of starts of which a fit of several points takes the best (records_fitter.h).
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "estimation/joint_records/best_row.h"
 #include "estimation/joint_records/records_fitter.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
@@ -79,37 +79,20 @@ StartRows RecordsFitter::FromPoorer(const RecordsFit& poorer) const {
   return out;
 }
 
-std::vector<Eigen::VectorXd> RecordsFitter::BestRow(const StartRows& starts,
-                                                    const RecordsFitOptions& options) const {
-  std::vector<std::vector<PointFit>> all(starts.size(), std::vector<PointFit>(size()));
-  RunUnits(starts.size() * size(), threads_, [&](std::size_t i) {
-    const std::size_t c = i / size();
-    const std::size_t e = i % size();
-    all[c][e] = KeptFit(options.units, UnitKey(options, "candidate", c, e), [&] {
-      PointFitOptions compared = kToCompare;
-      compared.iterations = kIterationsOfCandidate;
-      return FitPoint(MiddleOf(points_[e].record), structure_, base_[e], starts[c][e], compared);
-    });
-  });
-  std::size_t best = 0;
-  double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < starts.size(); ++c) {
-    double sum = 0.0;
-    for (const PointFit& fit : all[c]) sum += fit.log_posterior;
-    if (sum > most) best = c;
-    most = std::max(sum, most);
-  }
-  std::vector<Eigen::VectorXd> out;
-  for (std::size_t e = 0; e < size(); ++e) {
-    out.push_back(BesideMiddle(points_[e].record, structure_, all[best][e].parameters));
-  }
-  return out;
-}
-
 std::vector<PointFit> RecordsFitter::Best(const StartRows& starts,
                                           const RecordsFitOptions& options) const {
+  PointFitOptions compared = kToCompare;
+  compared.iterations = kIterationsOfCandidate;
+  const auto on_middle = [&](std::size_t c, std::size_t e) {
+    const RecordSpectra& record = points_[e].record;
+    PointFit fit = KeptFit(options.units, UnitKey(options, "candidate", c, e), [&] {
+      return FitPoint(MiddleOf(record), structure_, base_[e], starts[c][e], compared);
+    });
+    fit.parameters = BesideMiddle(record, structure_, std::move(fit.parameters));
+    return fit;
+  };
   const std::vector<Eigen::VectorXd> row =
-      starts.size() == 1 ? starts[0] : BestRow(starts, options);
+      starts.size() == 1 ? starts[0] : BestRow({starts.size(), size()}, threads_, on_middle);
   PointFitOptions rough;
   rough.iterations = kIterationsOfCandidate;
   std::vector<PointFit> out(size());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 
 #include "estimation/record_fit/other_starts.h"
 #include "estimation/record_fit/point_posterior.h"

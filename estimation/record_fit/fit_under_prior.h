@@ -1,6 +1,4 @@
-// A fit of one operating point under a prior that other points tell: begun where the point stands
-// and, if asked, at what the prior expects too, of all or of the flame's path alone, with the flame
-// that then leaves least of q. The most likely of these.
+// Fits of one operating point under a prior that other points tell.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_FIT_UNDER_PRIOR_H_
 #define HOWL_ESTIMATION_RECORD_FIT_FIT_UNDER_PRIOR_H_
 
@@ -16,6 +14,9 @@ Eigen::VectorXd WithBestFlame(const RecordSpectra& record, const PointStructure&
 PointFit FitAgain(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& before, const PointPrior& prior, const PointFit& fit);
 
+// Begun `at` these parameters and, if asked or if nothing comes of that, where the prior expects
+// the point too: all of it, its acoustics alone, or the flame's path alone, with the flame that
+// then leaves least of q. The most likely of these.
 PointFit FitUnder(const RecordSpectra& record, const PointStructure& structure,
                   const PointPrior& prior, const Eigen::VectorXd& at, bool from_prior);
 

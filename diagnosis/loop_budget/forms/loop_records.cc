@@ -6,7 +6,6 @@
 
 #include "diagnosis/cuts/make_cut_records.h"
 #include "estimation/parallel.h"
-#include "estimation/record_fit/spectra/middle_part.h"
 
 namespace howl {
 namespace {
@@ -58,30 +57,25 @@ void LoopRecords::DriveWithout(const std::vector<Eigen::VectorXd>& noise, int th
 }
 
 std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
-  std::vector<OperatingPoint> out = With(form.flame_input).points;
+  std::vector<OperatingPoint> out = Of(form.flame_input).points;
   for (OperatingPoint& point : out) point.record = Without(form, std::move(point.record));
   return out;
 }
 
 RecordSpectra LoopRecords::Whole(const LoopForm& form, std::size_t e) const {
-  return Without(form, With(form.flame_input).points[e].record);
-}
-
-RecordSpectra LoopRecords::Of(const LoopForm& form, std::size_t e, RecordExtent extent) const {
-  RecordSpectra whole = Whole(form, e);
-  return extent == RecordExtent::kMiddle ? MiddleOf(whole) : whole;
+  return Without(form, Of(form.flame_input).points[e].record);
 }
 
 RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t half) const {
-  return Without(form, With(form.flame_input).halves[e][half]);
+  return Without(form, Of(form.flame_input).halves[e][half]);
 }
 
 double LoopRecords::LogJacobianOfWhole(const LoopForm& form, std::size_t e) const {
-  return LogJacobian(With(form.flame_input).points[e].record, form.instruments);
+  return LogJacobian(Of(form.flame_input).points[e].record, form.instruments);
 }
 
 double LoopRecords::LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const {
-  return LogJacobian(With(form.flame_input).halves[e][half], form.instruments);
+  return LogJacobian(Of(form.flame_input).halves[e][half], form.instruments);
 }
 
 }  // namespace howl

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,9 +21,6 @@ struct LoopRecord {
   Record record;
 };
 
-// What of a record is fitted: the whole, or what is enough to compare starts (middle_part.h).
-enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
-
 class LoopRecords {
  public:
   LoopRecords() = default;
@@ -36,10 +32,9 @@ class LoopRecords {
   // As `form` has them, without its instruments.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
-  RecordSpectra Of(const LoopForm& form, std::size_t e, RecordExtent extent) const;
   // How many coefficients the flame has.
   Eigen::Index FlameTerms(FlameInput input, std::size_t e) const {
-    return With(input).points[e].record.flame.cols();
+    return Of(input).points[e].record.flame.cols();
   }
   // In the units of the whole.
   RecordSpectra Half(const LoopForm& form, std::size_t e, std::size_t half) const;
@@ -55,7 +50,7 @@ class LoopRecords {
     std::vector<OperatingPoint> points;
     std::vector<std::array<RecordSpectra, 2>> halves;
   };
-  const Spectra& With(FlameInput input) const { return spectra_[static_cast<std::size_t>(input)]; }
+  const Spectra& Of(FlameInput input) const { return spectra_[static_cast<std::size_t>(input)]; }
 
   std::vector<std::string> names_;
   std::vector<double> cycle_hz_;

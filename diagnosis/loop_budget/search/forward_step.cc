@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -17,13 +16,6 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kMostFitted = 2;  // of a step's trials: those that gain most
-
-// What comes only where nothing of an earlier one pays.
-enum class Stage : std::uint8_t { kCauses, kLineErrors };
-
-Stage StageOf(const LoopItem& item) {
-  return item.kind == LoopItemKind::kLineErrors ? Stage::kLineErrors : Stage::kCauses;
-}
 
 struct Fitted {
   std::size_t trial = 0;
@@ -127,10 +119,11 @@ std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
   std::vector<LoopTrial> trials;
   std::vector<std::string> fitted;
   std::size_t offered = 0;
-  for (const Stage stage : {Stage::kCauses, Stage::kLineErrors}) {
+  // Errors at the cycle's lines come only where nothing else pays.
+  for (const bool lines : {false, true}) {
     std::vector<LoopItem> waiting;
     std::ranges::copy_if(items, std::back_inserter(waiting),
-                         [&](const LoopItem& item) { return StageOf(item) == stage; });
+                         [&](const LoopItem& item) { return (item.lines != nullptr) == lines; });
     offered += waiting.size();
     std::ranges::stable_sort(waiting, std::ranges::greater(),
                              [&](const LoopItem& item) { return LastGain(item); });

@@ -6,6 +6,7 @@
 
 #include "estimation/parallel.h"
 #include "estimation/record_fit/point_posterior.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
@@ -55,7 +56,8 @@ InstrumentPoint InstrumentProfile::At(double u, const std::vector<Eigen::VectorX
   InstrumentPoint out{u, 0.0, 0.0, std::vector<PointFit>(records_.size())};
   std::vector<double> jacobians(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
-    const RecordSpectra record = records_.Of(form, e, extent);
+    const RecordSpectra whole = records_.Whole(form, e);
+    const RecordSpectra& record = extent == RecordExtent::kMiddle ? MiddleOf(whole) : whole;
     jacobians[e] = LogJacobian(record, form.instruments);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
       return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ namespace howl {
 double ToSearch(const EffectParameter& parameter, double value);
 double FromSearch(const EffectParameter& parameter, double u);
 double SearchSpan(const EffectParameter& parameter);
+
+// What of a record is fitted: the whole, or what is enough to compare starts (middle_part.h).
+enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
 
 // What a value is worth, and each point's fit there.
 struct InstrumentPoint {

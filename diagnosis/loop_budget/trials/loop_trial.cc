@@ -5,52 +5,33 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/forms/parameter_labels.h"
+#include "estimation/joint_records/best_row.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/mode_maxima.h"
+#include "estimation/record_fit/spectra/middle_part.h"
 
 namespace howl {
 namespace {
 
-// Of several rows of starts the one from which the middles of the records (middle_part.h) become
-// most likely, or of each point its own where they may begin apart.
-std::vector<Eigen::VectorXd> BestRow(const LoopRecords& records, const LoopFit& from,
-                                     const LoopForm& with, const LoopStarts& starts,
-                                     const std::string& key, const LoopBudgetOptions& options) {
-  const std::size_t rows = starts.rows.size();
-  const std::size_t points = records.size();
-  std::vector<PointFit> fits(rows * points);
-  RunUnits(fits.size(), options.threads, [&](std::size_t i) {
-    const std::size_t row = i / points;
-    const std::size_t e = i % points;
+// Where the trial of an item begins: of several rows of starts in the best by the middles of the
+// records (middle_part.h).
+std::vector<Eigen::VectorXd> StartOf(const LoopRecords& records, const LoopFit& from,
+                                     const LoopForm& with, const std::string& key,
+                                     const LoopBudgetOptions& options) {
+  const LoopStarts starts = StartsWith(records, from, with, options.threads);
+  if (starts.rows.size() == 1) return starts.rows[0];
+  const auto on_middle = [&](std::size_t row, std::size_t e) {
+    const RecordSpectra whole = records.Whole(with, e);
+    const RecordSpectra& record = MiddleOf(whole);
     const std::string of = key + "middle/" + std::to_string(row) + "/" + std::to_string(e);
-    fits[i] = KeptFit(options.units, of, [&] {
-      const RecordSpectra record = records.Of(with, e, RecordExtent::kMiddle);
+    PointFit fit = KeptFit(options.units, of, [&] {
       return FitPoint(record, with.structure, PriorOfTrial(records, from, with, e, record),
                       starts.rows[row][e], kToCompare);
     });
-  });
-  const auto likely = [&](std::size_t row, std::size_t e) {
-    return fits[row * points + e].log_posterior;
+    fit.parameters = BesideMiddle(whole, with.structure, std::move(fit.parameters));
+    return fit;
   };
-  const auto sum = [&](std::size_t row) {
-    double nats = 0.0;
-    for (std::size_t e = 0; e < points; ++e) nats += likely(row, e);
-    return nats;
-  };
-  std::size_t best = 0;
-  for (std::size_t row = 1; row < rows; ++row) {
-    if (sum(row) > sum(best)) best = row;
-  }
-  std::vector<Eigen::VectorXd> out;
-  for (std::size_t e = 0; e < points; ++e) {
-    std::size_t of = best;
-    for (std::size_t row = 0; starts.apart && row < rows; ++row) {
-      if (likely(row, e) > likely(of, e)) of = row;
-    }
-    out.push_back(
-        BesideMiddle(records.Whole(with, e), with.structure, fits[of * points + e].parameters));
-  }
-  return out;
+  return BestRow({starts.rows.size(), records.size(), starts.apart}, options.threads, on_middle);
 }
 
 }  // namespace
@@ -90,10 +71,7 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
   const auto key_of = [&](const LoopItem& item) { return key + "trial/" + KeyOf(item) + "/"; };
   for (const LoopItem& item : items) {
     LoopTrial& trial = out.emplace_back(LoopTrial{item, With(from.model, item), -standing, {}});
-    const LoopStarts starts = StartsWith(records, from, trial.model, options.threads);
-    trial.starts = {starts.rows.size() == 1
-                        ? starts.rows[0]
-                        : BestRow(records, from, trial.model, starts, key_of(item), options)};
+    trial.starts = {StartOf(records, from, trial.model, key_of(item), options)};
   }
   std::vector<PointFit> fits(items.size() * records.size());
   std::atomic<std::size_t> done = 0;

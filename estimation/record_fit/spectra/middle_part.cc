@@ -34,8 +34,7 @@ class Middle {
   Eigen::Index bins() const { return edges_ - 1; }
   double bin_hz(const RecordSpectra& record) const { return record.bin_hz * bins_of_part_; }
 
-  template <typename Spectrum>
-  Eigen::VectorXcd Of(const Spectrum& edges) const {
+  Eigen::VectorXcd Of(const Eigen::Ref<const Eigen::VectorXcd>& edges) const {
     Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(whole_ / 2 + 1);
     spectrum.segment(first_whole_, edges.size()) = edges;
     const Eigen::VectorXd signal = UnitarySignal(std::move(spectrum), whole_);

@@ -4,9 +4,8 @@
 // good starts from poor ones.
 //
 // It is cut in time from the signals of the band alone, which p, q and the flame's functions are
-// linear in, so that instruments that were taken out, and noise, are out of it too. Only where the
-// band ends, and at the record's ends, would it differ from what a shorter record had shown, and
-// those it leaves out.
+// linear in, so that noise that they are without is out of it too. Where the band ends, and at the
+// record's ends, it would differ from what a shorter record had shown: those it leaves out.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_SPECTRA_MIDDLE_PART_H_
 #define HOWL_ESTIMATION_RECORD_FIT_SPECTRA_MIDDLE_PART_H_
 
