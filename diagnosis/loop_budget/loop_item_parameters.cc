@@ -128,8 +128,7 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
       });
       break;
     case LoopItemKind::kInstrument:
-      out.push_back(EstimateInstrument(records, fit, item, "best/", options));
-      break;
+      return EstimateInstrument(records, fit, item, "best/", options);
   }
   return out;
 }

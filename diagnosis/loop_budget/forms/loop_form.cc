@@ -22,6 +22,11 @@ const NoiseTerm* TermOf(const LoopForm& model, LoopNoise source) {
   return at == model.structure.noise.end() ? nullptr : &*at;
 }
 
+bool HasShared(const LoopForm& model, const std::string& id) {
+  return std::ranges::any_of(model.instruments,
+                             [&](const LoopInstrument& each) { return each.effect->id() == id; });
+}
+
 bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& base) {
   const PointStructure& now = model.structure;
   switch (item.kind) {
@@ -43,13 +48,11 @@ bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& bas
     case LoopItemKind::kDelaySpread:
       return now.delay_spread == DelaySpread::kNone;
     case LoopItemKind::kSecondPath:
-      return !now.second_path;
+      return !now.second_path && !HasShared(model, item.id);
     case LoopItemKind::kFlameInput:
       return model.flame_input == base.flame_input && item.input != base.flame_input;
     case LoopItemKind::kInstrument:
-      return std::ranges::none_of(model.instruments, [&](const LoopInstrument& each) {
-        return each.effect->id() == item.instrument->id();
-      });
+      return !HasShared(model, item.id) && !(now.second_path && item.id == kSecondPathId);
     case LoopItemKind::kLineErrors:
       return now.*item.lines == 0;
   }
@@ -124,7 +127,7 @@ LoopForm With(LoopForm model, const LoopItem& item) {
       model.flame_input = item.input;
       break;
     case LoopItemKind::kInstrument:
-      model.instruments.push_back({item.instrument, item.instrument->parameters()[0].null_value});
+      model.instruments.push_back({item.instrument, NullValues(*item.instrument)});
       break;
     case LoopItemKind::kLineErrors:
       structure.*item.lines = kCycleLines;

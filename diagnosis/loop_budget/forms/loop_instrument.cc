@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <memory>
-#include <span>
+#include <utility>
 
 #include "model/effects/catalogue.h"
 
@@ -11,23 +11,42 @@ namespace howl {
 namespace {
 
 std::complex<double> ResponseOf(const LoopInstrument& instrument, double frequency_hz) {
-  return instrument.effect->HeatReleaseInstrument(frequency_hz, std::span(&instrument.value, 1));
+  return instrument.effect->HeatReleaseInstrument(frequency_hz, instrument.values);
 }
 
 // In units of the record: a leak is relative to the record's own q over p.
 std::complex<double> LeakOf(const LoopInstrument& instrument, double frequency_hz) {
   EffectContext at;
   at.heat_release_over_pressure = at.own_heat_release_over_pressure = 1.0;
-  return instrument.effect->PressureLeak(frequency_hz, at, std::span(&instrument.value, 1));
+  return instrument.effect->PressureLeak(frequency_hz, at, instrument.values);
 }
 
 bool IsAtNull(const LoopInstrument& instrument) {
-  return instrument.value == instrument.effect->parameters()[0].null_value;
+  return instrument.values[0] == instrument.effect->parameters()[0].null_value;
+}
+
+// What it turns the cycle by, all but the cycle is turned back by: the loop's delay is that of the
+// cycle then, which records tell best, with the filter as without it.
+FlameFilters FiltersOf(const LoopInstrument& filter, double cycle_hz) {
+  const auto at = [filter, cycle_hz](auto response) {
+    const auto plain = [filter, cycle_hz, response](std::complex<double> s) {
+      return ((*filter.effect).*response)(s.imag() * cycle_hz, {}, filter.values);
+    };
+    const double turn = std::arg(plain({0.0, 1.0}));
+    return [plain, turn](std::complex<double> s) { return plain(s) * std::exp(-turn * s); };
+  };
+  return filter.effect->ChangesFlameInput() ? FlameFilters{at(&Effect::FlameIn), nullptr}
+                                            : FlameFilters{nullptr, at(&Effect::FlameOut)};
 }
 
 }  // namespace
 
-std::vector<EffectPointer> InstrumentsOfHeatRelease() {
+bool IsFlameFilter(const Effect& effect) {
+  return effect.id() == "flame_lowpass" ||
+         (effect.id() == "second_delay_path" && effect.ChangesFlameInput());
+}
+
+std::vector<EffectPointer> SharedEffects() {
   std::vector<EffectPointer> out;
   for (const EffectPointer& effect : Catalogue()) {
     const bool of_q = effect->kind() == EffectKind::kTransfer &&
@@ -35,12 +54,17 @@ std::vector<EffectPointer> InstrumentsOfHeatRelease() {
     // Relative to the mean of all points a leak is the same thing in other units.
     const bool again = effect->form().key == "range" && effect->form().value != "own";
     if (of_q && effect->parameters().size() == 1 && !again) out.push_back(effect);
+    if (IsFlameFilter(*effect)) out.push_back(effect);
   }
   return out;
 }
 
 RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& instrument) {
   if (IsAtNull(instrument)) return record;
+  if (IsFlameFilter(*instrument.effect)) {
+    const FlameFilters filters = FiltersOf(instrument, record.scale.cycle_hz);
+    return WithFilters(std::move(record), filters);
+  }
   for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
     const double hz = record.edge_s[i].imag() * record.scale.cycle_hz;
     record.heat_release[i] =
@@ -60,7 +84,7 @@ RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& inst
 }
 
 double LogJacobian(const RecordSpectra& record, const LoopInstrument& instrument) {
-  if (IsAtNull(instrument)) return 0.0;
+  if (IsAtNull(instrument) || IsFlameFilter(*instrument.effect)) return 0.0;
   double sum = 0.0;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const double hz = record.s[i].imag() * record.scale.cycle_hz;

@@ -1,12 +1,14 @@
-// Instruments of q between the loop and its record, as effects of the catalogue have them:
+// Effects of the catalogue whose parameters all operating points share: of the instrument of q,
 //
 //   Q_recorded = H_q Q + leak P_recorded,     so that Q = (Q_recorded - leak P_recorded) / H_q
 //
-// is what the loop is fitted to. The likelihood of what was recorded has the Jacobian of that,
-// which is what a bin counts for times -2 ln |H_q|.
+// is what the loop is fitted to, and filters before and behind the flame's curve, which the record
+// is made ready with (record_spectra.h). The likelihood of what was recorded has the Jacobian of
+// the division, which is what a bin counts for times -2 ln |H_q|.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_INSTRUMENT_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_INSTRUMENT_H_
 
+#include <string>
 #include <vector>
 
 #include "estimation/record_fit/spectra/record_spectra.h"
@@ -16,13 +18,17 @@ namespace howl {
 
 struct LoopInstrument {
   EffectPointer effect;
-  double value = 0.0;  // of its parameter
+  std::vector<double> values;  // of its parameters
 };
 
-// Those of the catalogue, with one parameter, in all their forms.
-std::vector<EffectPointer> InstrumentsOfHeatRelease();
+// Of a flame. A second path behind the curve is none: it is the loop's own, with other values at
+// each operating point (loop_point.h).
+bool IsFlameFilter(const Effect& effect);
 
-// The record as it would be without the instrument.
+// Those of q's instrument, with one parameter, and the flame's filters, in all their forms.
+std::vector<EffectPointer> SharedEffects();
+
+// The record as it would be without an instrument, or with the flame's filter.
 RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& instrument);
 
 // ln of the Jacobian, of one and of several.

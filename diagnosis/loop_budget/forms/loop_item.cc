@@ -27,7 +27,7 @@ std::vector<LoopItem> MakeItems() {
       {"acoustic_mode", LoopItemKind::kMode},
       {"delay_dispersion", LoopItemKind::kDelaySpread, {}, DelaySpread::kNormal},
       {"gamma_delays", LoopItemKind::kDelaySpread, {}, DelaySpread::kGamma},
-      {"second_delay_path", LoopItemKind::kSecondPath},
+      {std::string(kSecondPathId), LoopItemKind::kSecondPath},
       {"flame_input_pressure_rate",
        LoopItemKind::kFlameInput,
        {},
@@ -49,7 +49,7 @@ std::vector<LoopItem> MakeItems() {
   out.push_back({.id = "flame_line_errors",
                  .kind = LoopItemKind::kLineErrors,
                  .lines = &PointStructure::flame_lines});
-  for (const EffectPointer& effect : InstrumentsOfHeatRelease()) {
+  for (const EffectPointer& effect : SharedEffects()) {
     out.push_back(
         {.id = std::string(effect->id()), .kind = LoopItemKind::kInstrument, .instrument = effect});
   }

@@ -14,8 +14,9 @@
 //   gamma_delays                     or as behind a chain of lags
 //   second_delay_path                a share of the flame answers later
 //   flame_input_pressure, _velocity  the flame answers to another signal than the base's
-//   ID of the catalogue              an instrument of q with one parameter, which all points share
-//                                    (loop_instrument.h)
+//   ID of the catalogue              an instrument of q, or a filter of the flame, with parameters
+//                                    that all points share (loop_instrument.h); a second path
+//                                    before the flame's curve is one of them
 //   acoustic_line_errors, flame_line_errors
 //                                    free errors at the cycle's lines (loop_point.h): no cause, but
 //                                    what stands in its place where none is known
@@ -27,6 +28,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "estimation/record_fit/loop/loop_point.h"
@@ -64,6 +66,9 @@ struct LoopItem {
   EffectPointer instrument = nullptr;            // of kInstrument: one form of the effect
   int PointStructure::*lines = nullptr;          // of kLineErrors
 };
+
+// Before the curve or behind it.
+inline constexpr std::string_view kSecondPathId = "second_delay_path";
 
 std::vector<std::string> LoopItemIds();
 // In keys of finished units (fit_units.h): forms of one effect are different items.

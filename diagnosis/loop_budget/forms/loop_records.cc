@@ -10,9 +10,13 @@
 namespace howl {
 namespace {
 
+// Filters first: they make the flame's functions anew, and with them the record's middle.
 RecordSpectra Without(const LoopForm& form, RecordSpectra record) {
-  for (const LoopInstrument& instrument : form.instruments) {
-    record = WithoutInstrument(std::move(record), instrument);
+  for (const bool filters : {true, false}) {
+    for (const LoopInstrument& instrument : form.instruments) {
+      if (IsFlameFilter(*instrument.effect) != filters) continue;
+      record = WithoutInstrument(std::move(record), instrument);
+    }
   }
   return record;
 }
@@ -64,6 +68,12 @@ std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
 
 RecordSpectra LoopRecords::Whole(const LoopForm& form, std::size_t e) const {
   return Without(form, Of(form.flame_input).points[e].record);
+}
+
+RecordSpectra LoopRecords::WholeAlone(const LoopForm& form, std::size_t e) const {
+  RecordSpectra record = Of(form.flame_input).points[e].record;
+  record.middle = nullptr;
+  return Without(form, std::move(record));
 }
 
 RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t half) const {

@@ -32,6 +32,8 @@ class LoopRecords {
   // As `form` has them, without its instruments.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
+  // Without its middle, which costs as much as the rest.
+  RecordSpectra WholeAlone(const LoopForm& form, std::size_t e) const;
   // How many coefficients the flame has.
   Eigen::Index FlameTerms(FlameInput input, std::size_t e) const {
     return Of(input).points[e].record.flame.cols();

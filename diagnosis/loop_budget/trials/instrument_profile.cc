@@ -1,7 +1,12 @@
 #include "diagnosis/loop_budget/trials/instrument_profile.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <numbers>
 #include <utility>
 
 #include "estimation/parallel.h"
@@ -13,11 +18,30 @@ namespace howl {
 namespace {
 
 constexpr int kMostSteps = 20;
+// A second parameter's values, as many as have a delay's maxima apart, and how many of the maxima
+// are gone on from: to first order they may be out of order.
+constexpr std::size_t kScanned = 24;
+constexpr std::size_t kMostFollowed = 2;
+constexpr double kLongestBegin = 0.5;  // of the first parameter's range
 constexpr int kMostHalvings = 5;
 constexpr double kLongestStep = 0.03;  // of the search's range, so that fits follow
 // Of the same: ten times as long differences see the third derivative, a tenth as long ones the
 // last digits of sums over thousands of bins.
 constexpr double kDifference = 1e-5;
+
+struct SearchEnds {
+  Eigen::VectorXd low, high;
+};
+
+SearchEnds Ends(const Effect& effect) {
+  std::vector<double> low;
+  std::vector<double> high;
+  for (const EffectParameter& each : effect.parameters()) {
+    low.push_back(each.low);
+    high.push_back(each.high);
+  }
+  return {ToSearch(effect, low), ToSearch(effect, high)};
+}
 
 }  // namespace
 
@@ -29,8 +53,33 @@ double FromSearch(const EffectParameter& parameter, double u) {
   return parameter.scale == ParameterScale::kLogarithmic ? std::exp(u) : u;
 }
 
-double SearchSpan(const EffectParameter& parameter) {
-  return ToSearch(parameter, parameter.high) - ToSearch(parameter, parameter.low);
+Eigen::VectorXd ToSearch(const Effect& effect, const std::vector<double>& values) {
+  Eigen::VectorXd out(std::ssize(values));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    out[static_cast<Eigen::Index>(i)] = ToSearch(effect.parameters()[i], values[i]);
+  }
+  return out;
+}
+
+Eigen::VectorXd SearchSpans(const Effect& effect) { return Ends(effect).high - Ends(effect).low; }
+
+Eigen::VectorXd ProfileMaximum::Deviations() const {
+  const Eigen::LLT<Eigen::MatrixXd> root(information);
+  if (root.info() != Eigen::Success) {
+    return Eigen::VectorXd::Constant(at.u.size(), std::numeric_limits<double>::infinity());
+  }
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(at.u.size(), at.u.size());
+  return root.solve(identity).diagonal().cwiseSqrt();
+}
+
+double ProfileMaximum::LogShare(const Eigen::VectorXd& spans) const {
+  const Eigen::MatrixXd in_spans = spans.asDiagonal() * information * spans.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(in_spans);
+  double sum = 0.0;
+  for (const double each : solver.eigenvalues()) {
+    sum += 0.5 * std::log(2.0 * std::numbers::pi / std::max(each, 2.0 * std::numbers::pi));
+  }
+  return sum;
 }
 
 InstrumentProfile::InstrumentProfile(const LoopRecords& records, const LoopFit& from,
@@ -38,18 +87,24 @@ InstrumentProfile::InstrumentProfile(const LoopRecords& records, const LoopFit& 
                                      const LoopBudgetOptions& options)
     : records_(records),
       from_(from),
-      parameter_(item.instrument->parameters()[0]),
       form_(With(Without(from.model, item, from.model), item)),
+      low_(Ends(*item.instrument).low),
+      high_(Ends(*item.instrument).high),
+      span_(high_ - low_),
       key_(std::move(key)),
       options_(options) {}
 
-LoopForm InstrumentProfile::FormAt(double u) const {
+LoopForm InstrumentProfile::FormAt(const Eigen::VectorXd& u) const {
   LoopForm form = form_;
-  form.instruments.back().value = FromSearch(parameter_, u);
+  std::vector<double>& values = form.instruments.back().values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = FromSearch(effect().parameters()[i], u[static_cast<Eigen::Index>(i)]);
+  }
   return form;
 }
 
-InstrumentPoint InstrumentProfile::At(double u, const std::vector<Eigen::VectorXd>& starts,
+InstrumentPoint InstrumentProfile::At(const Eigen::VectorXd& u,
+                                      const std::vector<Eigen::VectorXd>& starts,
                                       const PointFitOptions& options, RecordExtent extent) {
   const std::string key = key_ + std::to_string(evaluations_++) + "/";
   const LoopForm form = FormAt(u);
@@ -72,97 +127,189 @@ InstrumentPoint InstrumentProfile::At(double u, const std::vector<Eigen::VectorX
   return out;
 }
 
-InstrumentPoint InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_null) {
-  // An infinite null is next to the range's end.
-  const double null = ToSearch(parameter_, std::min(parameter_.null_value, parameter_.high));
+Eigen::VectorXd InstrumentProfile::NullEnd() const {
+  return ToSearch(effect(), NullValues(effect())).cwiseMin(high_);
+}
+
+std::vector<InstrumentPoint> InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_null) {
+  const Eigen::VectorXd null = NullEnd();
+  if (null.size() > 1) return BeginFromNull(At(null, at_null));
+  const EffectParameter& parameter = effect().parameters()[0];
   std::vector<double> starts;
-  for (const double start : parameter_.starts) starts.push_back(ToSearch(parameter_, start));
-  std::ranges::sort(starts, {}, [&](double u) { return std::abs(u - null); });
-  const auto roughly_at = [&](double u, const std::vector<Eigen::VectorXd>& from) {
+  for (const double start : parameter.starts) starts.push_back(ToSearch(parameter, start));
+  std::ranges::sort(starts, {}, [&](double u) { return std::abs(u - null[0]); });
+  const auto roughly_at = [&](const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& from) {
     return At(u, from, kToCompare, RecordExtent::kMiddle);
   };
   InstrumentPoint best = roughly_at(null, at_null);
   InstrumentPoint below = best;
   InstrumentPoint above = best;
   for (const double u : starts) {
-    InstrumentPoint& last = u < null ? below : above;
-    last = roughly_at(u, ParametersOf(last.fits));
+    InstrumentPoint& last = u < null[0] ? below : above;
+    last = roughly_at(Eigen::VectorXd::Constant(1, u), ParametersOf(last.fits));
     if (last.log_posterior > best.log_posterior) best = last;
   }
-  if (best.u == null) return At(null, at_null);
+  if (best.u == null) return {At(null, at_null)};
   std::vector<Eigen::VectorXd> whole = ParametersOf(best.fits);
   for (std::size_t e = 0; e < whole.size(); ++e) {
     whole[e] = BesideMiddle(records_.Whole(form_, e), form_.structure, std::move(whole[e]));
   }
-  return At(best.u, whole);
+  return {At(best.u, whole)};
+}
+
+std::vector<InstrumentPoint> InstrumentProfile::BeginFromNull(const InstrumentPoint& null) {
+  struct Beside {
+    Eigen::VectorXd u;
+    double gain = 0.0;
+    std::vector<Eigen::VectorXd> starts;
+  };
+  std::vector<Beside> tried(kScanned);
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    InstrumentPoint at = null;
+    const double way = static_cast<double>(i) / static_cast<double>(kScanned - 1);
+    at.u[1] = low_[1] + way * span_[1];
+    const std::vector<Slopes> slopes = SlopesAt(at, 1);
+    double slope = 0.0;
+    double curvature = 0.0;
+    for (const Slopes& each : slopes) {
+      slope += each.slope[0];
+      curvature += each.curvature(0, 0);
+    }
+    if (!(curvature < 0.0)) continue;
+    const double to = std::clamp(at.u[0] - slope / curvature, low_[0], high_[0]);
+    const double step =
+        std::clamp(to - at.u[0], -kLongestBegin * span_[0], kLongestBegin * span_[0]);
+    tried[i].gain = step * (slope + 0.5 * step * curvature);
+    tried[i].u = at.u;
+    tried[i].u[0] += step;
+    tried[i].starts = ParametersOf(null.fits);
+    for (std::size_t e = 0; e < slopes.size(); ++e)
+      tried[i].starts[e] += step * slopes[e].by.col(0);
+  }
+  std::vector<Beside> best;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    const bool top = (i == 0 || tried[i].gain >= tried[i - 1].gain) &&
+                     (i + 1 == tried.size() || tried[i].gain > tried[i + 1].gain);
+    if (top && tried[i].gain > 0.0) best.push_back(tried[i]);
+  }
+  std::ranges::stable_sort(best, std::ranges::greater(), &Beside::gain);
+  best.resize(std::min(best.size(), kMostFollowed));
+  std::vector<InstrumentPoint> out = {null};
+  for (const Beside& each : best) out.push_back(At(each.u, each.starts));
+  return out;
 }
 
 InstrumentProfile::Slopes InstrumentProfile::SlopesOfPoint(const InstrumentPoint& point,
-                                                           std::size_t e) const {
+                                                           std::size_t e,
+                                                           Eigen::Index count) const {
   struct Beside {
     double value = 0.0;
     Eigen::VectorXd gradient;
   };
   const PointFit& fit = point.fits[e];
-  const auto beside = [&](double u) {
+  const auto beside = [&](const Eigen::VectorXd& u, bool with_gradient) {
     const LoopForm form = FormAt(u);
-    const RecordSpectra record = records_.Whole(form, e);
+    const RecordSpectra record = records_.WholeAlone(form, e);
     const PointPrior prior = PriorOfTrial(records_, from_, form, e, record);
     PointPosterior posterior(record, form.structure, prior);
-    const double value = posterior.Value(fit.parameters) + records_.LogJacobianOfWhole(form, e);
-    return Beside{value, posterior.Gradient(fit.parameters).cwiseQuotient(prior.deviation)};
+    Beside out{posterior.Value(fit.parameters) + records_.LogJacobianOfWhole(form, e), {}};
+    if (with_gradient) {
+      out.gradient = posterior.Gradient(fit.parameters).cwiseQuotient(prior.deviation);
+    }
+    return out;
   };
-  const double step = kDifference * SearchSpan(parameter_);
-  const Beside below = beside(point.u - step);
-  const Beside above = beside(point.u + step);
+  const Eigen::VectorXd steps = kDifference * span_;
   const double here = fit.log_posterior + records_.LogJacobianOfWhole(FormAt(point.u), e);
-  const Eigen::VectorXd turn = (above.gradient - below.gradient) / (2.0 * step);
-  const Eigen::VectorXd by = SolveSymmetric(fit.information, turn);
-  return {(above.value - below.value) / (2.0 * step),
-          (above.value - 2.0 * here + below.value) / (step * step) + turn.dot(by), by};
-}
-
-std::vector<InstrumentProfile::Slopes> InstrumentProfile::SlopesAt(
-    const InstrumentPoint& point) const {
-  std::vector<Slopes> out(records_.size());
-  RunUnits(out.size(), options_.threads, [&](std::size_t e) { out[e] = SlopesOfPoint(point, e); });
+  Slopes out{Eigen::VectorXd(count), Eigen::MatrixXd(count, count), {}};
+  Eigen::MatrixXd turns(fit.parameters.size(), count);
+  std::vector<double> both(static_cast<std::size_t>(count));  // values on both sides
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::VectorXd step = steps[i] * Eigen::VectorXd::Unit(steps.size(), i);
+    const Beside below = beside(point.u - step, true);
+    const Beside above = beside(point.u + step, true);
+    out.slope[i] = (above.value - below.value) / (2.0 * steps[i]);
+    turns.col(i) = (above.gradient - below.gradient) / (2.0 * steps[i]);
+    both[static_cast<std::size_t>(i)] = above.value + below.value;
+    out.curvature(i, i) = (above.value - 2.0 * here + below.value) / (steps[i] * steps[i]);
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const Eigen::VectorXd along = step + steps[j] * Eigen::VectorXd::Unit(steps.size(), j);
+      const double ends =
+          beside(point.u + along, false).value + beside(point.u - along, false).value;
+      out.curvature(i, j) = out.curvature(j, i) =
+          (ends + 2.0 * here - both[static_cast<std::size_t>(i)] -
+           both[static_cast<std::size_t>(j)]) /
+          (2.0 * steps[i] * steps[j]);
+    }
+  }
+  out.by = SolveSymmetric(fit.information, turns);
+  out.curvature += turns.transpose() * out.by;
   return out;
 }
 
+std::vector<InstrumentProfile::Slopes> InstrumentProfile::SlopesAt(const InstrumentPoint& point,
+                                                                   Eigen::Index count) const {
+  std::vector<Slopes> out(records_.size());
+  RunUnits(out.size(), options_.threads,
+           [&](std::size_t e) { out[e] = SlopesOfPoint(point, e, count); });
+  return out;
+}
+
+Eigen::VectorXd InstrumentProfile::StepFrom(const Eigen::VectorXd& u, const Eigen::VectorXd& slope,
+                                            const Eigen::MatrixXd& information) const {
+  // A parameter at its range's end that would leave it stays, and the others go without it.
+  Eigen::VectorXd free = Eigen::VectorXd::Ones(u.size());
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(u.size());
+  for (Eigen::Index round = 0; round <= u.size(); ++round) {
+    Eigen::MatrixXd of_free = free.asDiagonal() * information * free.asDiagonal();
+    of_free.diagonal() += Eigen::VectorXd::Ones(u.size()) - free;
+    const Eigen::LLT<Eigen::MatrixXd> root(of_free);
+    const Eigen::VectorXd along = free.cwiseProduct(slope);
+    step = root.info() == Eigen::Success
+               ? root.solve(along).eval()
+               : along.cwiseProduct(span_.cwiseAbs2()) *
+                     (kLongestStep / along.cwiseProduct(span_).cwiseAbs().maxCoeff());
+    const double longest = step.cwiseQuotient(span_).cwiseAbs().maxCoeff();
+    step *= std::min(1.0, kLongestStep / longest);
+    bool leaves = false;
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+      const bool out = (u[i] <= low_[i] && step[i] < 0.0) || (u[i] >= high_[i] && step[i] > 0.0);
+      if (out) free[i] = 0.0;
+      leaves = leaves || out;
+    }
+    if (!leaves) break;
+  }
+  return (u + step).cwiseMax(low_).cwiseMin(high_) - u;
+}
+
 ProfileMaximum InstrumentProfile::From(InstrumentPoint best, double least) {
-  const double low = ToSearch(parameter_, parameter_.low);
-  const double high = ToSearch(parameter_, parameter_.high);
-  double std = std::numeric_limits<double>::infinity();
+  ProfileMaximum out{std::move(best), Eigen::MatrixXd::Zero(span_.size(), span_.size())};
   for (int i = 0; i < kMostSteps; ++i) {
-    const std::vector<Slopes> slopes = SlopesAt(best);
-    double slope = 0.0;
-    double curvature = 0.0;
+    const std::vector<Slopes> slopes = SlopesAt(out.at, span_.size());
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(span_.size());
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(span_.size(), span_.size());
     for (const Slopes& each : slopes) {
       slope += each.slope;
-      curvature += each.curvature;
+      information -= each.curvature;
     }
-    if (!std::isfinite(slope) || !std::isfinite(curvature)) break;
-    const double most = kLongestStep * SearchSpan(parameter_);
-    double step = std::copysign(most, slope);
-    std = std::numeric_limits<double>::infinity();
-    if (curvature < 0.0) {
-      std = 1.0 / std::sqrt(-curvature);
-      const double gain = -0.5 * slope * slope / curvature;
-      if (gain < PointFitOptions{}.converged || best.log_evidence + gain < least) break;
-      step = std::clamp(-slope / curvature, -most, most);
+    if (!slope.allFinite() || !information.allFinite()) break;
+    out.information = information;
+    const Eigen::LLT<Eigen::MatrixXd> root(information);
+    if (root.info() == Eigen::Success) {
+      const double gain = 0.5 * slope.dot(root.solve(slope));
+      if (gain < PointFitOptions{}.converged || out.at.log_evidence + gain < least) break;
     }
-    step = std::clamp(best.u + step, low, high) - best.u;
-    if (step == 0.0) break;
-    const double from = best.u;
-    for (int halved = 0; best.u == from && halved < kMostHalvings; ++halved, step *= 0.5) {
-      std::vector<Eigen::VectorXd> starts = ParametersOf(best.fits);
-      for (std::size_t e = 0; e < starts.size(); ++e) starts[e] += step * slopes[e].by;
+    Eigen::VectorXd step = StepFrom(out.at.u, slope, information);
+    if (!(step.cwiseAbs().maxCoeff() > 0.0)) break;
+    const Eigen::VectorXd from = out.at.u;
+    for (int halved = 0; out.at.u == from && halved < kMostHalvings; ++halved, step *= 0.5) {
+      std::vector<Eigen::VectorXd> starts = ParametersOf(out.at.fits);
+      for (std::size_t e = 0; e < starts.size(); ++e) starts[e] += slopes[e].by * step;
       InstrumentPoint next = At(from + step, starts);
-      if (next.log_posterior > best.log_posterior) best = std::move(next);
+      if (next.log_posterior > out.at.log_posterior) out.at = std::move(next);
     }
-    if (best.u == from) break;
+    if (out.at.u == from) break;
   }
-  return {std::move(best), std};
+  return out;
 }
 
 }  // namespace howl

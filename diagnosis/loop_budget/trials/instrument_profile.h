@@ -1,5 +1,5 @@
-// The profile of the evidence over the value of an instrument's parameter, which all operating
-// points share, all else of each point fitted anew at each value.
+// The profile of the evidence over the values of a shared effect's parameters (loop_instrument.h),
+// all else of each operating point fitted anew at each.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_INSTRUMENT_PROFILE_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_INSTRUMENT_PROFILE_H_
 
@@ -15,18 +15,20 @@
 
 namespace howl {
 
-// The search's coordinate u is the parameter's logarithm where its scale is logarithmic, else the
-// parameter itself.
+// The search's coordinates u: of each parameter its logarithm where its scale is logarithmic, else
+// the parameter itself.
 double ToSearch(const EffectParameter& parameter, double value);
 double FromSearch(const EffectParameter& parameter, double u);
-double SearchSpan(const EffectParameter& parameter);
+Eigen::VectorXd ToSearch(const Effect& effect, const std::vector<double>& values);
+// Of the range of each.
+Eigen::VectorXd SearchSpans(const Effect& effect);
 
 // What of a record is fitted: the whole, or what is enough to compare starts (middle_part.h).
 enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
 
-// What a value is worth, and each point's fit there.
+// What values are worth, and each point's fit there.
 struct InstrumentPoint {
-  double u = 0.0;
+  Eigen::VectorXd u;
   double log_posterior = -std::numeric_limits<double>::infinity();
   double log_evidence = -std::numeric_limits<double>::infinity();
   std::vector<PointFit> fits;
@@ -34,7 +36,13 @@ struct InstrumentPoint {
 
 struct ProfileMaximum {
   InstrumentPoint at;
-  double std = 0.0;  // of u; infinite where the profile has no maximum
+  Eigen::MatrixXd information;  // of u; zero where it is not known
+
+  // Of each u; infinite where the profile has no maximum.
+  Eigen::VectorXd Deviations() const;
+  // ln of the share of the parameters' ranges that the evidence comes from, by Laplace; where a
+  // direction tells nothing, all of it.
+  double LogShare(const Eigen::VectorXd& spans) const;
 };
 
 class InstrumentProfile {
@@ -43,14 +51,19 @@ class InstrumentProfile {
   InstrumentProfile(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
                     std::string key, const LoopBudgetOptions& options);
 
-  const EffectParameter& parameter() const { return parameter_; }
-  LoopForm FormAt(double u) const;
-  InstrumentPoint At(double u, const std::vector<Eigen::VectorXd>& starts,
+  const Effect& effect() const { return *form_.instruments.back().effect; }
+  // The null, or where it is infinite the end of the range next to it.
+  Eigen::VectorXd NullEnd() const;
+  LoopForm FormAt(const Eigen::VectorXd& u) const;
+  InstrumentPoint At(const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& starts,
                      const PointFitOptions& options = {},
                      RecordExtent extent = RecordExtent::kWhole);
-  // The best of the values that a search begins with, the null among them: outwards from it, each
-  // from where its neighbour's fits came to, by the records' middles; at its maximum.
-  InstrumentPoint Begin(const std::vector<Eigen::VectorXd>& at_null);
+  // The best of the values that a search begins with, the null among them: of the first parameter
+  // outwards from its null, each from where its neighbour's fits came to, by the records' middles;
+  // at its maximum. Where there are two parameters, the first has no effect at its null, whatever
+  // the second is: the null, and Newton's steps of the first from there, with the values of the
+  // second from which they gain more than from those beside them.
+  std::vector<InstrumentPoint> Begin(const std::vector<Eigen::VectorXd>& at_null);
   // The maximum of the log posterior next to `best`, by Newton's steps, or as far as their top has
   // the evidence `least`.
   ProfileMaximum From(InstrumentPoint best,
@@ -61,17 +74,22 @@ class InstrumentProfile {
   //
   //   d/du = v_u,   d^2/du^2 = v_uu + v_ux H^-1 v_xu,   dx/du = H^-1 v_xu,   H = -v_xx
   struct Slopes {
-    double slope = 0.0;
-    double curvature = 0.0;
-    Eigen::VectorXd by;
+    Eigen::VectorXd slope;
+    Eigen::MatrixXd curvature;
+    Eigen::MatrixXd by;  // a column a u
   };
-  std::vector<Slopes> SlopesAt(const InstrumentPoint& point) const;
-  Slopes SlopesOfPoint(const InstrumentPoint& point, std::size_t e) const;
+  // By the first parameters, `count` of them.
+  std::vector<Slopes> SlopesAt(const InstrumentPoint& point, Eigen::Index count) const;
+  std::vector<InstrumentPoint> BeginFromNull(const InstrumentPoint& null);
+  // Newton's step within the range; where the profile is not convex up the slope.
+  Eigen::VectorXd StepFrom(const Eigen::VectorXd& u, const Eigen::VectorXd& slope,
+                           const Eigen::MatrixXd& information) const;
+  Slopes SlopesOfPoint(const InstrumentPoint& point, std::size_t e, Eigen::Index count) const;
 
   const LoopRecords& records_;
   const LoopFit& from_;
-  const EffectParameter& parameter_;
   LoopForm form_;
+  Eigen::VectorXd low_, high_, span_;  // of u
   std::string key_;
   std::size_t evaluations_ = 0;  // each is a unit of its own, the same value from another start too
   const LoopBudgetOptions& options_;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 
 #include "diagnosis/loop_budget/trials/instrument_profile.h"
@@ -31,7 +30,10 @@ LoopItem AsFitted(const LoopFit& fit, LoopItem item) {
   return item;
 }
 
-double ValueOf(const LoopFit& fit, const LoopItem& item) { return InstrumentOf(fit, item).value; }
+Eigen::VectorXd ValuesOf(const LoopFit& fit, const LoopItem& item) {
+  const LoopInstrument& instrument = InstrumentOf(fit, item);
+  return ToSearch(*instrument.effect, instrument.values);
+}
 
 }  // namespace
 
@@ -43,11 +45,15 @@ LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, double 
   for (std::size_t e = 0; e < records.size(); ++e) {
     without += records.LogJacobianOfWhole(from.model, e);
   }
-  const ProfileMaximum maximum = profile.From(profile.Begin(ParametersOf(from)), without);
+  ProfileMaximum maximum;
+  for (InstrumentPoint& begin : profile.Begin(ParametersOf(from))) {
+    ProfileMaximum next = profile.From(std::move(begin), without);
+    if (next.at.log_posterior > maximum.at.log_posterior) maximum = std::move(next);
+  }
   LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {ParametersOf(maximum.at.fits)}};
-  const double span = SearchSpan(profile.parameter());
-  const double width = std::sqrt(2.0 * std::numbers::pi) * maximum.std;
-  out.gain = maximum.at.log_evidence - without + std::log(std::min(width, span) / span);
+  // At its null it gains nothing.
+  if (maximum.at.u[0] == profile.NullEnd()[0]) return out;
+  out.gain = maximum.at.log_evidence - without + maximum.LogShare(SearchSpans(profile.effect()));
   return out;
 }
 
@@ -73,9 +79,10 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
     const std::string of_round = key + "refined/" + KeyOf(item) + "/" + std::to_string(round) + "/";
     const LoopItem same = AsFitted(fit, item);
     InstrumentProfile profile(records, fit, same, of_round, options);
-    const double before = ToSearch(profile.parameter(), ValueOf(fit, item));
+    const Eigen::VectorXd before = ValuesOf(fit, item);
     const ProfileMaximum maximum = profile.From(profile.At(before, ParametersOf(fit)));
-    if (std::abs(maximum.at.u - before) < kStands * maximum.std) break;
+    const Eigen::ArrayXd moved = (maximum.at.u - before).array().abs();
+    if ((moved < kStands * maximum.Deviations().array()).all()) break;
     LoopFit next =
         FitLoopFrom(records, profile.FormAt(maximum.at.u), {ParametersOf(maximum.at.fits)},
                     MaximumTaken::kNext, of_round, options);
@@ -92,17 +99,21 @@ LoopFit FitTrial(const LoopRecords& records, const LoopTrial& trial, const Start
   return Refined(records, std::move(fit), trial.item, key, options);
 }
 
-EstimatedParameter EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
-                                      const LoopItem& item, const std::string& key,
-                                      const LoopBudgetOptions& options) {
+std::vector<EstimatedParameter> EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
+                                                   const LoopItem& item, const std::string& key,
+                                                   const LoopBudgetOptions& options) {
   InstrumentProfile profile(records, fit, AsFitted(fit, item),
                             key + "estimate/" + KeyOf(item) + "/", options);
-  const EffectParameter& parameter = profile.parameter();
-  const ProfileMaximum maximum =
-      profile.From(profile.At(ToSearch(parameter, ValueOf(fit, item)), ParametersOf(fit)));
-  const double value = FromSearch(parameter, maximum.at.u);
-  const bool logarithmic = parameter.scale == ParameterScale::kLogarithmic;
-  return WithError(parameter, value, logarithmic ? value * maximum.std : maximum.std);
+  const ProfileMaximum maximum = profile.From(profile.At(ValuesOf(fit, item), ParametersOf(fit)));
+  const Eigen::VectorXd deviations = maximum.Deviations();
+  std::vector<EstimatedParameter> out;
+  for (const EffectParameter& parameter : profile.effect().parameters()) {
+    const auto i = static_cast<Eigen::Index>(out.size());
+    const double value = FromSearch(parameter, maximum.at.u[i]);
+    const bool logarithmic = parameter.scale == ParameterScale::kLogarithmic;
+    out.push_back(WithError(parameter, value, logarithmic ? value * deviations[i] : deviations[i]));
+  }
+  return out;
 }
 
 }  // namespace howl

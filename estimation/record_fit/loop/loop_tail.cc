@@ -13,7 +13,7 @@ using C = std::complex<double>;
 LoopAt::LoopAt(const RecordSpectra& record, const LoopPoint& point, C at)
     : s(at),
       slopes(point.path.WithSlopes(s)),
-      path(Times(slopes.at, FlameInputResponse(record.flame_input, s))),
+      path(Times(slopes.at, record.InputAt(s))),
       u(Times(AcousticTransfer(point, s), path)) {}
 
 void LoopAt::AddSlopes(const PointStructure& structure, const LoopPoint& point, C by,
@@ -39,7 +39,8 @@ LoopTail::LoopTail(const RecordSpectra& record, const LoopPoint& point)
     : loop(record, point, 2.0 * record.s[record.bins() - 1]),
       u(record.slopes.dot(point.flame) * loop.u) {
   if (record.flame_input == FlameInput::kPressureRate) {
-    constant = record.slopes.dot(point.flame) * SumOfResidues(point) * point.path.At(loop.s);
+    constant = record.slopes.dot(point.flame) * SumOfResidues(point) * point.path.At(loop.s) *
+               record.filters.At(loop.s);
   }
   const double falls = record.flame_input == FlameInput::kVelocity ? 2.0 : 1.0;
   const C turns = C(0.0, 1.0) * point.path.Fall(loop.s).at;

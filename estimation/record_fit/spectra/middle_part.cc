@@ -62,6 +62,7 @@ void SetMiddle(RecordSpectra* of) {
   RecordSpectra out;
   out.scale = record.scale;
   out.flame_input = record.flame_input;
+  out.filters = record.filters;
   out.sampling_hz = record.sampling_hz;
   out.bin_hz = middle.bin_hz(record);
   out.pressure = middle.Of(record.pressure);
@@ -75,7 +76,7 @@ void SetMiddle(RecordSpectra* of) {
   const auto bins = static_cast<double>(middle.bins());
   out.edge_s = C(0.0, bin) * Eigen::VectorXd::LinSpaced(middle.bins() + 1, first, first + bins);
   out.s = out.edge_s.head(middle.bins()).array() + C(0.0, 0.5 * bin);
-  out.input = out.s.unaryExpr([&](C s) { return FlameInputResponse(out.flame_input, s); });
+  out.input = out.s.unaryExpr([&](C s) { return out.InputAt(s); });
   // As the whole record has it, so that spectra keep their shape.
   const double low = record.s[0].imag();
   const double high = record.s[record.bins() - 1].imag();

@@ -53,6 +53,11 @@ struct Band {
   }
 };
 
+// What the flame's curve answers to, from p.
+C CurveInputAt(const RecordSpectra& record, C s) {
+  return FlameInputResponse(record.flame_input, s) * record.filters.BeforeAt(s);
+}
+
 // The flame's input in time, from this p, whose spectrum begins at no frequency.
 Eigen::VectorXd InputOf(const RecordSpectra& record, const Eigen::VectorXcd& pressure) {
   const double bin = record.bin_hz / record.scale.cycle_hz;
@@ -61,7 +66,7 @@ Eigen::VectorXd InputOf(const RecordSpectra& record, const Eigen::VectorXcd& pre
   for (Eigen::Index k = 1; k < pressure.size(); ++k) {
     const auto at = static_cast<double>(k);
     const double over = std::max(at / end - kFilterEdge, 0.0) / (1.0 - kFilterEdge);
-    spectrum[k] = pressure[k] * FlameInputResponse(record.flame_input, C(0.0, at * bin)) * 0.5 *
+    spectrum[k] = pressure[k] * CurveInputAt(record, C(0.0, at * bin)) * 0.5 *
                   (1.0 + std::cos(std::numbers::pi * over));
   }
   return UnitarySignal(std::move(spectrum), record.Samples());
@@ -83,10 +88,12 @@ double LargestInside(const Eigen::VectorXd& v, double bin_of_cycle) {
 }
 
 // The flame's functions of this p (InputOf).
-void SetFlame(const Eigen::VectorXcd& pressure, const FlamePrior& prior, RecordSpectra* out) {
+void SetFlame(Eigen::VectorXcd pressure, const FlamePrior& prior, RecordSpectra* out) {
+  out->driving = std::move(pressure);
+  out->input = out->s.unaryExpr([&](C s) { return out->InputAt(s); });
   RecordScale& scale = out->scale;
   const Band band{out->below.size(), out->bins()};
-  const Eigen::VectorXd v = InputOf(*out, pressure);
+  const Eigen::VectorXd v = InputOf(*out, out->driving);
   if (scale.input_range == 0.0) {
     scale.input_range = kRangeOverLargest * LargestInside(v, out->bin_hz / scale.cycle_hz);
   }
@@ -95,10 +102,9 @@ void SetFlame(const Eigen::VectorXcd& pressure, const FlamePrior& prior, RecordS
   const Eigen::VectorXd rises =
       (basis.Columns(v.array() + step) - basis.Columns(v.array() - step)).colwise().mean() /
       (2.0 * step);
-  const Eigen::VectorXcd rest =
-      out->edge_s.unaryExpr([&](C s) { return FlameInputResponse(out->flame_input, s); })
-          .cwiseProduct(out->pressure) -
-      band.Of(UnitarySpectrum(v));
+  const Eigen::VectorXcd rest = out->edge_s.unaryExpr([&](C s) { return CurveInputAt(*out, s); })
+                                    .cwiseProduct(out->pressure) -
+                                band.Of(UnitarySpectrum(v));
   const Eigen::MatrixXd splines = basis.Columns(v);
   Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
   for (Eigen::Index k = 0; k < splines.cols(); ++k) {
@@ -113,10 +119,13 @@ void SetFlame(const Eigen::VectorXcd& pressure, const FlamePrior& prior, RecordS
     scale.flame_deviation = std::move(flame.deviation);
   }
   out->flame = spectra * scale.functions;
+  if (out->filters.after) {
+    out->flame.array().colwise() *=
+        out->edge_s.unaryExpr([&](C s) { return out->filters.AfterAt(s); }).array();
+  }
   out->slopes = scale.functions.transpose() * rises;
   out->rest_slopes =
       scale.functions.transpose() * (at_rest.row(0) - at_rest.row(1)).transpose() / (2.0 * step);
-  SetMiddle(out);
 }
 
 RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
@@ -149,7 +158,6 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
        static_cast<double>(band.first) + 0.5) *
       bin_of_cycle;
   out.s = C(0.0, 1.0) * middle;
-  out.input = out.s.unaryExpr([&](C s) { return FlameInputResponse(input, s); });
   out.edge_s = C(0.0, bin_of_cycle) *
                Eigen::VectorXd::LinSpaced(band.count + 1, static_cast<double>(band.first),
                                           static_cast<double>(band.first + band.count));
@@ -159,6 +167,7 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
   out.scale = std::move(scale);
   // What of p above the band is noise no loop has told yet: all is left out.
   SetFlame(PressureOf(out, Eigen::VectorXcd::Zero(out.above.size())), prior, &out);
+  SetMiddle(&out);
   return out;
 }
 
@@ -203,7 +212,20 @@ RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise) 
   CHECK_EQ(noise.size(), record.Samples());
   Eigen::VectorXcd pressure = PressureOf(record, record.above);
   pressure -= UnitarySpectrum(noise).head(pressure.size());
-  SetFlame(pressure, {}, &record);
+  SetFlame(std::move(pressure), {}, &record);
+  SetMiddle(&record);
+  return record;
+}
+
+RecordSpectra WithFilters(RecordSpectra record, const FlameFilters& filters) {
+  const auto both = [](const FlameFilters::Response& first, const FlameFilters::Response& second) {
+    if (!first || !second) return first ? first : second;
+    return FlameFilters::Response([first, second](C s) { return first(s) * second(s); });
+  };
+  record.filters = {both(record.filters.before, filters.before),
+                    both(record.filters.after, filters.after)};
+  SetFlame(std::move(record.driving), {}, &record);
+  if (record.middle) SetMiddle(&record);
   return record;
 }
 

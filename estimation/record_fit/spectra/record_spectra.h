@@ -28,6 +28,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <numbers>
 
@@ -42,6 +43,18 @@ enum class FlameInput : std::uint8_t { kPressureRate, kPressure, kVelocity };
 
 // v's transfer from p at s = j f over the cycle's frequency: s, 1 or 1 / s.
 std::complex<double> FlameInputResponse(FlameInput input, std::complex<double> s);
+
+// What stands beside a flame's curve, as transfer functions of s = j f over the cycle's frequency:
+// v is filtered by `before`, what the curve makes of it by `after`. Empty: 1.
+struct FlameFilters {
+  using Response = std::function<std::complex<double>(std::complex<double> s)>;
+  Response before, after;
+
+  std::complex<double> BeforeAt(std::complex<double> s) const { return before ? before(s) : 1.0; }
+  std::complex<double> AfterAt(std::complex<double> s) const { return after ? after(s) : 1.0; }
+  std::complex<double> At(std::complex<double> s) const { return BeforeAt(s) * AfterAt(s); }
+  bool None() const { return !before && !after; }
+};
 
 // The units, and the flame's functions, that records of one operating point have in common.
 struct RecordScale {
@@ -61,10 +74,11 @@ struct RecordScale {
 struct RecordSpectra {
   RecordScale scale;
   FlameInput flame_input = FlameInput::kPressureRate;
+  FlameFilters filters;
   double sampling_hz = 0.0;
   double bin_hz = 0.0;
   Eigen::VectorXcd s;        // j f over the cycle's frequency
-  Eigen::VectorXcd input;    // V: v's transfer from p
+  Eigen::VectorXcd input;    // V: v's transfer from p, with the filters
   Eigen::VectorXd position;  // -1 .. 1 over the band, in log f
   // Of the transform, one more than there are bins: j f, P, Q, and b_k without delay, one column
   // each.
@@ -73,6 +87,7 @@ struct RecordSpectra {
   Eigen::VectorXcd pressure;
   Eigen::VectorXcd above;  // P from the band's upper end as far as the flame's input reaches
   Eigen::VectorXcd heat_release;
+  Eigen::VectorXcd driving;  // of p, from 0 on, what the flame's curve is driven by
   Eigen::MatrixXcd flame;
   Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
   Eigen::VectorXd rest_slopes;  // d b_k / d v at v = 0
@@ -84,6 +99,9 @@ struct RecordSpectra {
   std::shared_ptr<const RecordSpectra> middle;
 
   Eigen::Index bins() const { return s.size(); }
+  std::complex<double> InputAt(std::complex<double> at) const {
+    return FlameInputResponse(flame_input, at) * filters.At(at);
+  }
   Eigen::Index Samples() const { return std::lround(sampling_hz / bin_hz); }
   // What a state of one unit, that begins with the record, has in its spectrum but for 1 / s.
   double OneSample() const {
@@ -100,6 +118,9 @@ RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like)
 
 // With the flame's functions of p less this noise, over p's unit, one value a sample.
 RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise);
+
+// With a flame that has these filters beside those of the record. One without a middle stays so.
+RecordSpectra WithFilters(RecordSpectra record, const FlameFilters& filters);
 
 // A spectrum of the transform's bins under the taper.
 inline Eigen::VectorXcd Tapered(const Eigen::VectorXcd& x) {

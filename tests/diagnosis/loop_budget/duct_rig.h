@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,10 @@ namespace howl {
 
 // Its operating parameter is the loop's gain, with which the delay grows a little.
 inline LoopRecord DuctAt(double gain, double duration_s, std::uint64_t seed,
-                         const ModalInstruments& instruments = {}) {
+                         const ModalInstruments& instruments = {},
+                         const std::function<void(ModalLoop*)>& change = {}) {
   ModalLoop loop = DuctOfModes(2);
+  if (change) change(&loop);
   loop.tau_s *= 1.0 + 0.03 * (gain - 1.3);
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
   loop.slope = gain / loop.Open(cycle_hz).real();

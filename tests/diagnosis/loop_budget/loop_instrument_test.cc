@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,7 @@ TEST(LoopInstrument, FindsAStrongLowPass) {
       TrialsOn(Ducts([](Record* record) { LowPass(120.0, record); }));
   EXPECT_EQ(BestOf(trials).item.id, "q_sensor_lowpass");
   EXPECT_GT(BestOf(trials).gain, 100.0);
-  EXPECT_NEAR(BestOf(trials).model.instruments.back().value, 120.0, 2.0);
+  EXPECT_NEAR(BestOf(trials).model.instruments.back().values[0], 120.0, 2.0);
 }
 
 TEST(LoopInstrument, FindsAStrongLeak) {
@@ -73,13 +74,54 @@ TEST(LoopInstrument, FindsAStrongLeak) {
   const std::vector<LoopTrial> trials = TrialsOn(rig);
   EXPECT_EQ(BestOf(trials).item.id, "crosstalk_p_to_q");
   EXPECT_GT(BestOf(trials).gain, 100.0);
-  EXPECT_NEAR(BestOf(trials).model.instruments.back().value, relative_to_record, 0.01);
+  EXPECT_NEAR(BestOf(trials).model.instruments.back().values[0], relative_to_record, 0.01);
+}
+
+std::vector<LoopRecord> Changed(double duration_s, const std::function<void(ModalLoop*)>& change) {
+  std::vector<LoopRecord> out;
+  for (const double gain : {1.2, 1.5, 1.8}) {
+    out.push_back(DuctAt(gain, duration_s, static_cast<std::uint64_t>(100.0 * gain), {}, change));
+  }
+  return out;
+}
+
+TEST(LoopInstrument, FindsASecondPathBeforeTheCurve) {
+  const std::vector<LoopTrial> trials = TrialsOn(Changed(4.0, [](ModalLoop* loop) {
+    loop->share = 0.25;
+    loop->later_s = 1e-3;
+  }));
+  EXPECT_EQ(KeyOf(BestOf(trials).item), "second_delay_pathbefore_flame");
+  EXPECT_GT(BestOf(trials).gain, 50.0);
+  const std::vector<double>& values = BestOf(trials).model.instruments.back().values;
+  ASSERT_EQ(values.size(), 2u);
+  EXPECT_NEAR(values[0], 0.25, 0.04);
+  EXPECT_NEAR(values[1], 1e-3, 8e-5);
+}
+
+TEST(LoopInstrument, FindsALagOfTheFlame) {
+  const std::vector<LoopTrial> trials =
+      TrialsOn(Changed(0.8, [](ModalLoop* loop) { loop->lag_hz = 300.0; }));
+  EXPECT_EQ(BestOf(trials).item.id, "flame_lowpass");
+  EXPECT_GT(BestOf(trials).gain, 100.0);
+  EXPECT_NEAR(BestOf(trials).model.instruments.back().values[0], 300.0, 15.0);
+}
+
+// A second path stands behind the curve or before it.
+TEST(LoopInstrument, IsNoSecondPathBesideAnother) {
+  const auto offered = [](const LoopForm& form) {
+    return std::ranges::count(LoopItems(form, DuctsForm()), kSecondPathId, &LoopItem::id);
+  };
+  EXPECT_EQ(offered(DuctsForm()), 2);
+  for (const LoopItem& item : LoopItems(DuctsForm(), DuctsForm())) {
+    if (item.id != kSecondPathId) continue;
+    EXPECT_EQ(offered(With(DuctsForm(), item)), 0) << KeyOf(item);
+  }
 }
 
 TEST(LoopInstrument, ShapesTheNoiseBehindIt) {
   LoopRecord of = DuctAt(1.5, 0.8, 1);
   const RecordSpectra plain = MakeRecordSpectra(of.record, of.cycle_hz, FlameInput::kPressureRate);
-  const RecordSpectra record = WithoutInstrument(plain, {InstrumentsOfHeatRelease()[0], 300.0});
+  const RecordSpectra record = WithoutInstrument(plain, {SharedEffects()[0], {300.0}});
   const NoiseTerm sensor{LoopNoise::kHeatReleaseSensor, 1};
   const Eigen::VectorXd shape = NoiseShape(sensor, record);
   for (Eigen::Index i = 0; i < record.bins(); ++i) {

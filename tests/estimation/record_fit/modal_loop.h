@@ -4,6 +4,9 @@
 //   p = sum_k (a_k x_k' + b_k omega_k x_k),   x_k'' + 2 xi_k omega_k x_k' + omega_k^2 x_k = q
 //   q(t) = Phi(p'(t - tau)) + n(t),   Phi(v) = -slope range tanh(v / range)
 //
+// Where a share of p' comes later, Phi is of (1 - share) p'(t - tau) + share p'(t - tau - later);
+// where the flame lags, what Phi makes of it goes through 1 / (1 + s / w_lag).
+//
 // Each mode takes a step exactly, q being the mean of the step's ends: an error of (omega h)^2 /
 // 12, 1e-5 at 200 Hz. n is white noise through a low-pass of fourth order, below the records' rate;
 // both sensors have white noise. Frequencies in Hz, a and b in p per q rad/s.
@@ -29,6 +32,9 @@ struct ModalLoop {
   };
   std::vector<Mode> modes;
   double tau_s = 0.0;
+  double share = 0.0;    // of the second path, before the curve
+  double later_s = 0.0;  // which comes later by this
+  double lag_hz = 0.0;   // of the flame's answer; 0: none
   double slope = 0.0;
   double range = 1000.0;
   double noise = 0.1;          // of q at saturation, root mean square
@@ -47,7 +53,9 @@ struct ModalLoop {
       const double w = 2.0 * std::numbers::pi * mode.omega_hz;
       g += (mode.a * s + mode.b * w) / (s * s + 2.0 * mode.xi * w * s + w * w);
     }
-    return -s * g * std::exp(-s * tau_s);
+    const std::complex<double> lag =
+        lag_hz > 0.0 ? 1.0 / (1.0 + std::complex<double>(0.0, hz / lag_hz)) : 1.0;
+    return -s * g * std::exp(-s * tau_s) * (1.0 - share + share * std::exp(-s * later_s)) * lag;
   }
 };
 
@@ -99,12 +107,16 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
   }
   // v of the step before the last is needed tau later, less the step by which q comes after p.
   const auto delay = static_cast<std::size_t>(std::lround(loop.tau_s / h)) - 1;
-  std::vector<double> past(delay + 1, 0.0);
+  const auto later = static_cast<std::size_t>(std::lround(loop.later_s / h));
+  std::vector<double> past(delay + later + 1, 0.0);
   std::size_t newest = 0;
   const double share = 1.0 - std::exp(-2.0 * std::numbers::pi * loop.noise_hz * h);
   // The low-pass of fourth order passes 5/16 of the power of one of first order.
   const double drive = loop.noise * loop.range * loop.slope / std::sqrt(share / 2.0 * 5.0 / 16.0);
   std::array<double, 4> lowpass{};
+  const double lag =
+      loop.lag_hz > 0.0 ? 1.0 - std::exp(-2.0 * std::numbers::pi * loop.lag_hz * h) : 1.0;
+  double burning = 0.0;
   RandomStream random(seed);
   Record out;
   out.sampling_hz = loop.sampling_hz;
@@ -126,7 +138,10 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
     newest = (newest + 1) % past.size();
     double drawn = drive * random.Normal();
     for (double& stage : lowpass) drawn = stage += share * (drawn - stage);
-    const double next = -loop.slope * loop.range * std::tanh(past[newest] / loop.range) + drawn;
+    const double first = past[(newest + later) % past.size()];
+    const double v = (1.0 - loop.share) * first + loop.share * past[newest];
+    burning += lag * (-loop.slope * loop.range * std::tanh(v / loop.range) - burning);
+    const double next = burning + drawn;
     const double mean = 0.5 * (q + next);
     for (State& m : states) {
       const double x = m.e00 * m.x + m.e01 * m.rate + m.input0 * mean;

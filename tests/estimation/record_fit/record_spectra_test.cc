@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
+
+#include "tests/estimation/record_fit/modal_loop.h"
 
 namespace howl {
 namespace {
@@ -26,6 +29,45 @@ TEST(RecordSpectra, TheInputsRangeIsNotThatOfTheRecordsEnds) {
     const RecordSpectra spectra = MakeRecordSpectra(record, kCycle_hz, input);
     EXPECT_NEAR(spectra.scale.input_range, largest, 0.05 * largest) << static_cast<int>(input);
   }
+}
+
+// A delay by whole samples may stand before a curve or behind it, and a factor before a line too:
+// by one way the flame's functions are made anew in time, by the other their spectra are
+// multiplied.
+TEST(RecordSpectra, FiltersStandBeforeTheCurveOrBehindIt) {
+  constexpr double kCycle_hz = 200.0;
+  constexpr double kSamples = 7.0;
+  const RecordSpectra plain = MakeRecordSpectra(SimulateModalLoop(DuctOfModes(2), 0.4, 1),
+                                                kCycle_hz, FlameInput::kPressureRate);
+  const auto late = [&](std::complex<double> s) {
+    return std::exp(-s * (2.0 * std::numbers::pi * kCycle_hz * kSamples / plain.sampling_hz));
+  };
+  const RecordSpectra before = WithFilters(plain, {late, nullptr});
+  const RecordSpectra behind = WithFilters(plain, {nullptr, late});
+  EXPECT_LT((before.flame - behind.flame).norm(), 1e-9 * plain.flame.norm());
+  EXPECT_GT((before.flame - plain.flame).norm(), 0.1 * plain.flame.norm());
+  EXPECT_LT((before.slopes - plain.slopes).norm(), 1e-9 * plain.slopes.norm());
+  for (const RecordSpectra* record : {&before, &behind}) {
+    EXPECT_LT((record->input - plain.input.cwiseProduct(plain.s.unaryExpr(late))).norm(),
+              1e-12 * plain.input.norm());
+    ASSERT_TRUE(record->middle != nullptr || plain.middle == nullptr);
+  }
+  const RecordSpectra both = WithFilters(before, {nullptr, late});
+  const RecordSpectra twice = WithFilters(behind, {nullptr, late});
+  EXPECT_LT((both.flame - twice.flame).norm(), 1e-9 * plain.flame.norm());
+}
+
+// Noise of p that is taken out of what drives a flame stays out when it is filtered.
+TEST(RecordSpectra, FiltersKeepWhatDrivesTheFlame) {
+  const RecordSpectra plain = MakeRecordSpectra(SimulateModalLoop(DuctOfModes(2), 0.4, 1), 200.0,
+                                                FlameInput::kPressureRate);
+  const auto half = [](std::complex<double>) { return std::complex<double>(0.5); };
+  Eigen::VectorXd noise(plain.Samples());
+  RandomStream random(3);
+  for (double& each : noise) each = 0.1 * random.Normal();
+  const RecordSpectra first = WithFilters(DrivenWithout(plain, noise), {half, nullptr});
+  const RecordSpectra last = DrivenWithout(WithFilters(plain, {half, nullptr}), noise);
+  EXPECT_LT((first.flame - last.flame).norm(), 1e-12 * plain.flame.norm());
 }
 
 }  // namespace
