@@ -39,7 +39,7 @@ int Run(int argc, char** argv) {
   PrintRow("untouched", clean, Seconds() - begun);
   // Instruments that the rig has itself are looked for anew: with a known one they make one.
   LoopForm base = clean.best;
-  base.instruments.clear();
+  base.effects.clear();
   for (const KnownEffect& known : KnownEffects()) {
     const std::vector<std::string> ids = LoopItemIds();
     if (known.effect != "none" && std::ranges::find(ids, known.effect) == ids.end()) continue;

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 
@@ -127,8 +127,8 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
         return std::sqrt(errors.cwiseAbs2().mean());
       });
       break;
-    case LoopItemKind::kInstrument:
-      return EstimateInstrument(records, fit, item, "best/", options);
+    case LoopItemKind::kSharedEffect:
+      return EstimateSharedEffect(records, fit, item, "best/", options);
   }
   return out;
 }

@@ -1,5 +1,5 @@
 // What an item of a budget is in numbers: the mean over the operating points of the best loop,
-// between the least and the largest; of an instrument the value that all share, with its interval.
+// between the least and the largest; of a shared effect the values, with their intervals.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
 

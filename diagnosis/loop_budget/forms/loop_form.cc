@@ -23,8 +23,8 @@ const NoiseTerm* TermOf(const LoopForm& model, LoopNoise source) {
 }
 
 bool HasShared(const LoopForm& model, const std::string& id) {
-  return std::ranges::any_of(model.instruments,
-                             [&](const LoopInstrument& each) { return each.effect->id() == id; });
+  return std::ranges::any_of(model.effects,
+                             [&](const SharedEffect& each) { return each.effect->id() == id; });
 }
 
 bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& base) {
@@ -51,7 +51,7 @@ bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& bas
       return !now.second_path && !HasShared(model, item.id);
     case LoopItemKind::kFlameInput:
       return model.flame_input == base.flame_input && item.input != base.flame_input;
-    case LoopItemKind::kInstrument:
+    case LoopItemKind::kSharedEffect:
       return !HasShared(model, item.id) && !(now.second_path && item.id == kSecondPathId);
     case LoopItemKind::kLineErrors:
       return now.*item.lines == 0;
@@ -126,8 +126,8 @@ LoopForm With(LoopForm model, const LoopItem& item) {
     case LoopItemKind::kFlameInput:
       model.flame_input = item.input;
       break;
-    case LoopItemKind::kInstrument:
-      model.instruments.push_back({item.instrument, NullValues(*item.instrument)});
+    case LoopItemKind::kSharedEffect:
+      model.effects.push_back({item.effect, NullValues(*item.effect)});
       break;
     case LoopItemKind::kLineErrors:
       structure.*item.lines = kCycleLines;
@@ -176,9 +176,9 @@ LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base) {
     case LoopItemKind::kFlameInput:
       model.flame_input = base.flame_input;
       break;
-    case LoopItemKind::kInstrument:
-      std::erase_if(model.instruments, [&](const LoopInstrument& each) {
-        return each.effect->id() == item.instrument->id();
+    case LoopItemKind::kSharedEffect:
+      std::erase_if(model.effects, [&](const SharedEffect& each) {
+        return each.effect->id() == item.effect->id();
       });
       break;
     case LoopItemKind::kLineErrors:

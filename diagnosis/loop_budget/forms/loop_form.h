@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "diagnosis/loop_budget/forms/loop_instrument.h"
 #include "diagnosis/loop_budget/forms/loop_item.h"
+#include "diagnosis/loop_budget/forms/shared_effect.h"
 #include "estimation/joint_records/record_loop_spec.h"
 #include "estimation/record_fit/loop/loop_point.h"
 
@@ -14,7 +14,7 @@ namespace howl {
 struct LoopForm {
   PointStructure structure;
   FlameInput flame_input = FlameInput::kPressureRate;
-  std::vector<LoopInstrument> instruments;
+  std::vector<SharedEffect> effects;
   bool fine_noise = false;  // noise_shape
 };
 
@@ -28,7 +28,7 @@ LoopForm LeastForm(const RecordLoopSpec& spec);
 // All that may be added to `model` now, of a search that began at `base`.
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);
 
-// An instrument comes at its null.
+// A shared effect comes at its null.
 LoopForm With(LoopForm model, const LoopItem& item);
 // `model` has the item, which `base` has not. Modes that were added need frequencies and dampings
 // of their own: without either they go as well.

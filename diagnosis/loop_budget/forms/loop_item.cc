@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/loop_budget/forms/loop_instrument.h"
+#include "diagnosis/loop_budget/forms/shared_effect.h"
 
 namespace howl {
 namespace {
@@ -51,7 +51,7 @@ std::vector<LoopItem> MakeItems() {
                  .lines = &PointStructure::flame_lines});
   for (const EffectPointer& effect : SharedEffects()) {
     out.push_back(
-        {.id = std::string(effect->id()), .kind = LoopItemKind::kInstrument, .instrument = effect});
+        {.id = std::string(effect->id()), .kind = LoopItemKind::kSharedEffect, .effect = effect});
   }
   return out;
 }
@@ -76,7 +76,7 @@ std::string KeyOf(const LoopItem& item) {
     return item.id + "_" + std::string(LoopNoiseName(item.noise.source)) + "_" +
            std::to_string(std::lround(item.noise.mains_hz));
   }
-  return item.id + (item.instrument ? item.instrument->form().value : "");
+  return item.id + (item.effect ? item.effect->form().value : "");
 }
 
 }  // namespace howl

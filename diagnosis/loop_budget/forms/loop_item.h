@@ -15,7 +15,7 @@
 //   second_delay_path                a share of the flame answers later
 //   flame_input_pressure, _velocity  the flame answers to another signal than the base's
 //   ID of the catalogue              an instrument of q, or a filter of the flame, with parameters
-//                                    that all points share (loop_instrument.h); a second path
+//                                    that all points share (shared_effect.h); a second path
 //                                    before the flame's curve is one of them
 //   acoustic_line_errors, flame_line_errors
 //                                    free errors at the cycle's lines (loop_point.h): no cause, but
@@ -53,7 +53,7 @@ enum class LoopItemKind : std::uint8_t {
   kDelaySpread,
   kSecondPath,
   kFlameInput,
-  kInstrument,
+  kSharedEffect,
   kLineErrors
 };
 
@@ -63,7 +63,7 @@ struct LoopItem {
   NoiseTerm noise = {};                          // of kNoise
   DelaySpread spread = DelaySpread::kNone;       // of kDelaySpread
   FlameInput input = FlameInput::kPressureRate;  // of kFlameInput
-  EffectPointer instrument = nullptr;            // of kInstrument: one form of the effect
+  EffectPointer effect = nullptr;                // of kSharedEffect: one form of the effect
   int PointStructure::*lines = nullptr;          // of kLineErrors
 };
 
@@ -74,7 +74,7 @@ std::vector<std::string> LoopItemIds();
 // In keys of finished units (fit_units.h): forms of one effect are different items.
 std::string KeyOf(const LoopItem& item);
 
-// Forms of an instrument are items of their own.
+// Forms of a shared effect are items of their own.
 const std::vector<LoopItem>& AllLoopItems();
 
 }  // namespace howl

@@ -13,9 +13,9 @@ namespace {
 // Filters first: they make the flame's functions anew, and with them the record's middle.
 RecordSpectra Without(const LoopForm& form, RecordSpectra record) {
   for (const bool filters : {true, false}) {
-    for (const LoopInstrument& instrument : form.instruments) {
-      if (IsFlameFilter(*instrument.effect) != filters) continue;
-      record = WithoutInstrument(std::move(record), instrument);
+    for (const SharedEffect& shared : form.effects) {
+      if (IsFlameFilter(*shared.effect) != filters) continue;
+      record = RecordBeside(std::move(record), shared);
     }
   }
   return record;
@@ -81,11 +81,11 @@ RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t
 }
 
 double LoopRecords::LogJacobianOfWhole(const LoopForm& form, std::size_t e) const {
-  return LogJacobian(Of(form.flame_input).points[e].record, form.instruments);
+  return LogJacobian(Of(form.flame_input).points[e].record, form.effects);
 }
 
 double LoopRecords::LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const {
-  return LogJacobian(Of(form.flame_input).halves[e][half], form.instruments);
+  return LogJacobian(Of(form.flame_input).halves[e][half], form.effects);
 }
 
 }  // namespace howl

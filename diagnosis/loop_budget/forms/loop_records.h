@@ -29,7 +29,7 @@ class LoopRecords {
   std::size_t size() const { return names_.size(); }
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<double>& cycle_hz() const { return cycle_hz_; }
-  // As `form` has them, without its instruments.
+  // As `form` has them, without its shared effects.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
   // Without its middle, which costs as much as the rest.

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/forms/odds.h"
-#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/parallel.h"
 
 namespace howl {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/search/loop_removal.h"
-#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -68,7 +68,7 @@ void Search::Forward(LoopFound* out) {
     out->steps.push_back(std::move(*next));
   }
   for (const LoopStep& step : out->steps) {
-    if (step.item.kind != LoopItemKind::kInstrument) continue;
+    if (step.item.kind != LoopItemKind::kSharedEffect) continue;
     out->best = Refined(records_, std::move(out->best), step.item, "best/", options_);
   }
 }

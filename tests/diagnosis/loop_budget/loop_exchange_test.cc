@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {

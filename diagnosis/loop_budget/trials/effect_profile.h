@@ -1,7 +1,7 @@
-// The profile of the evidence over the values of a shared effect's parameters (loop_instrument.h),
+// The profile of the evidence over the values of a shared effect's parameters (shared_effect.h),
 // all else of each operating point fitted anew at each.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_INSTRUMENT_PROFILE_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_INSTRUMENT_PROFILE_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_EFFECT_PROFILE_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_EFFECT_PROFILE_H_
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -27,7 +27,7 @@ Eigen::VectorXd SearchSpans(const Effect& effect);
 enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
 
 // What values are worth, and each point's fit there.
-struct InstrumentPoint {
+struct EffectPoint {
   Eigen::VectorXd u;
   double log_posterior = -std::numeric_limits<double>::infinity();
   double log_evidence = -std::numeric_limits<double>::infinity();
@@ -35,7 +35,7 @@ struct InstrumentPoint {
 };
 
 struct ProfileMaximum {
-  InstrumentPoint at;
+  EffectPoint at;
   Eigen::MatrixXd information;  // of u; zero where it is not known
 
   // Of each u; infinite where the profile has no maximum.
@@ -45,29 +45,27 @@ struct ProfileMaximum {
   double LogShare(const Eigen::VectorXd& spans) const;
 };
 
-class InstrumentProfile {
+class EffectProfile {
  public:
   // With the item in the form that stands in it, whatever `from` has. Units are kept under `key`.
-  InstrumentProfile(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
-                    std::string key, const LoopBudgetOptions& options);
+  EffectProfile(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
+                std::string key, const LoopBudgetOptions& options);
 
-  const Effect& effect() const { return *form_.instruments.back().effect; }
+  const Effect& effect() const { return *form_.effects.back().effect; }
   // The null, or where it is infinite the end of the range next to it.
   Eigen::VectorXd NullEnd() const;
   LoopForm FormAt(const Eigen::VectorXd& u) const;
-  InstrumentPoint At(const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& starts,
-                     const PointFitOptions& options = {},
-                     RecordExtent extent = RecordExtent::kWhole);
+  EffectPoint At(const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& starts,
+                 const PointFitOptions& options = {}, RecordExtent extent = RecordExtent::kWhole);
   // The best of the values that a search begins with, the null among them: of the first parameter
   // outwards from its null, each from where its neighbour's fits came to, by the records' middles;
   // at its maximum. Where there are two parameters, the first has no effect at its null, whatever
   // the second is: the null, and Newton's steps of the first from there, with the values of the
   // second from which they gain more than from those beside them.
-  std::vector<InstrumentPoint> Begin(const std::vector<Eigen::VectorXd>& at_null);
+  std::vector<EffectPoint> Begin(const std::vector<Eigen::VectorXd>& at_null);
   // The maximum of the log posterior next to `best`, by Newton's steps, or as far as their top has
   // the evidence `least`.
-  ProfileMaximum From(InstrumentPoint best,
-                      double least = -std::numeric_limits<double>::infinity());
+  ProfileMaximum From(EffectPoint best, double least = -std::numeric_limits<double>::infinity());
 
  private:
   // Of a point's log posterior v by u, all else, x, moving along `by` to stay most likely:
@@ -79,12 +77,12 @@ class InstrumentProfile {
     Eigen::MatrixXd by;  // a column a u
   };
   // By the first parameters, `count` of them.
-  std::vector<Slopes> SlopesAt(const InstrumentPoint& point, Eigen::Index count) const;
-  std::vector<InstrumentPoint> BeginFromNull(const InstrumentPoint& null);
+  std::vector<Slopes> SlopesAt(const EffectPoint& point, Eigen::Index count) const;
+  std::vector<EffectPoint> BeginFromNull(const EffectPoint& null);
   // Newton's step within the range; where the profile is not convex up the slope.
   Eigen::VectorXd StepFrom(const Eigen::VectorXd& u, const Eigen::VectorXd& slope,
                            const Eigen::MatrixXd& information) const;
-  Slopes SlopesOfPoint(const InstrumentPoint& point, std::size_t e, Eigen::Index count) const;
+  Slopes SlopesOfPoint(const EffectPoint& point, std::size_t e, Eigen::Index count) const;
 
   const LoopRecords& records_;
   const LoopFit& from_;
@@ -97,4 +95,4 @@ class InstrumentProfile {
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_INSTRUMENT_PROFILE_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_EFFECT_PROFILE_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 
 #include <glog/logging.h>
 
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "diagnosis/loop_budget/trials/instrument_profile.h"
+#include "diagnosis/loop_budget/trials/effect_profile.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -16,37 +16,36 @@ namespace {
 constexpr int kMostRounds = 3;
 constexpr double kStands = 0.1;  // of the value's own deviation
 
-const LoopInstrument& InstrumentOf(const LoopFit& fit, const LoopItem& item) {
-  const auto at = std::ranges::find_if(fit.model.instruments, [&](const LoopInstrument& each) {
-    return each.effect->id() == item.id;
-  });
-  CHECK(at != fit.model.instruments.end());
+const SharedEffect& EffectOf(const LoopFit& fit, const LoopItem& item) {
+  const auto at = std::ranges::find_if(
+      fit.model.effects, [&](const SharedEffect& each) { return each.effect->id() == item.id; });
+  CHECK(at != fit.model.effects.end());
   return *at;
 }
 
 // In the form that the fit has.
 LoopItem AsFitted(const LoopFit& fit, LoopItem item) {
-  item.instrument = InstrumentOf(fit, item).effect;
+  item.effect = EffectOf(fit, item).effect;
   return item;
 }
 
 Eigen::VectorXd ValuesOf(const LoopFit& fit, const LoopItem& item) {
-  const LoopInstrument& instrument = InstrumentOf(fit, item);
-  return ToSearch(*instrument.effect, instrument.values);
+  const SharedEffect& shared = EffectOf(fit, item);
+  return ToSearch(*shared.effect, shared.values);
 }
 
 }  // namespace
 
-LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, double standing,
-                        const LoopItem& item, const std::string& key,
-                        const LoopBudgetOptions& options) {
-  InstrumentProfile profile(records, from, item, key + "trial/" + KeyOf(item) + "/", options);
+LoopTrial TrySharedEffect(const LoopRecords& records, const LoopFit& from, double standing,
+                          const LoopItem& item, const std::string& key,
+                          const LoopBudgetOptions& options) {
+  EffectProfile profile(records, from, item, key + "trial/" + KeyOf(item) + "/", options);
   double without = standing;
   for (std::size_t e = 0; e < records.size(); ++e) {
     without += records.LogJacobianOfWhole(from.model, e);
   }
   ProfileMaximum maximum;
-  for (InstrumentPoint& begin : profile.Begin(ParametersOf(from))) {
+  for (EffectPoint& begin : profile.Begin(ParametersOf(from))) {
     ProfileMaximum next = profile.From(std::move(begin), without);
     if (next.at.log_posterior > maximum.at.log_posterior) maximum = std::move(next);
   }
@@ -61,14 +60,14 @@ std::vector<LoopTrial> TryAll(const LoopRecords& records, const LoopFit& from, d
                               const std::vector<LoopItem>& items, const std::string& key,
                               const LoopBudgetOptions& options) {
   std::vector<LoopItem> own;
-  std::vector<LoopItem> instruments;
+  std::vector<LoopItem> effects;
   for (const LoopItem& item : items) {
-    (item.kind == LoopItemKind::kInstrument ? instruments : own).push_back(item);
+    (item.kind == LoopItemKind::kSharedEffect ? effects : own).push_back(item);
   }
   std::vector<LoopTrial> out = TryItems(records, from, standing, own, key, options);
   out.resize(items.size());
-  RunUnits(instruments.size(), options.threads, [&](std::size_t i) {
-    out[own.size() + i] = TryInstrument(records, from, standing, instruments[i], key, options);
+  RunUnits(effects.size(), options.threads, [&](std::size_t i) {
+    out[own.size() + i] = TrySharedEffect(records, from, standing, effects[i], key, options);
   });
   return out;
 }
@@ -78,7 +77,7 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
   for (int round = 0; round < kMostRounds; ++round) {
     const std::string of_round = key + "refined/" + KeyOf(item) + "/" + std::to_string(round) + "/";
     const LoopItem same = AsFitted(fit, item);
-    InstrumentProfile profile(records, fit, same, of_round, options);
+    EffectProfile profile(records, fit, same, of_round, options);
     const Eigen::VectorXd before = ValuesOf(fit, item);
     const ProfileMaximum maximum = profile.From(profile.At(before, ParametersOf(fit)));
     const Eigen::ArrayXd moved = (maximum.at.u - before).array().abs();
@@ -95,15 +94,15 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
 LoopFit FitTrial(const LoopRecords& records, const LoopTrial& trial, const StartRows& starts,
                  const std::string& key, const LoopBudgetOptions& options) {
   LoopFit fit = FitLoopFrom(records, trial.model, starts, MaximumTaken::kBest, key, options);
-  if (trial.item.kind != LoopItemKind::kInstrument) return fit;
+  if (trial.item.kind != LoopItemKind::kSharedEffect) return fit;
   return Refined(records, std::move(fit), trial.item, key, options);
 }
 
-std::vector<EstimatedParameter> EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
-                                                   const LoopItem& item, const std::string& key,
-                                                   const LoopBudgetOptions& options) {
-  InstrumentProfile profile(records, fit, AsFitted(fit, item),
-                            key + "estimate/" + KeyOf(item) + "/", options);
+std::vector<EstimatedParameter> EstimateSharedEffect(const LoopRecords& records, const LoopFit& fit,
+                                                     const LoopItem& item, const std::string& key,
+                                                     const LoopBudgetOptions& options) {
+  EffectProfile profile(records, fit, AsFitted(fit, item), key + "estimate/" + KeyOf(item) + "/",
+                        options);
   const ProfileMaximum maximum = profile.From(profile.At(ValuesOf(fit, item), ParametersOf(fit)));
   const Eigen::VectorXd deviations = maximum.Deviations();
   std::vector<EstimatedParameter> out;

@@ -1,5 +1,5 @@
 // Instruments of q that a record shows, and those that it does not.
-#include "diagnosis/loop_budget/forms/loop_instrument.h"
+#include "diagnosis/loop_budget/forms/shared_effect.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_budget.h"
-#include "diagnosis/loop_budget/trials/loop_instrument_trial.h"
+#include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
@@ -32,14 +32,14 @@ std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig) {
   const double standing = StandingEvidence(records, from, "", options);
   std::vector<LoopTrial> out;
   for (const LoopItem& item : AllLoopItems()) {
-    if (item.kind != LoopItemKind::kInstrument) continue;
-    out.push_back(TryInstrument(records, from, standing, item, "", options));
+    if (item.kind != LoopItemKind::kSharedEffect) continue;
+    out.push_back(TrySharedEffect(records, from, standing, item, "", options));
   }
   return out;
 }
 
 // The loop is a special case of each: no more is lost than the parameter's prior asks.
-TEST(LoopInstrument, CostsItsPriorWhereThereIsNone) {
+TEST(SharedEffect, CostsItsPriorWhereThereIsNone) {
   for (const LoopTrial& trial : TrialsOn(Ducts({}))) {
     EXPECT_GT(trial.gain, -15.0) << KeyOf(trial.item);
     EXPECT_LT(trial.gain, 3.0) << KeyOf(trial.item);
@@ -50,15 +50,15 @@ const LoopTrial& BestOf(const std::vector<LoopTrial>& trials) {
   return *std::ranges::max_element(trials, {}, &LoopTrial::gain);
 }
 
-TEST(LoopInstrument, FindsAStrongLowPass) {
+TEST(SharedEffect, FindsAStrongLowPass) {
   const std::vector<LoopTrial> trials =
       TrialsOn(Ducts([](Record* record) { LowPass(120.0, record); }));
   EXPECT_EQ(BestOf(trials).item.id, "q_sensor_lowpass");
   EXPECT_GT(BestOf(trials).gain, 100.0);
-  EXPECT_NEAR(BestOf(trials).model.instruments.back().values[0], 120.0, 2.0);
+  EXPECT_NEAR(BestOf(trials).model.effects.back().values[0], 120.0, 2.0);
 }
 
-TEST(LoopInstrument, FindsAStrongLeak) {
+TEST(SharedEffect, FindsAStrongLeak) {
   constexpr double kLeak = 0.5;
   const auto ratio_of = [](const Record& record) {
     return RootMeanSquare(record.heat_release) / RootMeanSquare(record.pressure);
@@ -74,7 +74,7 @@ TEST(LoopInstrument, FindsAStrongLeak) {
   const std::vector<LoopTrial> trials = TrialsOn(rig);
   EXPECT_EQ(BestOf(trials).item.id, "crosstalk_p_to_q");
   EXPECT_GT(BestOf(trials).gain, 100.0);
-  EXPECT_NEAR(BestOf(trials).model.instruments.back().values[0], relative_to_record, 0.01);
+  EXPECT_NEAR(BestOf(trials).model.effects.back().values[0], relative_to_record, 0.01);
 }
 
 std::vector<LoopRecord> Changed(double duration_s, const std::function<void(ModalLoop*)>& change) {
@@ -85,29 +85,29 @@ std::vector<LoopRecord> Changed(double duration_s, const std::function<void(Moda
   return out;
 }
 
-TEST(LoopInstrument, FindsASecondPathBeforeTheCurve) {
+TEST(SharedEffect, FindsASecondPathBeforeTheCurve) {
   const std::vector<LoopTrial> trials = TrialsOn(Changed(4.0, [](ModalLoop* loop) {
     loop->share = 0.25;
     loop->later_s = 1e-3;
   }));
   EXPECT_EQ(KeyOf(BestOf(trials).item), "second_delay_pathbefore_flame");
   EXPECT_GT(BestOf(trials).gain, 50.0);
-  const std::vector<double>& values = BestOf(trials).model.instruments.back().values;
+  const std::vector<double>& values = BestOf(trials).model.effects.back().values;
   ASSERT_EQ(values.size(), 2u);
   EXPECT_NEAR(values[0], 0.25, 0.04);
   EXPECT_NEAR(values[1], 1e-3, 8e-5);
 }
 
-TEST(LoopInstrument, FindsALagOfTheFlame) {
+TEST(SharedEffect, FindsALagOfTheFlame) {
   const std::vector<LoopTrial> trials =
       TrialsOn(Changed(0.8, [](ModalLoop* loop) { loop->lag_hz = 300.0; }));
   EXPECT_EQ(BestOf(trials).item.id, "flame_lowpass");
   EXPECT_GT(BestOf(trials).gain, 100.0);
-  EXPECT_NEAR(BestOf(trials).model.instruments.back().values[0], 300.0, 15.0);
+  EXPECT_NEAR(BestOf(trials).model.effects.back().values[0], 300.0, 15.0);
 }
 
 // A second path stands behind the curve or before it.
-TEST(LoopInstrument, IsNoSecondPathBesideAnother) {
+TEST(SharedEffect, IsNoSecondPathBesideAnother) {
   const auto offered = [](const LoopForm& form) {
     return std::ranges::count(LoopItems(form, DuctsForm()), kSecondPathId, &LoopItem::id);
   };
@@ -118,10 +118,10 @@ TEST(LoopInstrument, IsNoSecondPathBesideAnother) {
   }
 }
 
-TEST(LoopInstrument, ShapesTheNoiseBehindIt) {
+TEST(SharedEffect, ShapesTheNoiseBehindIt) {
   LoopRecord of = DuctAt(1.5, 0.8, 1);
   const RecordSpectra plain = MakeRecordSpectra(of.record, of.cycle_hz, FlameInput::kPressureRate);
-  const RecordSpectra record = WithoutInstrument(plain, {SharedEffects()[0], {300.0}});
+  const RecordSpectra record = RecordBeside(plain, {SharedEffects()[0], {300.0}});
   const NoiseTerm sensor{LoopNoise::kHeatReleaseSensor, 1};
   const Eigen::VectorXd shape = NoiseShape(sensor, record);
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
@@ -132,7 +132,7 @@ TEST(LoopInstrument, ShapesTheNoiseBehindIt) {
 }
 
 // White noise of the sensor's electronics comes in behind its low-pass, and stays white there.
-TEST(LoopInstrument, HasNoColouredNoiseBesideIt) {
+TEST(SharedEffect, HasNoColouredNoiseBesideIt) {
   const std::vector<LoopRecord> rig = Ducts([](Record* record) { LowPass(150.0, record); });
   LoopBudgetOptions options;
   options.starts = 4;

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/forms/loop_instrument.h"
+#include "diagnosis/loop_budget/forms/shared_effect.h"
 
 #include <cmath>
 #include <complex>
@@ -10,24 +10,24 @@
 namespace howl {
 namespace {
 
-std::complex<double> ResponseOf(const LoopInstrument& instrument, double frequency_hz) {
-  return instrument.effect->HeatReleaseInstrument(frequency_hz, instrument.values);
+std::complex<double> ResponseOf(const SharedEffect& shared, double frequency_hz) {
+  return shared.effect->HeatReleaseInstrument(frequency_hz, shared.values);
 }
 
 // In units of the record: a leak is relative to the record's own q over p.
-std::complex<double> LeakOf(const LoopInstrument& instrument, double frequency_hz) {
+std::complex<double> LeakOf(const SharedEffect& shared, double frequency_hz) {
   EffectContext at;
   at.heat_release_over_pressure = at.own_heat_release_over_pressure = 1.0;
-  return instrument.effect->PressureLeak(frequency_hz, at, instrument.values);
+  return shared.effect->PressureLeak(frequency_hz, at, shared.values);
 }
 
-bool IsAtNull(const LoopInstrument& instrument) {
-  return instrument.values[0] == instrument.effect->parameters()[0].null_value;
+bool IsAtNull(const SharedEffect& shared) {
+  return shared.values[0] == shared.effect->parameters()[0].null_value;
 }
 
 // What it turns the cycle by, all but the cycle is turned back by: the loop's delay is that of the
 // cycle then, which records tell best, with the filter as without it.
-FlameFilters FiltersOf(const LoopInstrument& filter, double cycle_hz) {
+FlameFilters FiltersOf(const SharedEffect& filter, double cycle_hz) {
   const auto at = [filter, cycle_hz](auto response) {
     const auto plain = [filter, cycle_hz, response](std::complex<double> s) {
       return ((*filter.effect).*response)(s.imag() * cycle_hz, {}, filter.values);
@@ -59,43 +59,41 @@ std::vector<EffectPointer> SharedEffects() {
   return out;
 }
 
-RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& instrument) {
-  if (IsAtNull(instrument)) return record;
-  if (IsFlameFilter(*instrument.effect)) {
-    const FlameFilters filters = FiltersOf(instrument, record.scale.cycle_hz);
+RecordSpectra RecordBeside(RecordSpectra record, const SharedEffect& shared) {
+  if (IsAtNull(shared)) return record;
+  if (IsFlameFilter(*shared.effect)) {
+    const FlameFilters filters = FiltersOf(shared, record.scale.cycle_hz);
     return WithFilters(std::move(record), filters);
   }
   for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
     const double hz = record.edge_s[i].imag() * record.scale.cycle_hz;
     record.heat_release[i] =
-        (record.heat_release[i] - LeakOf(instrument, hz) * record.pressure[i]) /
-        ResponseOf(instrument, hz);
+        (record.heat_release[i] - LeakOf(shared, hz) * record.pressure[i]) / ResponseOf(shared, hz);
   }
   if (record.instrument_power.size() == 0) record.instrument_power.setOnes(record.bins());
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const double hz = record.s[i].imag() * record.scale.cycle_hz;
-    record.instrument_power[i] *= std::norm(ResponseOf(instrument, hz));
+    record.instrument_power[i] *= std::norm(ResponseOf(shared, hz));
   }
   if (record.middle) {
-    record.middle =
-        std::make_shared<const RecordSpectra>(WithoutInstrument(*record.middle, instrument));
+    record.middle = std::make_shared<const RecordSpectra>(RecordBeside(*record.middle, shared));
   }
   return record;
 }
 
-double LogJacobian(const RecordSpectra& record, const LoopInstrument& instrument) {
-  if (IsAtNull(instrument) || IsFlameFilter(*instrument.effect)) return 0.0;
+double LogJacobian(const RecordSpectra& record, const SharedEffect& shared) {
+  if (IsAtNull(shared) || IsFlameFilter(*shared.effect)) return 0.0;
   double sum = 0.0;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const double hz = record.s[i].imag() * record.scale.cycle_hz;
-    sum -= record.share[i] * std::log(std::norm(ResponseOf(instrument, hz)));
+    sum -= record.share[i] * std::log(std::norm(ResponseOf(shared, hz)));
   }
   return sum;
 }
 
-double LogJacobian(const RecordSpectra& record, const std::vector<LoopInstrument>& instruments) {
+double LogJacobian(const RecordSpectra& record, const std::vector<SharedEffect>& effects) {
   double sum = 0.0;
-  for (const LoopInstrument& each : instruments) sum += LogJacobian(record, each);
+  for (const SharedEffect& each : effects) sum += LogJacobian(record, each);
   return sum;
 }
 

@@ -1,7 +1,7 @@
-// What a shared effect (loop_instrument.h) would gain: the profile of the evidence over its
+// What a shared effect (shared_effect.h) would gain: the profile of the evidence over its
 // parameters, all else of each operating point fitted anew.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_INSTRUMENT_TRIAL_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_INSTRUMENT_TRIAL_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_SHARED_EFFECT_TRIAL_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_SHARED_EFFECT_TRIAL_H_
 
 #include <string>
 #include <vector>
@@ -13,9 +13,9 @@ namespace howl {
 
 // The gain, above `standing` (loop_trial.h), is paid for by Laplace's evidence of the parameters,
 // whose priors are even over their ranges.
-LoopTrial TryInstrument(const LoopRecords& records, const LoopFit& from, double standing,
-                        const LoopItem& item, const std::string& key,
-                        const LoopBudgetOptions& options);
+LoopTrial TrySharedEffect(const LoopRecords& records, const LoopFit& from, double standing,
+                          const LoopItem& item, const std::string& key,
+                          const LoopBudgetOptions& options);
 
 // Of items of any kind: those that are no shared effects first.
 std::vector<LoopTrial> TryAll(const LoopRecords& records, const LoopFit& from, double standing,
@@ -34,10 +34,10 @@ LoopFit FitTrial(const LoopRecords& records, const LoopTrial& trial, const Start
                  const std::string& key, const LoopBudgetOptions& options);
 
 // Of a shared effect that the fit has, with the 95 % intervals of its profile.
-std::vector<EstimatedParameter> EstimateInstrument(const LoopRecords& records, const LoopFit& fit,
-                                                   const LoopItem& item, const std::string& key,
-                                                   const LoopBudgetOptions& options);
+std::vector<EstimatedParameter> EstimateSharedEffect(const LoopRecords& records, const LoopFit& fit,
+                                                     const LoopItem& item, const std::string& key,
+                                                     const LoopBudgetOptions& options);
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_INSTRUMENT_TRIAL_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_SHARED_EFFECT_TRIAL_H_

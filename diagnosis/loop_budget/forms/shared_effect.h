@@ -5,8 +5,8 @@
 // is what the loop is fitted to, and filters before and behind the flame's curve, which the record
 // is made ready with (record_spectra.h). The likelihood of what was recorded has the Jacobian of
 // the division, which is what a bin counts for times -2 ln |H_q|.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_INSTRUMENT_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_INSTRUMENT_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@
 
 namespace howl {
 
-struct LoopInstrument {
+struct SharedEffect {
   EffectPointer effect;
   std::vector<double> values;  // of its parameters
 };
@@ -29,12 +29,12 @@ bool IsFlameFilter(const Effect& effect);
 std::vector<EffectPointer> SharedEffects();
 
 // The record as it would be without an instrument, or with the flame's filter.
-RecordSpectra WithoutInstrument(RecordSpectra record, const LoopInstrument& instrument);
+RecordSpectra RecordBeside(RecordSpectra record, const SharedEffect& shared);
 
 // ln of the Jacobian, of one and of several.
-double LogJacobian(const RecordSpectra& record, const LoopInstrument& instrument);
-double LogJacobian(const RecordSpectra& record, const std::vector<LoopInstrument>& instruments);
+double LogJacobian(const RecordSpectra& record, const SharedEffect& shared);
+double LogJacobian(const RecordSpectra& record, const std::vector<SharedEffect>& effects);
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_LOOP_INSTRUMENT_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/trials/instrument_profile.h"
+#include "diagnosis/loop_budget/trials/effect_profile.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -82,38 +82,36 @@ double ProfileMaximum::LogShare(const Eigen::VectorXd& spans) const {
   return sum;
 }
 
-InstrumentProfile::InstrumentProfile(const LoopRecords& records, const LoopFit& from,
-                                     const LoopItem& item, std::string key,
-                                     const LoopBudgetOptions& options)
+EffectProfile::EffectProfile(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
+                             std::string key, const LoopBudgetOptions& options)
     : records_(records),
       from_(from),
       form_(With(Without(from.model, item, from.model), item)),
-      low_(Ends(*item.instrument).low),
-      high_(Ends(*item.instrument).high),
+      low_(Ends(*item.effect).low),
+      high_(Ends(*item.effect).high),
       span_(high_ - low_),
       key_(std::move(key)),
       options_(options) {}
 
-LoopForm InstrumentProfile::FormAt(const Eigen::VectorXd& u) const {
+LoopForm EffectProfile::FormAt(const Eigen::VectorXd& u) const {
   LoopForm form = form_;
-  std::vector<double>& values = form.instruments.back().values;
+  std::vector<double>& values = form.effects.back().values;
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = FromSearch(effect().parameters()[i], u[static_cast<Eigen::Index>(i)]);
   }
   return form;
 }
 
-InstrumentPoint InstrumentProfile::At(const Eigen::VectorXd& u,
-                                      const std::vector<Eigen::VectorXd>& starts,
-                                      const PointFitOptions& options, RecordExtent extent) {
+EffectPoint EffectProfile::At(const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& starts,
+                              const PointFitOptions& options, RecordExtent extent) {
   const std::string key = key_ + std::to_string(evaluations_++) + "/";
   const LoopForm form = FormAt(u);
-  InstrumentPoint out{u, 0.0, 0.0, std::vector<PointFit>(records_.size())};
+  EffectPoint out{u, 0.0, 0.0, std::vector<PointFit>(records_.size())};
   std::vector<double> jacobians(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
     const RecordSpectra whole = records_.Whole(form, e);
     const RecordSpectra& record = extent == RecordExtent::kMiddle ? MiddleOf(whole) : whole;
-    jacobians[e] = LogJacobian(record, form.instruments);
+    jacobians[e] = LogJacobian(record, form.effects);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
       return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
                       starts[e], options);
@@ -127,11 +125,11 @@ InstrumentPoint InstrumentProfile::At(const Eigen::VectorXd& u,
   return out;
 }
 
-Eigen::VectorXd InstrumentProfile::NullEnd() const {
+Eigen::VectorXd EffectProfile::NullEnd() const {
   return ToSearch(effect(), NullValues(effect())).cwiseMin(high_);
 }
 
-std::vector<InstrumentPoint> InstrumentProfile::Begin(const std::vector<Eigen::VectorXd>& at_null) {
+std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>& at_null) {
   const Eigen::VectorXd null = NullEnd();
   if (null.size() > 1) return BeginFromNull(At(null, at_null));
   const EffectParameter& parameter = effect().parameters()[0];
@@ -141,11 +139,11 @@ std::vector<InstrumentPoint> InstrumentProfile::Begin(const std::vector<Eigen::V
   const auto roughly_at = [&](const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& from) {
     return At(u, from, kToCompare, RecordExtent::kMiddle);
   };
-  InstrumentPoint best = roughly_at(null, at_null);
-  InstrumentPoint below = best;
-  InstrumentPoint above = best;
+  EffectPoint best = roughly_at(null, at_null);
+  EffectPoint below = best;
+  EffectPoint above = best;
   for (const double u : starts) {
-    InstrumentPoint& last = u < null[0] ? below : above;
+    EffectPoint& last = u < null[0] ? below : above;
     last = roughly_at(Eigen::VectorXd::Constant(1, u), ParametersOf(last.fits));
     if (last.log_posterior > best.log_posterior) best = last;
   }
@@ -157,7 +155,7 @@ std::vector<InstrumentPoint> InstrumentProfile::Begin(const std::vector<Eigen::V
   return {At(best.u, whole)};
 }
 
-std::vector<InstrumentPoint> InstrumentProfile::BeginFromNull(const InstrumentPoint& null) {
+std::vector<EffectPoint> EffectProfile::BeginFromNull(const EffectPoint& null) {
   struct Beside {
     Eigen::VectorXd u;
     double gain = 0.0;
@@ -165,7 +163,7 @@ std::vector<InstrumentPoint> InstrumentProfile::BeginFromNull(const InstrumentPo
   };
   std::vector<Beside> tried(kScanned);
   for (std::size_t i = 0; i < tried.size(); ++i) {
-    InstrumentPoint at = null;
+    EffectPoint at = null;
     const double way = static_cast<double>(i) / static_cast<double>(kScanned - 1);
     at.u[1] = low_[1] + way * span_[1];
     const std::vector<Slopes> slopes = SlopesAt(at, 1);
@@ -194,14 +192,13 @@ std::vector<InstrumentPoint> InstrumentProfile::BeginFromNull(const InstrumentPo
   }
   std::ranges::stable_sort(best, std::ranges::greater(), &Beside::gain);
   best.resize(std::min(best.size(), kMostFollowed));
-  std::vector<InstrumentPoint> out = {null};
+  std::vector<EffectPoint> out = {null};
   for (const Beside& each : best) out.push_back(At(each.u, each.starts));
   return out;
 }
 
-InstrumentProfile::Slopes InstrumentProfile::SlopesOfPoint(const InstrumentPoint& point,
-                                                           std::size_t e,
-                                                           Eigen::Index count) const {
+EffectProfile::Slopes EffectProfile::SlopesOfPoint(const EffectPoint& point, std::size_t e,
+                                                   Eigen::Index count) const {
   struct Beside {
     double value = 0.0;
     Eigen::VectorXd gradient;
@@ -246,16 +243,16 @@ InstrumentProfile::Slopes InstrumentProfile::SlopesOfPoint(const InstrumentPoint
   return out;
 }
 
-std::vector<InstrumentProfile::Slopes> InstrumentProfile::SlopesAt(const InstrumentPoint& point,
-                                                                   Eigen::Index count) const {
+std::vector<EffectProfile::Slopes> EffectProfile::SlopesAt(const EffectPoint& point,
+                                                           Eigen::Index count) const {
   std::vector<Slopes> out(records_.size());
   RunUnits(out.size(), options_.threads,
            [&](std::size_t e) { out[e] = SlopesOfPoint(point, e, count); });
   return out;
 }
 
-Eigen::VectorXd InstrumentProfile::StepFrom(const Eigen::VectorXd& u, const Eigen::VectorXd& slope,
-                                            const Eigen::MatrixXd& information) const {
+Eigen::VectorXd EffectProfile::StepFrom(const Eigen::VectorXd& u, const Eigen::VectorXd& slope,
+                                        const Eigen::MatrixXd& information) const {
   // A parameter at its range's end that would leave it stays, and the others go without it.
   Eigen::VectorXd free = Eigen::VectorXd::Ones(u.size());
   Eigen::VectorXd step = Eigen::VectorXd::Zero(u.size());
@@ -281,7 +278,7 @@ Eigen::VectorXd InstrumentProfile::StepFrom(const Eigen::VectorXd& u, const Eige
   return (u + step).cwiseMax(low_).cwiseMin(high_) - u;
 }
 
-ProfileMaximum InstrumentProfile::From(InstrumentPoint best, double least) {
+ProfileMaximum EffectProfile::From(EffectPoint best, double least) {
   ProfileMaximum out{std::move(best), Eigen::MatrixXd::Zero(span_.size(), span_.size())};
   for (int i = 0; i < kMostSteps; ++i) {
     const std::vector<Slopes> slopes = SlopesAt(out.at, span_.size());
@@ -304,7 +301,7 @@ ProfileMaximum InstrumentProfile::From(InstrumentPoint best, double least) {
     for (int halved = 0; out.at.u == from && halved < kMostHalvings; ++halved, step *= 0.5) {
       std::vector<Eigen::VectorXd> starts = ParametersOf(out.at.fits);
       for (std::size_t e = 0; e < starts.size(); ++e) starts[e] += slopes[e].by * step;
-      InstrumentPoint next = At(from + step, starts);
+      EffectPoint next = At(from + step, starts);
       if (next.log_posterior > out.at.log_posterior) out.at = std::move(next);
     }
     if (out.at.u == from) break;
