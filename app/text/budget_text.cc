@@ -61,6 +61,7 @@ std::string WaterfallText(const Budget& budget) {
   TextTable table({"item", "gap after", "", "lost without: nats", "gap", "points", "estimate"});
   for (const BudgetEntry& entry : budget.entries) {
     std::string names = entry.item;
+    if (!entry.form.empty()) names += " (" + entry.form + ")";
     for (const std::string& other : entry.equals) names += " = " + other;
     table.AddRow(
         {names, Fixed(entry.gap_after, 3), Bar(entry, budget.gap_before), Fixed(entry.lost_nats, 1),

@@ -77,6 +77,7 @@ Json BudgetJson(const Budget& budget) {
   Json entries = Json::array();
   for (const BudgetEntry& entry : budget.entries) {
     entries.push_back({{"item", entry.item},
+                       {"form", entry.form.empty() ? Json() : Json(entry.form)},
                        {"gap_before", NumberOrNull(entry.gap_before)},
                        {"gap_after", NumberOrNull(entry.gap_after)},
                        {"lost_without",

@@ -29,5 +29,14 @@ TEST(BudgetText, NamesWhatOneHalfDoesNotBearOut) {
   EXPECT_THAT(BudgetText(budget), testing::Not(testing::HasSubstr("doubtful")));
 }
 
+// Where an effect stands in the loop is part of what was found.
+TEST(BudgetText, NamesTheFormOfAnEffect) {
+  Budget budget;
+  budget.entries = {Entry("second_delay_path", 50.0, 54.0)};
+  EXPECT_THAT(BudgetText(budget), testing::Not(testing::HasSubstr("second_delay_path (")));
+  budget.entries[0].form = "side before_flame";
+  EXPECT_THAT(BudgetText(budget), testing::HasSubstr("second_delay_path (side before_flame)"));
+}
+
 }  // namespace
 }  // namespace howl

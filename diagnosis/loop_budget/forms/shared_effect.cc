@@ -25,8 +25,8 @@ bool IsAtNull(const SharedEffect& shared) {
   return shared.values[0] == shared.effect->parameters()[0].null_value;
 }
 
-// What it turns the cycle by, all but the cycle is turned back by: the loop's delay is that of the
-// cycle then, which records tell best, with the filter as without it.
+// A filter turns the cycle's phase. Its turn is taken back, as a delay at all frequencies, so that
+// the loop's own delay stays that of the cycle, which records tell best.
 FlameFilters FiltersOf(const SharedEffect& filter, double cycle_hz) {
   const auto at = [filter, cycle_hz](auto response) {
     const auto plain = [filter, cycle_hz, response](std::complex<double> s) {

@@ -8,7 +8,6 @@
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_
 
-#include <string>
 #include <vector>
 
 #include "estimation/record_fit/spectra/record_spectra.h"

@@ -181,8 +181,9 @@ std::vector<EffectPoint> EffectProfile::BeginFromNull(const EffectPoint& null) {
     tried[i].u = at.u;
     tried[i].u[0] += step;
     tried[i].starts = ParametersOf(null.fits);
-    for (std::size_t e = 0; e < slopes.size(); ++e)
+    for (std::size_t e = 0; e < slopes.size(); ++e) {
       tried[i].starts[e] += step * slopes[e].by.col(0);
+    }
   }
   std::vector<Beside> best;
   for (std::size_t i = 0; i < tried.size(); ++i) {

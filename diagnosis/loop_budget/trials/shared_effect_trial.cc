@@ -47,7 +47,8 @@ LoopTrial TrySharedEffect(const LoopRecords& records, const LoopFit& from, doubl
   ProfileMaximum maximum;
   for (EffectPoint& begin : profile.Begin(ParametersOf(from))) {
     ProfileMaximum next = profile.From(std::move(begin), without);
-    if (next.at.log_posterior > maximum.at.log_posterior) maximum = std::move(next);
+    const bool first = maximum.at.fits.empty();
+    if (first || next.at.log_posterior > maximum.at.log_posterior) maximum = std::move(next);
   }
   LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {ParametersOf(maximum.at.fits)}};
   // At its null it gains nothing.

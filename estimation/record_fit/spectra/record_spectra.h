@@ -53,7 +53,6 @@ struct FlameFilters {
   std::complex<double> BeforeAt(std::complex<double> s) const { return before ? before(s) : 1.0; }
   std::complex<double> AfterAt(std::complex<double> s) const { return after ? after(s) : 1.0; }
   std::complex<double> At(std::complex<double> s) const { return BeforeAt(s) * AfterAt(s); }
-  bool None() const { return !before && !after; }
 };
 
 // The units, and the flame's functions, that records of one operating point have in common.
