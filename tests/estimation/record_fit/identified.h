@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "estimation/record_fit/delay_maxima.h"
-#include "estimation/record_fit/loop/pressure_noise.h"
 #include "estimation/record_fit/mode_maxima.h"
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/starts/point_starts.h"
@@ -57,7 +56,7 @@ inline LoopPoint WithTruthOf(const ModalLoop& loop, const RecordScale& scale, Lo
 inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std::size_t starts) {
   const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
   const PointStructure structure = FreeStructure(static_cast<int>(loop.modes.size()));
-  RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
+  const RecordSpectra spectra = MakeRecordSpectra(record, cycle_hz, FlameInput::kPressureRate);
   const PointPrior prior = PriorOf(structure, spectra);
   IdentifiedLoop out;
   // As one point by itself is fitted (records_fit.h): from starts, then at its most likely delay
@@ -65,10 +64,6 @@ inline IdentifiedLoop Identify(const ModalLoop& loop, const Record& record, std:
   out.fit = FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, starts, 1));
   out.fit = BestByDelay(spectra, structure, prior, std::move(out.fit));
   out.fit = BestByModes(spectra, structure, prior, std::move(out.fit));
-  out.fit = FitPoint(spectra, structure, prior, out.fit.parameters);
-  // And once more with the flame driven without the noise of p that this loop finds.
-  const Eigen::VectorXd noise = PressureNoise(spectra, structure, out.fit.parameters);
-  spectra = DrivenWithout(std::move(spectra), noise);
   out.fit = FitPoint(spectra, structure, prior, out.fit.parameters);
   const LoopPoint found = ToPoint(structure, spectra.flame.cols(), out.fit.parameters);
   const Eigen::VectorXd true_parameters =

@@ -86,9 +86,7 @@ TEST(ModeMaxima, FindTheWeakModeThatAFitMisses) {
       MakeRecordSpectra(record, CycleFrequency(loop, 150.0, 300.0), FlameInput::kPressureRate);
   const PointStructure structure = FreeStructure(3);
   const PointPrior prior = PriorOf(structure, spectra);
-  // Of this record, whose flame is driven by all of p.
-  const PointFit right =
-      FitPoint(spectra, structure, prior, Identify(loop, record, 1).from_truth.parameters);
+  const PointFit right = Identify(loop, record, 1).from_truth;
   for (std::size_t missed = 1; missed < 3; ++missed) {
     LoopPoint point = ToPoint(structure, spectra.flame.cols(), right.parameters);
     point.modes[missed].omega = 6.0;
