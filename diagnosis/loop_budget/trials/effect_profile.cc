@@ -7,9 +7,11 @@
 #include <functional>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "estimation/parallel.h"
+#include "estimation/record_fit/other_starts.h"
 #include "estimation/record_fit/point_posterior.h"
 #include "estimation/record_fit/spectra/middle_part.h"
 #include "model/numerics/dense_algebra.h"
@@ -152,7 +154,33 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
   for (std::size_t e = 0; e < whole.size(); ++e) {
     whole[e] = BesideMiddle(records_.Whole(form_, e), form_.structure, std::move(whole[e]));
   }
-  return {At(best.u, whole)};
+  EffectPoint begin = At(best.u, whole);
+  AgainFromNull(at_null, &begin);
+  return {std::move(begin)};
+}
+
+void EffectProfile::AgainFromNull(const std::vector<Eigen::VectorXd>& at_null, EffectPoint* point) {
+  const LoopForm form = FormAt(point->u);
+  const std::string key = key_ + "again/";
+  std::vector<double> gained(records_.size(), 0.0);
+  std::vector<double> evidence_gained(records_.size(), 0.0);
+  RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
+    PointFit& fit = point->fits[e];
+    const double without =
+        from_.fit.points[e].log_posterior + records_.LogJacobianOfWhole(from_.model, e);
+    if (fit.log_posterior + records_.LogJacobianOfWhole(form, e) > without - kWorthAnother) return;
+    PointFit again = KeptFit(options_.units, key + std::to_string(e), [&] {
+      const RecordSpectra whole = records_.WholeAlone(form, e);
+      return FitPoint(whole, form.structure, PriorOfTrial(records_, from_, form, e, whole),
+                      at_null[e]);
+    });
+    if (!(again.log_posterior > fit.log_posterior)) return;
+    gained[e] = again.log_posterior - fit.log_posterior;
+    evidence_gained[e] = again.log_evidence - fit.log_evidence;
+    fit = std::move(again);
+  });
+  point->log_posterior += std::accumulate(gained.begin(), gained.end(), 0.0);
+  point->log_evidence += std::accumulate(evidence_gained.begin(), evidence_gained.end(), 0.0);
 }
 
 std::vector<EffectPoint> EffectProfile::BeginFromNull(const EffectPoint& null) {

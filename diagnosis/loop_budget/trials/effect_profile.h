@@ -79,6 +79,9 @@ class EffectProfile {
   // By the first parameters, `count` of them.
   std::vector<Slopes> SlopesAt(const EffectPoint& point, Eigen::Index count) const;
   std::vector<EffectPoint> BeginFromNull(const EffectPoint& null);
+  // A record which the effect makes less likely than none does may be at a lesser maximum: it
+  // begins again from where it stands without.
+  void AgainFromNull(const std::vector<Eigen::VectorXd>& at_null, EffectPoint* point);
   // Newton's step within the range; where the profile is not convex up the slope.
   Eigen::VectorXd StepFrom(const Eigen::VectorXd& u, const Eigen::VectorXd& slope,
                            const Eigen::MatrixXd& information) const;

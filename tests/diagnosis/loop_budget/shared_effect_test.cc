@@ -23,8 +23,8 @@ std::vector<LoopRecord> Ducts(const ModalInstruments& instruments) {
   return DuctsAt({1.2, 1.5, 1.8}, instruments);
 }
 
-// Of the loop itself, each instrument tried beside it.
-std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig) {
+// Of the loop itself, each effect tried beside it, or each form of one alone.
+std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig, const std::string& id = "") {
   const LoopRecords records(rig, 0);
   LoopBudgetOptions options;
   options.starts = 4;
@@ -32,7 +32,7 @@ std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig) {
   const double standing = StandingEvidence(records, from, "", options);
   std::vector<LoopTrial> out;
   for (const LoopItem& item : AllLoopItems()) {
-    if (item.kind != LoopItemKind::kSharedEffect) continue;
+    if (item.kind != LoopItemKind::kSharedEffect || (!id.empty() && item.id != id)) continue;
     out.push_back(TrySharedEffect(records, from, standing, item, "", options));
   }
   return out;
@@ -56,6 +56,20 @@ TEST(SharedEffect, FindsAStrongLowPass) {
   EXPECT_EQ(BestOf(trials).item.id, "q_sensor_lowpass");
   EXPECT_GT(BestOf(trials).gain, 100.0);
   EXPECT_NEAR(BestOf(trials).model.effects.back().values[0], 120.0, 2.0);
+}
+
+// From where the middles of the records begin, one record of this rig comes to a lesser maximum
+// behind a filter of first order alone, which makes that of second order look the better one.
+TEST(SharedEffect, FindsAWeakLowPassInItsOwnOrder) {
+  constexpr double kCutoff_hz = 2000.0;
+  std::vector<LoopRecord> rig;
+  for (const double gain : {1.2, 1.5, 1.8}) {
+    rig.push_back(
+        DuctAt(gain, 1.6, rig.size() + 1, [](Record* record) { LowPass(kCutoff_hz, record); }));
+  }
+  const LoopTrial best = BestOf(TrialsOn(rig, "q_sensor_lowpass"));
+  EXPECT_EQ(best.item.effect->form().value, "1");
+  EXPECT_NEAR(best.model.effects.back().values[0], kCutoff_hz, 60.0);
 }
 
 TEST(SharedEffect, FindsAStrongLeak) {
