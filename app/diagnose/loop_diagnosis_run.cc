@@ -53,10 +53,7 @@ int RunLoopDiagnosis(const Config& config, const Options& options) {
   LoopBudgetOptions how;
   how.withheld = WithheldOf(options, LoopItemIds(), "nothing that a loop of records may lack");
   const LoopForm base = BaseOf(config);
-  std::vector<LoopRecord> records;
-  for (const UsableRecord& each : LoadUsableRecords(config, options)) {
-    records.push_back({each.record.name, each.record.phi, each.cycle_hz, each.record.record});
-  }
+  const std::vector<LoopRecord> records = LoopRecordsOf(LoadUsableRecords(config, options));
   FitState state(config, options, "diagnosis.state", options.Text("--without").value_or(""));
   if (!options.quiet) state.SayWhereItStands();
   how.starts = StatedStarts(config).value_or(how.starts);

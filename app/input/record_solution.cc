@@ -4,6 +4,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/input/fit_state.h"
@@ -33,21 +34,13 @@ std::vector<OtherDelay> KeptOtherDelays(FitState& state, const std::string& key,
 }  // namespace
 
 RecordSolution SolveRecords(const Config& config, const Options& options, SolvedFor what) {
-  const std::vector<UsableRecord> records = LoadUsableRecords(config, options);
+  std::vector<UsableRecord> usable = LoadUsableRecords(config, options);
   RecordSolution out;
-  for (const UsableRecord& record : records) {
+  for (const UsableRecord& record : usable) {
     out.names.push_back(record.record.name);
     out.cycle_amplitude.push_back(record.cycle_amplitude);
   }
-  const auto points_of = [&](FlameInput input) {
-    std::vector<OperatingPoint> points(records.size());
-    RunUnits(records.size(), options.threads, [&](std::size_t e) {
-      const UsableRecord& record = records[e];
-      points[e] = {record.record.phi,
-                   MakeRecordSpectra(record.record.record, record.cycle_hz, input)};
-    });
-    return points;
-  };
+  const std::vector<LoopRecord> records = LoopRecordsOf(std::move(usable));
   FitState state(config, options, "fit.state");
   if (what == SolvedFor::kFit) state.BeginAnewIfComplete();
   if (!options.quiet) state.SayWhereItStands();
@@ -56,7 +49,8 @@ RecordSolution SolveRecords(const Config& config, const Options& options, Solved
   fit_options.seed = options.seed;
   fit_options.threads = options.threads;
   fit_options.units = &state;
-  out.loop = FitLoop(points_of, *config.record_loop, fit_options);
+  out.loop = FitLoop(records, *config.record_loop, fit_options);
+  out.halves = LoopsOfHalves(records, out.loop.points, out.loop.fit.structure, out.loop.halves);
   out.fitted.resize(records.size());
   out.other_delays.resize(records.size());
   RunUnits(records.size(), options.threads, [&](std::size_t e) {
@@ -66,9 +60,11 @@ RecordSolution SolveRecords(const Config& config, const Options& options, Solved
     out.other_delays[e] = KeptOtherDelays(state, "other_delays/" + std::to_string(e),
                                           out.loop.points[e].record, fit, e);
   });
+  out.scales = ScalesOf(out.fitted, out.halves);
+  Widen(out.scales, &out.fitted);
   std::vector<OnsetPoint> points;
   for (std::size_t e = 0; e < records.size(); ++e) {
-    points.push_back({records[e].record.phi, out.fitted[e].small_signal});
+    points.push_back({records[e].operating_parameter, out.fitted[e].small_signal});
   }
   out.onset = OnsetOf(points);
   if (what == SolvedFor::kFit) state.Complete();

@@ -75,6 +75,15 @@ std::vector<UsableRecord> LoadUsableRecords(const Config& config, const Options&
   return out;
 }
 
+std::vector<LoopRecord> LoopRecordsOf(std::vector<UsableRecord> records) {
+  std::vector<LoopRecord> out;
+  for (UsableRecord& each : records) {
+    NamedRecord& of = each.record;
+    out.push_back({std::move(of.name), of.phi, each.cycle_hz, std::move(of.record)});
+  }
+  return out;
+}
+
 std::optional<std::size_t> StatedStarts(const Config& config) {
   const LocatedMember* const solver = config.tree.Find("solver");
   if (solver == nullptr || solver->value.Find("starts") == nullptr) return std::nullopt;

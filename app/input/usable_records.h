@@ -9,6 +9,7 @@
 
 #include "app/command_line/options.h"
 #include "app/input/record_input.h"
+#include "estimation/joint_records/loop_record.h"
 #include "io/config/config.h"
 
 namespace howl {
@@ -23,6 +24,8 @@ struct UsableRecord {
 
 // Throws UserError where an experiment has no record of both signals that is long enough.
 std::vector<UsableRecord> LoadUsableRecords(const Config& config, const Options& options);
+
+std::vector<LoopRecord> LoopRecordsOf(std::vector<UsableRecord> records);
 
 // The starts of a fit, where the config states them: a record needs more of them than a table does.
 std::optional<std::size_t> StatedStarts(const Config& config);

@@ -1,9 +1,12 @@
 #include "app/text/record_fit_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "app/text/text_table.h"
@@ -34,6 +37,42 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
       table.Text() + kPlusMinusLegend + "; gain and growth: of small signals about rest";
   if (!solution.Converged()) out += "; * not converged";
   return out + "\n";
+}
+
+// What users look at first, in the words of the table.
+constexpr std::array<std::pair<const char*, const char*>, 4> kScaled = {
+    {{"tau_s", "delays"},
+     {"small_signal.loop_gain", "loop gains"},
+     {"small_signal.growth_rate_1_s", "growth rates"},
+     {"small_signal.frequency_hz", "frequencies"}}};
+// From here on what the halves show is more of the model's error than of noise.
+constexpr double kHalvesDisagree = 3.0;
+
+std::string WorstText(const RecordSolution& solution, const IntervalScale& growth) {
+  const HalfLoops& halves = solution.halves[growth.worst];
+  return "; farthest apart at " + solution.names[growth.worst] + ", whose first half grows at " +
+         PlusMinus(halves[0].small_signal.growth_rate_1_s, 3) + " 1/s and whose second at " +
+         PlusMinus(halves[1].small_signal.growth_rate_1_s, 3) +
+         ": the model is not the rig's, or the rig has changed";
+}
+
+std::string HalvesText(const RecordSolution& solution) {
+  std::string out;
+  std::string worst;
+  for (const auto& [quantity, words] : kScaled) {
+    const auto scale = std::ranges::find(solution.scales, quantity, &IntervalScale::quantity);
+    if (scale == solution.scales.end()) continue;
+    out += (out.empty() ? "" : ", ") + std::string(words) + " " + Significant(scale->halves, 2);
+    const bool growth = scale->quantity == "small_signal.growth_rate_1_s";
+    if (growth && scale->halves > kHalvesDisagree) worst = WorstText(solution, *scale);
+  }
+  if (out.empty()) return "";
+  return Wrapped(
+             "halves of the records, fitted by themselves, differ from one another and from "
+             "the whole by so many of their own standard deviations, in the mean square: " +
+                 out + "; of a right model by 1, and all intervals are as much wider" + worst,
+             2) +
+         "\n";
 }
 
 std::string OnsetText(const RecordSolution& solution, const std::string& operating_parameter) {
@@ -139,9 +178,9 @@ std::string TriedText(const ChosenLoop& loop) {
 }  // namespace
 
 std::string RecordFitText(const RecordSolution& solution, const std::string& operating_parameter) {
-  return LoopsText(solution, operating_parameter) + OnsetText(solution, operating_parameter) +
-         DelaysText(solution) + LinesText(solution) + ModesText(solution) +
-         TriedText(solution.loop);
+  return LoopsText(solution, operating_parameter) + HalvesText(solution) +
+         OnsetText(solution, operating_parameter) + DelaysText(solution) + LinesText(solution) +
+         ModesText(solution) + TriedText(solution.loop);
 }
 
 }  // namespace howl

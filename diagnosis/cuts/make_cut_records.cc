@@ -10,6 +10,7 @@
 
 #include "diagnosis/noise/sensor_noise.h"
 #include "diagnosis/numerics/real_fft.h"
+#include "estimation/analysis/spectra/half_of_record.h"
 #include "estimation/analysis/spectra/statistics.h"
 
 namespace howl {
@@ -217,18 +218,6 @@ Eigen::VectorXcd BareDerivativeFilter(const CutRecord& record) {
 void DriveAsRecorded(CutRecord* record) {
   record->driving_heat_release =
       record->heat_release_spectrum.segment(record->first - kTapReach, record->extended());
-}
-
-Record HalfOf(Record record, bool second) {
-  for (std::vector<double>* signal : {&record.pressure, &record.heat_release}) {
-    const auto middle = signal->begin() + static_cast<std::ptrdiff_t>(signal->size() / 2);
-    if (second) {
-      signal->erase(signal->begin(), middle);
-    } else {
-      signal->erase(middle, signal->end());
-    }
-  }
-  return record;
 }
 
 std::vector<DiagnosisExperiment> HalfOfRecords(const std::vector<DiagnosisExperiment>& experiments,

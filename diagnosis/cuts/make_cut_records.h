@@ -25,7 +25,6 @@ std::optional<CutObstacle> FindCutObstacle(const std::vector<DiagnosisExperiment
 std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& experiments,
                                       const BaseModel& model = {});
 
-Record HalfOf(Record record, bool second);
 // The first or the second half of each record.
 std::vector<DiagnosisExperiment> HalfOfRecords(const std::vector<DiagnosisExperiment>& experiments,
                                                bool second);

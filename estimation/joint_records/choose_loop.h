@@ -7,9 +7,10 @@
 #ifndef HOWL_ESTIMATION_JOINT_RECORDS_CHOOSE_LOOP_H_
 #define HOWL_ESTIMATION_JOINT_RECORDS_CHOOSE_LOOP_H_
 
-#include <functional>
+#include <cstddef>
 #include <vector>
 
+#include "estimation/joint_records/half_fits.h"
 #include "estimation/joint_records/record_loop_spec.h"
 #include "estimation/joint_records/records_fit.h"
 
@@ -26,13 +27,14 @@ struct ChosenLoop {
   // Made ready for the flame's input that was chosen, and driven as the loop has it (FitDriven).
   std::vector<OperatingPoint> points;
   RecordsFit fit;
+  std::vector<HalfFits> halves;
   std::vector<LoopTried> tried;  // by input, in the order of modes
   std::size_t chosen = 0;        // in tried
 };
 
-// Whether `spec` leaves a choice or not. `points_of`: the records, made ready for an input.
-ChosenLoop FitLoop(const std::function<std::vector<OperatingPoint>(FlameInput)>& points_of,
-                   const RecordLoopSpec& spec, const RecordsFitOptions& options);
+// Whether `spec` leaves a choice or not.
+ChosenLoop FitLoop(const std::vector<LoopRecord>& records, const RecordLoopSpec& spec,
+                   const RecordsFitOptions& options);
 
 }  // namespace howl
 

@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "estimation/parallel.h"
-#include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/fit_under_prior.h"
-#include "estimation/record_fit/mode_maxima.h"
+#include "estimation/record_fit/other_maxima.h"
 
 namespace howl {
 namespace {
@@ -47,12 +46,6 @@ class LawSteps {
   Eigen::VectorXd share_;
   Eigen::MatrixX2d last_;
 };
-
-PointFit OtherMaxima(const RecordSpectra& record, const PointStructure& structure,
-                     const PointPrior& prior, PointFit fit) {
-  fit = BestByDelay(record, structure, prior, std::move(fit));
-  return BestByModes(record, structure, prior, std::move(fit));
-}
 
 }  // namespace
 
@@ -93,8 +86,8 @@ RecordsFit FitUnderLaw(const RecordsFitter& fitter, const std::vector<OperatingP
       if (!search) return;
       if (options.other_maxima) {
         PointFit other = KeptFit(options.units, UnitKey(options, "search", r, e), [&] {
-          return OtherMaxima(record, out.structure, prior,
-                             FitUnder(record, out.structure, prior, fit.parameters, !alone));
+          return BestOfOtherMaxima(record, out.structure, prior,
+                                   FitUnder(record, out.structure, prior, fit.parameters, !alone));
         });
         if (other.log_posterior > fit.log_posterior) {
           gain[e] = other.log_posterior - fit.log_posterior;

@@ -63,6 +63,33 @@ Json SecondPathJson(const FittedLoop& loop) {
           {"extra_s", EstimateJson(loop.second_path->extra_s)}};
 }
 
+Json SmallSignalJson(const SmallSignalLoop& small) {
+  return {{"frequency_hz", EstimateJson(small.frequency_hz)},
+          {"growth_rate_1_s", EstimateJson(small.growth_rate_1_s)},
+          {"loop_gain", EstimateJson(small.loop_gain)}};
+}
+
+Json HalvesJson(const HalfLoops& halves) {
+  Json out = Json::array();
+  for (const FittedLoop& half : halves) {
+    out.push_back({{"tau_s", EstimateJson(half.tau_s)},
+                   {"small_signal", SmallSignalJson(half.small_signal)},
+                   {"modes", ModesJson(half)}});
+  }
+  return out;
+}
+
+Json ScalesJson(const RecordSolution& solution) {
+  Json out = Json::object();
+  for (const IntervalScale& scale : solution.scales) {
+    out[scale.quantity] = {{"halves", scale.halves},
+                           {"factor", scale.Factor()},
+                           {"experiments", scale.points},
+                           {"farthest_apart", solution.names[scale.worst]}};
+  }
+  return out;
+}
+
 Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
   const FittedLoop& loop = solution.fitted[e];
   // The keys that every solution has are those of the mode next to the cycle.
@@ -83,16 +110,14 @@ Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
           {"gain", std::abs(loop.transfer)},
           {"tau_std_s", NumberOrNull(loop.tau_s.std)},
           {"modes", ModesJson(loop)},
-          {"small_signal",
-           {{"frequency_hz", EstimateJson(small.frequency_hz)},
-            {"growth_rate_1_s", EstimateJson(small.growth_rate_1_s)},
-            {"loop_gain", EstimateJson(small.loop_gain)}}},
+          {"small_signal", SmallSignalJson(small)},
           {"delay_spread", EstimateJson(loop.delay_spread)},
           {"second_path", SecondPathJson(loop)},
           {"line_errors",
            {{"acoustics", LinesJson(loop.acoustic_lines)}, {"flame", LinesJson(loop.flame_lines)}}},
           {"other_delays", OtherDelaysJson(solution.other_delays[e])},
           {"noise", NoiseJson(loop)},
+          {"halves", HalvesJson(solution.halves[e])},
           {"log_density_left_out",
            NumberOrNull(solution.loop.tried[solution.loop.chosen].log_density[e])},
           {"converged", loop.converged}};
@@ -131,6 +156,7 @@ Json RecordSolutionJson(const RecordSolution& solution) {
           {"cost", NumberOrNull(cost)},
           {"termination", converged ? "converged" : "not converged"},
           {"converged", converged},
+          {"interval_scales", ScalesJson(solution)},
           {"flame_input", FlameInputName(chosen.flame_input)},
           {"modes", chosen.modes},
           {"modes_tried", TriedJson(solution.loop)}};

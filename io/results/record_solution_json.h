@@ -9,6 +9,8 @@
 
 #include "estimation/joint_records/choose_loop.h"
 #include "estimation/joint_records/fitted_loop.h"
+#include "estimation/joint_records/half_fits.h"
+#include "estimation/joint_records/interval_scale.h"
 #include "estimation/joint_records/onset.h"
 
 namespace howl {
@@ -16,7 +18,10 @@ namespace howl {
 struct RecordSolution {
   std::vector<std::string> names;  // of the experiments
   ChosenLoop loop;
+  // Errors widened by `scales`, and so those of all that is taken from them.
   std::vector<FittedLoop> fitted;
+  std::vector<HalfLoops> halves;  // as the likelihood has them
+  std::vector<IntervalScale> scales;
   std::vector<std::vector<OtherDelay>> other_delays;  // of each experiment
   Onset onset;
   // Of the fundamental of p; zero where the record shows no cycle.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -71,9 +72,24 @@ TEST_F(RecordFitOfFirstRig, FindsTheLoopThatMadeTheRecords) {
     EXPECT_EQ(found["omega_hz"], mode["omega_hz"]["value"]);
   }
   EXPECT_THAT(fit.out, HasSubstr("growth 1/s"));
+  EXPECT_THAT(fit.out, HasSubstr("halves of the records, fitted by themselves"));
+  // The model is the rig's: its halves agree, but for chance.
+  for (const std::string quantity : {"tau_s", "small_signal.loop_gain", "modes.0.omega_hz"}) {
+    const Json& scale = solution["interval_scales"][quantity];
+    EXPECT_EQ(scale["experiments"], 3) << quantity;
+    EXPECT_LT(scale["halves"].get<double>(), 3.0) << quantity;
+    EXPECT_EQ(scale["factor"].get<double>(), std::max(1.0, scale["halves"].get<double>()));
+    EXPECT_TRUE(experiment_of.contains(scale["farthest_apart"])) << quantity;
+  }
   for (const Json& found : solution["experiments"]) {
     ASSERT_FALSE(found["other_delays"].empty());
     EXPECT_GT(found["other_delays"][0]["nats_below"], 10.0);
+    ASSERT_EQ(found["halves"].size(), 2u);
+    for (const Json& half : found["halves"]) {
+      const double tau_s = found["tau_s"];
+      EXPECT_NEAR(half["tau_s"]["value"].get<double>(), tau_s, 0.02 * tau_s);
+      EXPECT_EQ(half["modes"].size(), found["modes"].size());
+    }
   }
 }
 

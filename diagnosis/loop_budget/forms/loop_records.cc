@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "diagnosis/cuts/make_cut_records.h"
+#include "estimation/analysis/spectra/half_of_record.h"
 #include "estimation/parallel.h"
 
 namespace howl {

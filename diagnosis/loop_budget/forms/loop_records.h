@@ -9,17 +9,10 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/forms/loop_form.h"
+#include "estimation/joint_records/loop_record.h"
 #include "estimation/joint_records/records_fit.h"
 
 namespace howl {
-
-// One operating point: a record of both signals, and the frequency of its cycle.
-struct LoopRecord {
-  std::string name;
-  double operating_parameter = 0.0;
-  double cycle_hz = 0.0;
-  Record record;
-};
 
 class LoopRecords {
  public:

@@ -223,7 +223,7 @@ TEST(FittedRig, AFitFindsTheLoopThatWasSimulated) {
     const PointFit fit = FitPoint(record, structure, prior, ToParameters(structure, start));
     ASSERT_TRUE(fit.converged);
     const FittedLoop loop = FittedLoopOf(record, structure, fit);
-    const auto near = [&](const Estimate& estimate, double value, const char* what) {
+    const auto near = [&, drive = drive](const Estimate& estimate, double value, const char* what) {
       EXPECT_LT(std::abs(estimate.value - value), 4.0 * estimate.std)
           << what << " of drive " << static_cast<int>(drive) << ": " << estimate.value << " +- "
           << estimate.std << " for " << value;

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "estimation/joint_records/choose_loop.h"
@@ -27,13 +29,25 @@ ModalLoop DuctAt(double gain) {
   return loop;
 }
 
+LoopRecord RecordAt(double gain, double duration_s, std::uint64_t seed) {
+  const ModalLoop loop = DuctAt(gain);
+  return {"gain " + std::to_string(gain), gain, CycleFrequency(loop, 150.0, 300.0),
+          SimulateModalLoop(loop, duration_s, seed)};
+}
+
+std::vector<LoopRecord> Records(double duration_s) {
+  std::vector<LoopRecord> out;
+  for (std::size_t e = 0; e < kGains.size(); ++e) {
+    out.push_back(RecordAt(kGains[e], duration_s, 20 + e));
+  }
+  return out;
+}
+
 std::vector<OperatingPoint> Points(double duration_s) {
   std::vector<OperatingPoint> out;
-  for (std::size_t e = 0; e < kGains.size(); ++e) {
-    const ModalLoop loop = DuctAt(kGains[e]);
-    const double cycle_hz = CycleFrequency(loop, 150.0, 300.0);
-    out.push_back({kGains[e], MakeRecordSpectra(SimulateModalLoop(loop, duration_s, 20 + e),
-                                                cycle_hz, FlameInput::kPressureRate)});
+  for (const LoopRecord& each : Records(duration_s)) {
+    out.push_back({each.operating_parameter,
+                   MakeRecordSpectra(each.record, each.cycle_hz, FlameInput::kPressureRate)});
   }
   return out;
 }
@@ -229,17 +243,10 @@ TEST(SharedUnits, AreTheSameInAllUnits) {
 
 // A flame that dp/dt drives is not taken for one that p or its integral does.
 TEST(ChooseLoop, FindsWhatDrivesTheFlame) {
-  const auto points = [](FlameInput input) {
-    std::vector<OperatingPoint> out;
-    for (const double gain : {1.2, 1.5}) {
-      const ModalLoop loop = DuctAt(gain);
-      out.push_back({gain, MakeRecordSpectra(SimulateModalLoop(loop, 0.8, 30),
-                                             CycleFrequency(loop, 150.0, 300.0), input)});
-    }
-    return out;
-  };
+  std::vector<LoopRecord> records;
+  for (const double gain : {1.2, 1.5}) records.push_back(RecordAt(gain, 0.8, 30));
   RecordLoopSpec spec{.ratio = std::nullopt, .choose_flame_input = true};
-  const ChosenLoop loop = FitLoop(points, spec, {.starts = 6});
+  const ChosenLoop loop = FitLoop(records, spec, {.starts = 6});
   ASSERT_EQ(loop.tried.size(), 3u);
   const LoopTried& chosen = loop.tried[loop.chosen];
   EXPECT_EQ(chosen.flame_input, FlameInput::kPressureRate);
@@ -252,9 +259,9 @@ TEST(ChooseLoop, FindsWhatDrivesTheFlame) {
 
 // Records of two modes ask for two.
 TEST(LongChooseModes, TakesAsManyAsThereAre) {
-  const auto points = [](FlameInput) { return Points(3.0); };
+  const std::vector<LoopRecord> records = Records(3.0);
   RecordLoopSpec spec{.choose_modes = true, .ratio = std::nullopt};
-  const ChosenLoop loop = FitLoop(points, spec, {.starts = 6});
+  const ChosenLoop loop = FitLoop(records, spec, {.starts = 6});
   EXPECT_EQ(loop.tried[loop.chosen].modes, 2);
   EXPECT_GT(loop.tried[1].Sum(), loop.tried[0].Sum() + 100.0);
 }

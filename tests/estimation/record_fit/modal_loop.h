@@ -4,6 +4,7 @@
 //   p = sum_k (a_k x_k' + b_k omega_k x_k),   x_k'' + 2 xi_k omega_k x_k' + omega_k^2 x_k = q
 //   q(t) = Phi(p'(t - tau)) + n(t),   Phi(v) = -slope range tanh(v / range)
 //
+// In the middle of the record tau is changed by `drift`, about the stated one.
 // Where a share of p' comes later, Phi is of (1 - share) p'(t - tau) + share p'(t - tau - later);
 // where the flame lags, what Phi makes of it goes through 1 / (1 + s / w_lag).
 //
@@ -13,6 +14,7 @@
 #ifndef HOWL_TESTS_ESTIMATION_RECORD_FIT_MODAL_LOOP_H_
 #define HOWL_TESTS_ESTIMATION_RECORD_FIT_MODAL_LOOP_H_
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -35,6 +37,7 @@ struct ModalLoop {
   double share = 0.0;    // of the second path, before the curve
   double later_s = 0.0;  // which comes later by this
   double lag_hz = 0.0;   // of the flame's answer; 0: none
+  double drift = 0.0;    // of tau: so much longer in the record's second half, of tau
   double slope = 0.0;
   double range = 1000.0;
   double noise = 0.1;          // of q at saturation, root mean square
@@ -46,15 +49,15 @@ struct ModalLoop {
   double Step() const { return 1.0 / (sampling_hz * kSteps); }
 
   // The loop but for the flame's slope, with the sign of its feedback.
-  std::complex<double> Open(double hz) const {
-    const std::complex<double> s(0.0, 2.0 * std::numbers::pi * hz);
+  std::complex<double> Open(double hz) const { return OpenAt({0.0, 2.0 * std::numbers::pi * hz}); }
+  std::complex<double> OpenAt(std::complex<double> s) const {
     std::complex<double> g = 0.0;
     for (const Mode& mode : modes) {
       const double w = 2.0 * std::numbers::pi * mode.omega_hz;
       g += (mode.a * s + mode.b * w) / (s * s + 2.0 * mode.xi * w * s + w * w);
     }
     const std::complex<double> lag =
-        lag_hz > 0.0 ? 1.0 / (1.0 + std::complex<double>(0.0, hz / lag_hz)) : 1.0;
+        lag_hz > 0.0 ? 1.0 / (1.0 + s / (2.0 * std::numbers::pi * lag_hz)) : 1.0;
     return -s * g * std::exp(-s * tau_s) * (1.0 - share + share * std::exp(-s * later_s)) * lag;
   }
 };
@@ -67,6 +70,17 @@ inline double CycleFrequency(const ModalLoop& loop, double from_hz, double to_hz
     if (here.real() > 0.0 && here.imag() > 0.0 && there.imag() <= 0.0) return hz;
   }
   return 0.0;
+}
+
+// Where slope Open(s) = 1 next to this frequency, by Newton's method: growth rate and angular
+// frequency of small oscillations about rest.
+inline std::complex<double> RestRoot(const ModalLoop& loop, double near_hz) {
+  std::complex<double> s(0.0, 2.0 * std::numbers::pi * near_hz);
+  for (int i = 0; i < 50; ++i) {
+    const auto at = [&](double by) { return loop.slope * loop.OpenAt(s + by) - 1.0; };
+    s -= at(0.0) * 2e-3 / (at(1e-3) - at(-1e-3));
+  }
+  return s;
 }
 
 inline double RootMeanSquare(const std::vector<double>& x) {
@@ -106,9 +120,13 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
     states.push_back(state);
   }
   // v of the step before the last is needed tau later, less the step by which q comes after p.
-  const auto delay = static_cast<std::size_t>(std::lround(loop.tau_s / h)) - 1;
+  const auto steps_of = [&](double tau_s) {
+    return static_cast<std::size_t>(std::lround(tau_s / h)) - 1;
+  };
+  const std::size_t early = steps_of((1.0 - 0.5 * loop.drift) * loop.tau_s);
+  const std::size_t late = steps_of((1.0 + 0.5 * loop.drift) * loop.tau_s);
   const auto later = static_cast<std::size_t>(std::lround(loop.later_s / h));
-  std::vector<double> past(delay + later + 1, 0.0);
+  std::vector<double> past(std::max(early, late) + later + 1, 0.0);
   std::size_t newest = 0;
   const double share = 1.0 - std::exp(-2.0 * std::numbers::pi * loop.noise_hz * h);
   // The low-pass of fourth order passes 5/16 of the power of one of first order.
@@ -138,8 +156,11 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
     newest = (newest + 1) % past.size();
     double drawn = drive * random.Normal();
     for (double& stage : lowpass) drawn = stage += share * (drawn - stage);
-    const double first = past[(newest + later) % past.size()];
-    const double v = (1.0 - loop.share) * first + loop.share * past[newest];
+    const std::size_t delay = i < settle + steps / 2 ? early : late;
+    const auto before = [&](std::size_t age) {
+      return past[(newest + past.size() - 1 - age) % past.size()];
+    };
+    const double v = (1.0 - loop.share) * before(delay) + loop.share * before(delay + later);
     burning += lag * (-loop.slope * loop.range * std::tanh(v / loop.range) - burning);
     const double next = burning + drawn;
     const double mean = 0.5 * (q + next);
