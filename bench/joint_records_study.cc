@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/asked.h"
@@ -29,6 +30,7 @@
 #include "diagnosis/held_out/places_left.h"
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "estimation/joint_records/fitted_loop.h"
+#include "estimation/joint_records/half_fits.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/records_fit.h"
 #include "estimation/kept_memory.h"
@@ -131,7 +133,8 @@ void PrintTable(const LoopRecords& records, const std::vector<Row>& rows) {
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
-  const LoopRecords recorded(LoopRecordsOf(rig), 0);
+  const std::vector<LoopRecord> recorded_as = LoopRecordsOf(rig);
+  const LoopRecords recorded(recorded_as, 0);
   std::vector<Row> rows;
   std::vector<double> first;
   for (const FlameInput input : kInputs) {
@@ -147,8 +150,10 @@ int Run(int argc, char** argv) {
       LoopRecords records = recorded;
       records.DriveWithout(PressureNoiseOf(points, fit.fit, 0), 0);
       fit.fit = FitDriven(fit.fit, {}, &points);
+      FitWithHalves found = GoOnFromHalves(recorded_as, points, std::move(fit.fit), {});
+      fit.fit = std::move(found.fit);
+      fit.log_density = std::move(found.log_density);
       const double fitted = Seconds();
-      fit.log_density = LeftOutDensities(points, fit.fit);
       if (first.empty()) first = fit.log_density;
       if (before.empty()) before = first;
       double sum = 0.0;

@@ -12,8 +12,6 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kMostWithoutGain = 2;
-// On 2, 4 and 13 points of a measured combustor none went on for more than two.
-constexpr int kMostFromHalves = 4;
 
 std::vector<OperatingPoint> PointsOf(const std::vector<LoopRecord>& records, FlameInput input,
                                      int threads) {
@@ -23,37 +21,6 @@ std::vector<OperatingPoint> PointsOf(const std::vector<LoopRecord>& records, Fla
                  MakeRecordSpectra(records[e].record, records[e].cycle_hz, input)};
   });
   return points;
-}
-
-double SumOf(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-struct Found {
-  RecordsFit fit;
-  std::vector<HalfFits> halves;
-  std::vector<double> log_density;
-};
-
-// `fit`, or what the halves of the records lead to as long as the points foretell one another
-// better by it; with the halves that belong to it.
-Found WithHalves(const std::vector<LoopRecord>& records, const std::vector<OperatingPoint>& points,
-                 RecordsFit fit, const RecordsFitOptions& options) {
-  Found out;
-  out.fit = std::move(fit);
-  out.log_density = LeftOutDensities(points, out.fit, options);
-  for (int round = 0;; ++round) {
-    RecordsFitOptions of_round = options;
-    of_round.key += "halves/" + std::to_string(round) + "/";
-    out.halves = FitHalves(records, points, out.fit, of_round);
-    if (round == kMostFromHalves) return out;
-    std::optional<RecordsFit> next = BetterByHalves(points, out.fit, out.halves, of_round);
-    if (!next) return out;
-    std::vector<double> log_density = LeftOutDensities(points, *next, of_round);
-    if (!(SumOf(log_density) > SumOf(out.log_density))) return out;
-    out.fit = std::move(*next);
-    out.log_density = std::move(log_density);
-  }
 }
 
 // With the best loop of this input in the place of `out`'s, where it is better.
@@ -72,7 +39,7 @@ void TryInput(FlameInput input, const std::vector<LoopRecord>& records, const Re
     of_these.key += "modes/" + std::to_string(modes) + "/";
     RecordsFit fit = FitRecords(points, StructureOf(spec, modes), of_these, poorer);
     fit = FitDriven(fit, of_these, &points);
-    Found found = WithHalves(records, points, std::move(fit), of_these);
+    FitWithHalves found = GoOnFromHalves(records, points, std::move(fit), of_these);
     out->tried.push_back({input, modes, std::move(found.log_density)});
     const double now = out->tried.back().Sum();
     without_gain = modes == first || now > most ? 0 : without_gain + 1;
@@ -89,7 +56,9 @@ void TryInput(FlameInput input, const std::vector<LoopRecord>& records, const Re
 
 }  // namespace
 
-double LoopTried::Sum() const { return SumOf(log_density); }
+double LoopTried::Sum() const {
+  return std::accumulate(log_density.begin(), log_density.end(), 0.0);
+}
 
 ChosenLoop FitLoop(const std::vector<LoopRecord>& records, const RecordLoopSpec& spec,
                    const RecordsFitOptions& options) {

@@ -38,6 +38,18 @@ std::optional<RecordsFit> BetterByHalves(const std::vector<OperatingPoint>& poin
                                          const RecordsFit& fit, const std::vector<HalfFits>& halves,
                                          const RecordsFitOptions& options);
 
+struct FitWithHalves {
+  RecordsFit fit;
+  std::vector<HalfFits> halves;
+  std::vector<double> log_density;  // of each point, left out (LeftOutDensities)
+};
+
+// `fit`, or what halves lead to as long as the points foretell one another better by it; with the
+// halves that belong to it.
+FitWithHalves GoOnFromHalves(const std::vector<LoopRecord>& records,
+                             const std::vector<OperatingPoint>& points, RecordsFit fit,
+                             const RecordsFitOptions& options);
+
 }  // namespace howl
 
 #endif  // HOWL_ESTIMATION_JOINT_RECORDS_HALF_FITS_H_
