@@ -7,7 +7,6 @@
 #include <functional>
 #include <iterator>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "estimation/parallel.h"
@@ -65,6 +64,15 @@ Eigen::VectorXd ToSearch(const Effect& effect, const std::vector<double>& values
 
 Eigen::VectorXd SearchSpans(const Effect& effect) { return Ends(effect).high - Ends(effect).low; }
 
+void EffectPoint::SumUp() {
+  log_posterior = 0.0;
+  log_evidence = 0.0;
+  for (std::size_t e = 0; e < fits.size(); ++e) {
+    log_posterior += fits[e].log_posterior + log_jacobian[e];
+    log_evidence += fits[e].log_evidence + log_jacobian[e];
+  }
+}
+
 Eigen::VectorXd ProfileMaximum::Deviations() const {
   const Eigen::LLT<Eigen::MatrixXd> root(information);
   if (root.info() != Eigen::Success) {
@@ -108,22 +116,20 @@ EffectPoint EffectProfile::At(const Eigen::VectorXd& u, const std::vector<Eigen:
                               const PointFitOptions& options, RecordExtent extent) {
   const std::string key = key_ + std::to_string(evaluations_++) + "/";
   const LoopForm form = FormAt(u);
-  EffectPoint out{u, 0.0, 0.0, std::vector<PointFit>(records_.size())};
-  std::vector<double> jacobians(records_.size());
+  EffectPoint out;
+  out.u = u;
+  out.fits.resize(records_.size());
+  out.log_jacobian.resize(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
     const RecordSpectra whole = records_.Whole(form, e);
     const RecordSpectra& record = extent == RecordExtent::kMiddle ? MiddleOf(whole) : whole;
-    jacobians[e] = LogJacobian(record, form.effects);
+    out.log_jacobian[e] = LogJacobian(record, form.effects);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
       return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
                       starts[e], options);
     });
   });
-  for (std::size_t e = 0; e < records_.size(); ++e) {
-    const double jacobian = jacobians[e];
-    out.log_posterior += out.fits[e].log_posterior + jacobian;
-    out.log_evidence += out.fits[e].log_evidence + jacobian;
-  }
+  out.SumUp();
   return out;
 }
 
@@ -162,25 +168,19 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
 void EffectProfile::AgainFromNull(const std::vector<Eigen::VectorXd>& at_null, EffectPoint* point) {
   const LoopForm form = FormAt(point->u);
   const std::string key = key_ + "again/";
-  std::vector<double> gained(records_.size(), 0.0);
-  std::vector<double> evidence_gained(records_.size(), 0.0);
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
     PointFit& fit = point->fits[e];
     const double without =
         from_.fit.points[e].log_posterior + records_.LogJacobianOfWhole(from_.model, e);
-    if (fit.log_posterior + records_.LogJacobianOfWhole(form, e) > without - kWorthAnother) return;
+    if (fit.log_posterior + point->log_jacobian[e] > without - kWorthAnother) return;
     PointFit again = KeptFit(options_.units, key + std::to_string(e), [&] {
       const RecordSpectra whole = records_.WholeAlone(form, e);
       return FitPoint(whole, form.structure, PriorOfTrial(records_, from_, form, e, whole),
                       at_null[e]);
     });
-    if (!(again.log_posterior > fit.log_posterior)) return;
-    gained[e] = again.log_posterior - fit.log_posterior;
-    evidence_gained[e] = again.log_evidence - fit.log_evidence;
-    fit = std::move(again);
+    if (again.log_posterior > fit.log_posterior) fit = std::move(again);
   });
-  point->log_posterior += std::accumulate(gained.begin(), gained.end(), 0.0);
-  point->log_evidence += std::accumulate(evidence_gained.begin(), evidence_gained.end(), 0.0);
+  point->SumUp();
 }
 
 std::vector<EffectPoint> EffectProfile::BeginFromNull(const EffectPoint& null) {

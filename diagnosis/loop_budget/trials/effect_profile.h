@@ -32,6 +32,10 @@ struct EffectPoint {
   double log_posterior = -std::numeric_limits<double>::infinity();
   double log_evidence = -std::numeric_limits<double>::infinity();
   std::vector<PointFit> fits;
+  std::vector<double> log_jacobian;  // of each fit's record
+
+  // Posterior and evidence, from the fits.
+  void SumUp();
 };
 
 struct ProfileMaximum {
