@@ -14,7 +14,7 @@
 //   gamma_delays                     or as behind a chain of lags
 //   second_delay_path                a share of the flame answers later
 //   flame_input_pressure, _velocity  the flame answers to another signal than the base's
-//   ID of the catalogue              an instrument of q, or a filter of the flame, with parameters
+//   ID of the catalogue              an instrument, or a filter of the flame, with parameters
 //                                    that all points share (shared_effect.h); a second path
 //                                    before the flame's curve is one of them
 //   acoustic_line_errors, flame_line_errors

@@ -8,21 +8,6 @@
 #include "estimation/parallel.h"
 
 namespace howl {
-namespace {
-
-// Filters first: they make the flame's functions anew, and with them the record's middle.
-RecordSpectra Without(const LoopForm& form, RecordSpectra record) {
-  for (const bool filters : {true, false}) {
-    for (const SharedEffect& shared : form.effects) {
-      if (IsFlameFilter(*shared.effect) != filters) continue;
-      record = RecordBeside(std::move(record), shared);
-    }
-  }
-  return record;
-}
-
-}  // namespace
-
 LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   CHECK(!records.empty());
   for (const LoopRecord& each : records) {
@@ -47,12 +32,15 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   });
 }
 
-void LoopRecords::DriveWithout(const std::vector<Eigen::VectorXd>& noise, int threads) {
+void LoopRecords::DriveWithout(const LoopForm& form, const std::vector<Eigen::VectorXd>& noise,
+                               int threads) {
   RunUnits(spectra_.size() * size(), threads, [&](std::size_t i) {
     const std::size_t e = i % size();
     Spectra& spectra = spectra_[i / size()];
+    const Eigen::VectorXd recorded =
+        PressureAsRecorded(spectra.points[e].record, form.effects, noise[e]);
     const auto drive = [&](RecordSpectra* record, Eigen::Index first) {
-      *record = DrivenWithout(std::move(*record), noise[e].segment(first, record->Samples()));
+      *record = DrivenWithout(std::move(*record), recorded.segment(first, record->Samples()));
     };
     drive(&spectra.points[e].record, 0);
     drive(&spectra.halves[e][0], 0);
@@ -62,22 +50,23 @@ void LoopRecords::DriveWithout(const std::vector<Eigen::VectorXd>& noise, int th
 
 std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
   std::vector<OperatingPoint> out = Of(form.flame_input).points;
-  for (OperatingPoint& point : out) point.record = Without(form, std::move(point.record));
+  for (OperatingPoint& point : out)
+    point.record = RecordBeside(std::move(point.record), form.effects);
   return out;
 }
 
 RecordSpectra LoopRecords::Whole(const LoopForm& form, std::size_t e) const {
-  return Without(form, Of(form.flame_input).points[e].record);
+  return RecordBeside(Of(form.flame_input).points[e].record, form.effects);
 }
 
 RecordSpectra LoopRecords::WholeAlone(const LoopForm& form, std::size_t e) const {
   RecordSpectra record = Of(form.flame_input).points[e].record;
   record.middle = nullptr;
-  return Without(form, std::move(record));
+  return RecordBeside(std::move(record), form.effects);
 }
 
 RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t half) const {
-  return Without(form, Of(form.flame_input).halves[e][half]);
+  return RecordBeside(Of(form.flame_input).halves[e][half], form.effects);
 }
 
 double LoopRecords::LogJacobianOfWhole(const LoopForm& form, std::size_t e) const {

@@ -37,8 +37,9 @@ class LoopRecords {
   double LogJacobianOfWhole(const LoopForm& form, std::size_t e) const;
   double LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const;
 
-  // From now on the flames are driven by p without this noise (PressureNoiseOf) of each point.
-  void DriveWithout(const std::vector<Eigen::VectorXd>& noise, int threads);
+  // From now on the flames are driven by p without this noise of each point, which the points tell
+  // as `form` has them (PressureNoiseOf).
+  void DriveWithout(const LoopForm& form, const std::vector<Eigen::VectorXd>& noise, int threads);
 
  private:
   struct Spectra {

@@ -1,10 +1,15 @@
-// Effects of the catalogue whose parameters all operating points share: of the instrument of q,
+// Effects of the catalogue whose parameters all operating points share: of the instruments,
 //
-//   Q_recorded = H_q Q + leak P_recorded,     so that Q = (Q_recorded - leak P_recorded) / H_q
+//   P_recorded = H_p P                      so that P = P_recorded / H_p
+//   Q_recorded = H_q Q + leak P_recorded            Q = (Q_recorded - leak P_recorded) / H_q
 //
-// is what the loop is fitted to, and filters before and behind the flame's curve, which the record
+// are what the loop is fitted to, and filters before and behind the flame's curve, which the record
 // is made ready with (record_spectra.h). The likelihood of what was recorded has the Jacobian of
-// the division, which is what a bin counts for times -2 ln |H_q|.
+// the divisions, which is what a bin counts for times -2 ln |H|.
+//
+// What stands before the curve turns the cycle's phase. Its turn is taken back, as a delay at all
+// frequencies, so that the loop's own delay stays that of the cycle, which records tell best; and
+// H_p is over its size there, so that the unit of p stays.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_
 
@@ -24,14 +29,17 @@ struct SharedEffect {
 // each operating point (loop_point.h).
 bool IsFlameFilter(const Effect& effect);
 
-// Those of q's instrument, with one parameter, and the flame's filters, in all their forms.
+// Those of q's instrument, with one parameter, of p's, and the flame's filters, in all their forms.
 std::vector<EffectPointer> SharedEffects();
 
-// The record as it would be without an instrument, or with the flame's filter.
-RecordSpectra RecordBeside(RecordSpectra record, const SharedEffect& shared);
+// The record as it would be without the instruments, and with the flame's filters.
+RecordSpectra RecordBeside(RecordSpectra record, const std::vector<SharedEffect>& effects);
 
-// ln of the Jacobian, of one and of several.
-double LogJacobian(const RecordSpectra& record, const SharedEffect& shared);
+// Noise of p that was told beside these effects, one value a sample, as it was recorded.
+Eigen::VectorXd PressureAsRecorded(const RecordSpectra& record,
+                                   const std::vector<SharedEffect>& effects, Eigen::VectorXd noise);
+
+// ln of the Jacobian.
 double LogJacobian(const RecordSpectra& record, const std::vector<SharedEffect>& effects);
 
 }  // namespace howl

@@ -37,7 +37,8 @@ class Search {
 
 // With the flames driven as `fit` has it from now on.
 LoopFit Search::Driven(const LoopFit& fit, const std::string& key) {
-  records_.DriveWithout(PressureNoiseOf(records_.Points(fit.model), fit.fit, options_.threads),
+  records_.DriveWithout(fit.model,
+                        PressureNoiseOf(records_.Points(fit.model), fit.fit, options_.threads),
                         options_.threads);
   return FitLoopFrom(records_, fit.model, {ParametersOf(fit)}, MaximumTaken::kNext, key + "driven/",
                      options_);

@@ -139,8 +139,10 @@ Eigen::VectorXd EffectProfile::NullEnd() const {
 
 std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>& at_null) {
   const Eigen::VectorXd null = NullEnd();
-  if (null.size() > 1) return BeginFromNull(At(null, at_null));
   const EffectParameter& parameter = effect().parameters()[0];
+  if (null.size() > 1 && std::isfinite(parameter.null_value)) {
+    return BeginFromNull(At(null, at_null));
+  }
   std::vector<double> starts;
   for (const double start : parameter.starts) starts.push_back(ToSearch(parameter, start));
   std::ranges::sort(starts, {}, [&](double u) { return std::abs(u - null[0]); });
@@ -152,7 +154,9 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
   EffectPoint above = best;
   for (const double u : starts) {
     EffectPoint& last = u < null[0] ? below : above;
-    last = roughly_at(Eigen::VectorXd::Constant(1, u), ParametersOf(last.fits));
+    Eigen::VectorXd beside = null;
+    beside[0] = u;
+    last = roughly_at(beside, ParametersOf(last.fits));
     if (last.log_posterior > best.log_posterior) best = last;
   }
   if (best.u == null) return {At(null, at_null)};

@@ -173,6 +173,13 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
 
 }  // namespace
 
+Eigen::VectorXd PowerTimes(Eigen::VectorXd power, const Eigen::VectorXcd& s,
+                           const TransferFunction& instrument) {
+  if (power.size() == 0) power.setOnes(s.size());
+  for (Eigen::Index i = 0; i < s.size(); ++i) power[i] *= std::norm(instrument(s[i]));
+  return power;
+}
+
 std::complex<double> FlameInputResponse(FlameInput input, std::complex<double> s) {
   switch (input) {
     case FlameInput::kPressureRate:
@@ -218,15 +225,32 @@ RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise) 
 }
 
 RecordSpectra WithFilters(RecordSpectra record, const FlameFilters& filters) {
-  const auto both = [](const FlameFilters::Response& first, const FlameFilters::Response& second) {
+  const auto both = [](const TransferFunction& first, const TransferFunction& second) {
     if (!first || !second) return first ? first : second;
-    return FlameFilters::Response([first, second](C s) { return first(s) * second(s); });
+    return TransferFunction([first, second](C s) { return first(s) * second(s); });
   };
   record.filters = {both(record.filters.before, filters.before),
                     both(record.filters.after, filters.after)};
   SetFlame(std::move(record.driving), {}, &record);
   if (record.middle) SetMiddle(&record);
   return record;
+}
+
+RecordSpectra WithoutPressureInstrument(RecordSpectra record, const TransferFunction& instrument,
+                                        const FlameFilters& filters) {
+  const double bin = record.bin_hz / record.scale.cycle_hz;
+  const auto divide = [&](Eigen::Index first, Eigen::VectorXcd* spectrum) {
+    for (Eigen::Index k = 0; k < spectrum->size(); ++k) {
+      (*spectrum)[k] /= instrument(C(0.0, bin * static_cast<double>(first + k)));
+    }
+  };
+  divide(0, &record.driving);
+  divide(0, &record.below);
+  divide(record.below.size(), &record.pressure);
+  divide(record.below.size() + record.pressure.size(), &record.above);
+  record.pressure_instrument_power =
+      PowerTimes(std::move(record.pressure_instrument_power), record.s, instrument);
+  return WithFilters(std::move(record), filters);
 }
 
 }  // namespace howl

@@ -44,11 +44,13 @@ enum class FlameInput : std::uint8_t { kPressureRate, kPressure, kVelocity };
 // v's transfer from p at s = j f over the cycle's frequency: s, 1 or 1 / s.
 std::complex<double> FlameInputResponse(FlameInput input, std::complex<double> s);
 
-// What stands beside a flame's curve, as transfer functions of s = j f over the cycle's frequency:
-// v is filtered by `before`, what the curve makes of it by `after`. Empty: 1.
+// Of s = j f over the cycle's frequency.
+using TransferFunction = std::function<std::complex<double>(std::complex<double> s)>;
+
+// What stands beside a flame's curve: v is filtered by `before`, what the curve makes of it by
+// `after`. Empty: 1.
 struct FlameFilters {
-  using Response = std::function<std::complex<double>(std::complex<double> s)>;
-  Response before, after;
+  TransferFunction before, after;
 
   std::complex<double> BeforeAt(std::complex<double> s) const { return before ? before(s) : 1.0; }
   std::complex<double> AfterAt(std::complex<double> s) const { return after ? after(s) : 1.0; }
@@ -91,9 +93,9 @@ struct RecordSpectra {
   Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
   Eigen::VectorXd rest_slopes;  // d b_k / d v at v = 0
   Eigen::VectorXd share;        // what each bin counts for
-  // |H_q|^2 of the instruments of q that were taken out of the record: noise that came in behind
-  // them was divided by it. Empty: 1.
-  Eigen::VectorXd instrument_power;
+  // |H_p|^2 and |H_q|^2 of the instruments that were taken out of the record: noise that came in
+  // behind them was divided by it. Empty: 1.
+  Eigen::VectorXd pressure_instrument_power, heat_release_instrument_power;
   // A part that is enough to compare starts (middle_part.h); of a short record none.
   std::shared_ptr<const RecordSpectra> middle;
 
@@ -120,6 +122,14 @@ RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise);
 
 // With a flame that has these filters beside those of the record. One without a middle stays so.
 RecordSpectra WithFilters(RecordSpectra record, const FlameFilters& filters);
+
+// The same, where p was recorded through this instrument.
+RecordSpectra WithoutPressureInstrument(RecordSpectra record, const TransferFunction& instrument,
+                                        const FlameFilters& filters);
+
+// |H|^2 of an instrument at s, times this power; empty: 1.
+Eigen::VectorXd PowerTimes(Eigen::VectorXd power, const Eigen::VectorXcd& s,
+                           const TransferFunction& instrument);
 
 // A spectrum of the transform's bins under the taper.
 inline Eigen::VectorXcd Tapered(const Eigen::VectorXcd& x) {

@@ -25,9 +25,22 @@ Eigen::VectorXd HumLines(const NoiseTerm& term, const RecordSpectra& record) {
   return out;
 }
 
-// Whether it comes in behind the instruments of q.
-bool IsOfHeatReleaseRecord(LoopNoise source) {
-  return source == LoopNoise::kHeatReleaseSensor || source == LoopNoise::kHeatReleaseHum;
+// Of the instruments before the place where it comes in. Empty: 1.
+const Eigen::VectorXd& InstrumentPower(LoopNoise source, const RecordSpectra& record) {
+  static const Eigen::VectorXd kNone;
+  switch (source) {
+    case LoopNoise::kPressureSensor:
+    case LoopNoise::kPressureHum:
+      return record.pressure_instrument_power;
+    case LoopNoise::kHeatReleaseSensor:
+    case LoopNoise::kHeatReleaseHum:
+      return record.heat_release_instrument_power;
+    case LoopNoise::kCombustion:
+    case LoopNoise::kDuct:
+    case LoopNoise::kBackground:
+      break;
+  }
+  return kNone;
 }
 
 }  // namespace
@@ -35,9 +48,8 @@ bool IsOfHeatReleaseRecord(LoopNoise source) {
 Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
   Eigen::VectorXd out =
       IsHum(term.source) ? HumLines(term, record) : Eigen::VectorXd::Ones(record.bins()).eval();
-  if (record.instrument_power.size() > 0 && IsOfHeatReleaseRecord(term.source)) {
-    out = out.cwiseQuotient(record.instrument_power);
-  }
+  const Eigen::VectorXd& power = InstrumentPower(term.source, record);
+  if (power.size() > 0) out = out.cwiseQuotient(power);
   return out;
 }
 

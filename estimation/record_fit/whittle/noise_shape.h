@@ -5,8 +5,8 @@
 //
 // the bound of a line's power under a sine taper (Thomson 1982; Riedel & Sidorenko 1995). Multiples
 // next to one of the cycle's lines tell nothing of hum, and are left out. Noise and hum that come
-// in behind an instrument of q which was taken out of the record have 1 / |H_q|^2 of it as well. Of
-// all other sources w is one.
+// in behind an instrument which was taken out of the record have 1 / |H|^2 of it as well. Of all
+// other sources w is one.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
 

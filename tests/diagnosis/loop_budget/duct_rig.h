@@ -37,18 +37,24 @@ inline std::vector<LoopRecord> DuctsAt(const std::vector<double>& gains,
   return out;
 }
 
-// q through a low-pass of first order, exact at each frequency of the record, whose end meets its
-// beginning within a sample.
-inline void LowPass(double cutoff_hz, Record* record) {
-  std::vector<double>& q = record->heat_release;
-  std::vector<std::complex<double>> spectrum(q.size() / 2 + 1);
+// A signal through a filter, exact at each frequency of the record, whose end meets its beginning
+// within a sample.
+inline void Filter(const std::function<std::complex<double>(double frequency_hz)>& response,
+                   double sampling_hz, std::vector<double>* signal) {
+  std::vector<std::complex<double>> spectrum(signal->size() / 2 + 1);
   Fft fft;
-  fft.Forward(q, spectrum);
-  const double bin_hz = record->sampling_hz / static_cast<double>(q.size());
+  fft.Forward(*signal, spectrum);
+  const double bin_hz = sampling_hz / static_cast<double>(signal->size());
   for (std::size_t k = 0; k < spectrum.size(); ++k) {
-    spectrum[k] /= std::complex<double>(1.0, static_cast<double>(k) * bin_hz / cutoff_hz);
+    spectrum[k] *= response(static_cast<double>(k) * bin_hz);
   }
-  fft.Inverse(spectrum, q);
+  fft.Inverse(spectrum, *signal);
+}
+
+// q through a low-pass of first order.
+inline void LowPass(double cutoff_hz, Record* record) {
+  const auto response = [&](double hz) { return 1.0 / std::complex<double>(1.0, hz / cutoff_hz); };
+  Filter(response, record->sampling_hz, &record->heat_release);
 }
 
 // The duct's own: two free modes with complex residues, driven by dp/dt.

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -46,7 +48,7 @@ TEST(SharedEffect, CostsItsPriorWhereThereIsNone) {
   }
 }
 
-const LoopTrial& BestOf(const std::vector<LoopTrial>& trials) {
+LoopTrial BestOf(const std::vector<LoopTrial>& trials) {
   return *std::ranges::max_element(trials, {}, &LoopTrial::gain);
 }
 
@@ -112,6 +114,32 @@ TEST(SharedEffect, FindsASecondPathBeforeTheCurve) {
   EXPECT_NEAR(values[1], 1e-3, 8e-5);
 }
 
+// The laws of a loop that was fitted without the resonance hold its modes where they are not: a
+// trial names it, and the search beyond the trial finds its values.
+TEST(SharedEffect, FindsAResonanceOfThePressureSensor) {
+  const std::vector<LoopRecord> rig = Ducts([](Record* record) {
+    const auto resonance = [](double hz) {
+      const std::complex<double> s(0.0, hz / 900.0);
+      return 1.0 / (1.0 + 0.2 * s + s * s);
+    };
+    Filter(resonance, record->sampling_hz, &record->pressure);
+  });
+  const LoopTrial best = BestOf(TrialsOn(rig));
+  EXPECT_EQ(best.item.id, "p_sensor_resonance");
+  EXPECT_GT(best.gain, 100.0);
+  LoopBudgetOptions options;
+  options.starts = 4;
+  for (const std::string& id : LoopItemIds()) {
+    if (id != "p_sensor_resonance") options.withheld.push_back(id);
+  }
+  const LoopDiagnosis found = DiagnoseLoops(rig, DuctsForm(), options);
+  ASSERT_EQ(found.diagnosis.budget->entries.size(), 1u);
+  const std::vector<EstimatedParameter>& parameters = found.diagnosis.budget->entries[0].parameters;
+  ASSERT_EQ(parameters.size(), 2u);
+  EXPECT_NEAR(parameters[0].value, 900.0, 6.0);
+  EXPECT_NEAR(parameters[1].value, 0.1, 0.006);
+}
+
 TEST(SharedEffect, FindsALagOfTheFlame) {
   const std::vector<LoopTrial> trials =
       TrialsOn(Changed(0.8, [](ModalLoop* loop) { loop->lag_hz = 300.0; }));
@@ -132,10 +160,51 @@ TEST(SharedEffect, IsNoSecondPathBesideAnother) {
   }
 }
 
+// What the loop is fitted to is p as it was before the resonance, but for its size and its turn at
+// the cycle.
+TEST(SharedEffect, TakesAResonanceOut) {
+  const LoopRecord of = DuctAt(1.5, 0.8, 1);
+  const RecordSpectra plain = MakeRecordSpectra(of.record, of.cycle_hz, FlameInput::kPressureRate);
+  const auto is_resonance = [](const EffectPointer& effect) {
+    return effect->id() == "p_sensor_resonance";
+  };
+  const std::vector<EffectPointer> effects = SharedEffects();
+  const EffectPointer resonance = *std::ranges::find_if(effects, is_resonance);
+  const SharedEffect shared{resonance, {900.0, 0.1}};
+  const RecordSpectra record = RecordBeside(plain, {shared});
+  const auto response = [&](double hz) { return resonance->PressureInstrument(hz, shared.values); };
+  const std::complex<double> at_cycle = response(of.cycle_hz);
+  double log_jacobian = 0.0;
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const double hz = record.edge_s[i].imag() * of.cycle_hz;
+    const std::complex<double> h = response(hz) / std::abs(at_cycle);
+    EXPECT_LT(std::abs(record.pressure[i] * h - plain.pressure[i]),
+              1e-12 * std::abs(plain.pressure[i]));
+    const double at_bin_hz = record.s[i].imag() * of.cycle_hz;
+    const double power = std::norm(response(at_bin_hz) / at_cycle);
+    EXPECT_NEAR(NoiseShape({LoopNoise::kPressureSensor, 1}, record)[i], 1.0 / power, 1e-9 / power);
+    log_jacobian -= record.share[i] * std::log(power);
+  }
+  EXPECT_NEAR(LogJacobian(plain, {shared}), log_jacobian, 1e-9 * std::abs(log_jacobian));
+  // The flame of what was recorded at the cycle has the same phase as that of what it sees.
+  const std::complex<double> j(0.0, 1.0);
+  EXPECT_NEAR(std::arg(record.InputAt(j) / response(of.cycle_hz)), std::arg(plain.InputAt(j)),
+              1e-12);
+  // Noise that the fit tells beside it is that of the record through it.
+  Eigen::VectorXd noise = Eigen::VectorXd::Zero(plain.Samples());
+  for (Eigen::Index n = 0; n < noise.size(); ++n) {
+    noise[n] = std::cos(2.0 * std::numbers::pi * 100.0 * static_cast<double>(n) /
+                        static_cast<double>(noise.size()));
+  }
+  const Eigen::VectorXd recorded = PressureAsRecorded(plain, {shared}, noise);
+  const double size = std::abs(response(100.0 * plain.bin_hz) / at_cycle);
+  EXPECT_NEAR(recorded.norm() / noise.norm(), size, 1e-9);
+}
+
 TEST(SharedEffect, ShapesTheNoiseBehindIt) {
   LoopRecord of = DuctAt(1.5, 0.8, 1);
   const RecordSpectra plain = MakeRecordSpectra(of.record, of.cycle_hz, FlameInput::kPressureRate);
-  const RecordSpectra record = RecordBeside(plain, {SharedEffects()[0], {300.0}});
+  const RecordSpectra record = RecordBeside(plain, {{SharedEffects()[0], {300.0}}});
   const NoiseTerm sensor{LoopNoise::kHeatReleaseSensor, 1};
   const Eigen::VectorXd shape = NoiseShape(sensor, record);
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
