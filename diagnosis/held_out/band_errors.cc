@@ -80,12 +80,13 @@ void AddSpread(const PredictedSignals& signals, const PredictedSignals& moved, d
 }
 
 void SetPredictionErrors(const Eigen::Vector2cd& residuals, const Eigen::Matrix2cd& w,
-                         std::complex<double> r, std::complex<double> f, Eigen::Index bin,
+                         const Eigen::Vector2cd& by_pressure,
+                         const Eigen::Vector2cd& by_heat_release, Eigen::Index bin,
                          PredictedSignals* signals) {
   const Eigen::Vector2cd we = w * residuals;
   const auto error = [&](const Eigen::Vector2cd& u) { return u.dot(we) / u.dot(w * u).real(); };
-  signals->pressure_error[bin] = error({1.0, -f});
-  signals->heat_release_error[bin] = error({-r, 1.0});
+  signals->pressure_error[bin] = error(by_pressure);
+  signals->heat_release_error[bin] = error(by_heat_release);
 }
 
 std::vector<BandErrors> ErrorsOverBands(const PredictedSignals& signals) {

@@ -36,11 +36,13 @@ struct PredictedSignals {
   Eigen::VectorXcd heat_release_error;
 };
 
-// The errors of a bin's predictions from its residuals E = (E_A, E_B), W = Sigma^-1, R and F:
+// The errors of a bin's predictions from its residuals E = (E_A, E_B), W = Sigma^-1, and how these
+// change with either of the recorded signals:
 //
-//   e_p = P - E[P | Q] = u^H W E / (u^H W u),   u = (1, -F);    e_q = Q - E[Q | P], u = (-R, 1)
+//   e_p = P - E[P | Q] = u^H W E / (u^H W u),   u = dE / dP;    e_q = Q - E[Q | P], u = dE / dQ
 void SetPredictionErrors(const Eigen::Vector2cd& residuals, const Eigen::Matrix2cd& w,
-                         std::complex<double> r, std::complex<double> f, Eigen::Index bin,
+                         const Eigen::Vector2cd& by_pressure,
+                         const Eigen::Vector2cd& by_heat_release, Eigen::Index bin,
                          PredictedSignals* signals);
 
 // The bands of p, then those of q. Their spread is nothing yet.

@@ -36,16 +36,22 @@ Eigen::VectorXd WithTransientsOf(const RecordSpectra& record, const PointStructu
   return parameters;
 }
 
-void SetErrors(const RecordSpectra& record, const PointStructure& structure,
-               const Eigen::VectorXd& parameters, PredictedSignals* signals) {
+// Of the signals as they were recorded: what an instrument takes out of one of them is foretold by
+// no loop.
+void SetErrors(const RecordSpectra& record, const LoopForm& form, const Eigen::VectorXd& parameters,
+               PredictedSignals* signals) {
+  const PointStructure& structure = form.structure;
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   const LoopResiduals residuals = ResidualsOf(record, structure, point);
   signals->pressure_error.resize(record.bins());
   signals->heat_release_error.resize(record.bins());
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
     const Eigen::Matrix2cd w = NoiseCovariance(structure.noise, residuals, i).inverse();
-    SetPredictionErrors({residuals.acoustic[i], residuals.flame[i]}, w, residuals.r[i],
-                        residuals.f[i], i, signals);
+    Eigen::Matrix2cd cuts;
+    cuts << 1.0, -residuals.r[i], -residuals.f[i], 1.0;
+    const Eigen::Matrix2cd by = cuts * ByRecorded(form.effects, record.scale.cycle_hz, record.s[i]);
+    SetPredictionErrors({residuals.acoustic[i], residuals.flame[i]}, w, by.col(0), by.col(1), i,
+                        signals);
   }
 }
 
@@ -65,11 +71,12 @@ PredictedSignals SignalsOf(const RecordSpectra& record) {
 
 // The spread is that of parameters drawn from what the other half tells of them, to first order:
 // what moves a prediction but little is taken to move it in proportion.
-std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructure& structure,
-                                 const Eigen::VectorXd& at, const Eigen::MatrixXd& information,
-                                 std::uint64_t seed) {
-  PredictedSignals signals = SignalsOf(record);
-  SetErrors(record, structure, at, &signals);
+std::vector<BandErrors> ErrorsOf(const RecordSpectra& recorded, const RecordSpectra& record,
+                                 const LoopForm& form, const Eigen::VectorXd& at,
+                                 const Eigen::MatrixXd& information, std::uint64_t seed) {
+  const PointStructure& structure = form.structure;
+  PredictedSignals signals = SignalsOf(recorded);
+  SetErrors(record, form, at, &signals);
   PredictedSignals moved = signals;
   std::vector<BandErrors> out = ErrorsOverBands(signals);
   const Eigen::LLT<Eigen::MatrixXd> root(information);
@@ -80,7 +87,7 @@ std::vector<BandErrors> ErrorsOf(const RecordSpectra& record, const PointStructu
     root.matrixU().solveInPlace(step);
     // What this half holds at its ends is its own.
     step.segment(structure.Transfer(), structure.Transients()).setZero();
-    SetErrors(record, structure, at + kStep * step, &moved);
+    SetErrors(record, form, at + kStep * step, &moved);
     AddSpread(signals, moved, 1.0 / (kStep * kStep * kDraws), &out);
   }
   return out;
@@ -94,6 +101,8 @@ HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const 
   const std::vector<PointPrior> prior =
       records.size() == 1 ? fit.fit.prior
                           : PriorsOfOthers(records.Points(fit.model), fit.fit, options.threads);
+  LoopForm as_recorded = fit.model;
+  as_recorded.effects.clear();
   HeldOutScore out;
   out.nats.resize(records.size());
   out.errors.resize(records.size());
@@ -110,8 +119,9 @@ HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const 
     const Eigen::VectorXd at = WithTransientsOf(here, structure, prior[e], of_other.parameters);
     out.nats[e][half] =
         LogLikelihood(here, structure, at) + records.LogJacobianOfHalf(fit.model, e, half);
-    out.errors[e][half] = ErrorsOf(here, structure, at, of_other.information,
-                                   UnitSeed(options.seed, "errors of parameters", i));
+    out.errors[e][half] =
+        ErrorsOf(records.Half(as_recorded, e, half), here, fit.model, at, of_other.information,
+                 UnitSeed(options.seed, "errors of parameters", i));
   });
   return out;
 }

@@ -22,7 +22,7 @@ const NoiseTerm* TermOf(const LoopForm& model, LoopNoise source) {
   return at == model.structure.noise.end() ? nullptr : &*at;
 }
 
-bool HasShared(const LoopForm& model, const std::string& id) {
+bool HasShared(const LoopForm& model, std::string_view id) {
   return std::ranges::any_of(model.effects,
                              [&](const SharedEffect& each) { return each.effect->id() == id; });
 }
@@ -46,13 +46,14 @@ bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& bas
       // One more of modes that are tied to one another would have no frequency of its own.
       return !now.ratio && now.own_damping && now.modes < kMostModes;
     case LoopItemKind::kDelaySpread:
-      return now.delay_spread == DelaySpread::kNone;
+      return now.delay_spread == DelaySpread::kNone && !HasShared(model, kDelayDispersionId);
     case LoopItemKind::kSecondPath:
       return !now.second_path && !HasShared(model, item.id);
     case LoopItemKind::kFlameInput:
       return model.flame_input == base.flame_input && item.input != base.flame_input;
     case LoopItemKind::kSharedEffect:
-      return !HasShared(model, item.id) && !(now.second_path && item.id == kSecondPathId);
+      return !HasShared(model, item.id) && !(now.second_path && item.id == kSecondPathId) &&
+             !(now.delay_spread != DelaySpread::kNone && item.id == kDelayDispersionId);
     case LoopItemKind::kLineErrors:
       return now.*item.lines == 0;
   }

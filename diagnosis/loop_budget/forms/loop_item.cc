@@ -25,7 +25,7 @@ std::vector<LoopItem> MakeItems() {
       {"own_damping", LoopItemKind::kOwnDamping},
       {"complex_residues", LoopItemKind::kComplexResidues},
       {"acoustic_mode", LoopItemKind::kMode},
-      {"delay_dispersion", LoopItemKind::kDelaySpread, {}, DelaySpread::kNormal},
+      {std::string(kDelayDispersionId), LoopItemKind::kDelaySpread, {}, DelaySpread::kNormal},
       {"gamma_delays", LoopItemKind::kDelaySpread, {}, DelaySpread::kGamma},
       {std::string(kSecondPathId), LoopItemKind::kSecondPath},
       {"flame_input_pressure_rate",

@@ -15,8 +15,8 @@
 //   second_delay_path                a share of the flame answers later
 //   flame_input_pressure, _velocity  the flame answers to another signal than the base's
 //   ID of the catalogue              an instrument, or a filter of the flame, with parameters
-//                                    that all points share (shared_effect.h); a second path
-//                                    before the flame's curve is one of them
+//                                    that all points share (shared_effect.h); a second path and a
+//                                    spread before the flame's curve are among them
 //   acoustic_line_errors, flame_line_errors
 //                                    free errors at the cycle's lines (loop_point.h): no cause, but
 //                                    what stands in its place where none is known
@@ -66,9 +66,6 @@ struct LoopItem {
   EffectPointer effect = nullptr;                // of kSharedEffect: one form of the effect
   int PointStructure::*lines = nullptr;          // of kLineErrors
 };
-
-// Before the curve or behind it.
-inline constexpr std::string_view kSecondPathId = "second_delay_path";
 
 std::vector<std::string> LoopItemIds();
 // In keys of finished units (fit_units.h): forms of one effect are different items.

@@ -89,8 +89,7 @@ void TakeLeak(const SharedEffect& shared, RecordSpectra* record) {
 void TakeHeatReleaseInstrument(const SharedEffect& shared, RecordSpectra* record) {
   const TransferFunction instrument = HeatReleaseInstrumentOf(shared, record->scale.cycle_hz);
   record->heat_release = record->heat_release.cwiseQuotient(record->edge_s.unaryExpr(instrument));
-  record->heat_release_instrument_power =
-      PowerTimes(std::move(record->heat_release_instrument_power), record->s, instrument);
+  record->heat_release_instrument = Product(record->heat_release_instrument, instrument);
 }
 
 void Take(const SharedEffect& shared, Stage stage, RecordSpectra* record) {
@@ -129,8 +128,8 @@ double LogJacobianOf(const RecordSpectra& record, const TransferFunction& instru
 }  // namespace
 
 bool IsFlameFilter(const Effect& effect) {
-  return effect.id() == "flame_lowpass" ||
-         (effect.id() == "second_delay_path" && effect.ChangesFlameInput());
+  const bool of_delays = effect.id() == kSecondPathId || effect.id() == kDelayDispersionId;
+  return effect.id() == "flame_lowpass" || (of_delays && effect.ChangesFlameInput());
 }
 
 std::vector<EffectPointer> SharedEffects() {
@@ -169,6 +168,20 @@ Eigen::VectorXd PressureAsRecorded(const RecordSpectra& record,
     noise = UnitarySignal(std::move(spectrum), samples);
   }
   return noise;
+}
+
+Eigen::Matrix2cd ByRecorded(const std::vector<SharedEffect>& effects, double cycle_hz, C s) {
+  Eigen::Matrix2cd out = Eigen::Matrix2cd::Identity();
+  for (const SharedEffect& each : InStage(effects, Stage::kLeak)) {
+    out(1, 0) -= LeakOf(each, s.imag() * cycle_hz);
+  }
+  for (const SharedEffect& each : InStage(effects, Stage::kPressure)) {
+    out.row(0) /= PressureInstrumentOf(each, cycle_hz)(s);
+  }
+  for (const SharedEffect& each : InStage(effects, Stage::kHeatRelease)) {
+    out.row(1) /= HeatReleaseInstrumentOf(each, cycle_hz)(s);
+  }
+  return out;
 }
 
 double LogJacobian(const RecordSpectra& record, const std::vector<SharedEffect>& effects) {

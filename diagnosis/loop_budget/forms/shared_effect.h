@@ -13,6 +13,9 @@
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_SHARED_EFFECT_H_
 
+#include <Eigen/Core>
+#include <complex>
+#include <string_view>
 #include <vector>
 
 #include "estimation/record_fit/spectra/record_spectra.h"
@@ -25,8 +28,12 @@ struct SharedEffect {
   std::vector<double> values;  // of its parameters
 };
 
-// Of a flame. A second path behind the curve is none: it is the loop's own, with other values at
-// each operating point (loop_point.h).
+// Before the curve they filter what drives it. Behind the curve they are the loop's own, with other
+// values at each operating point (loop_point.h).
+inline constexpr std::string_view kSecondPathId = "second_delay_path";
+inline constexpr std::string_view kDelayDispersionId = "delay_dispersion";
+
+// Of a flame.
 bool IsFlameFilter(const Effect& effect);
 
 // Those of q's instrument, with one parameter, of p's, and the flame's filters, in all their forms.
@@ -38,6 +45,11 @@ RecordSpectra RecordBeside(RecordSpectra record, const std::vector<SharedEffect>
 // Noise of p that was told beside these effects, one value a sample, as it was recorded.
 Eigen::VectorXd PressureAsRecorded(const RecordSpectra& record,
                                    const std::vector<SharedEffect>& effects, Eigen::VectorXd noise);
+
+// How P and Q, as the loop is fitted to them, change with what was recorded of either, at a
+// frequency over the cycle's: a column each.
+Eigen::Matrix2cd ByRecorded(const std::vector<SharedEffect>& effects, double cycle_hz,
+                            std::complex<double> s);
 
 // ln of the Jacobian.
 double LogJacobian(const RecordSpectra& record, const std::vector<SharedEffect>& effects);

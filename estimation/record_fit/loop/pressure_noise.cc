@@ -73,14 +73,25 @@ Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure&
       noise[i] += share[j] * spectrum(i, j) * Inner(directions[j], weighted);
     }
   }
-  double power = 0.0;
+  double behind = 0.0;  // p's instrument
+  double before = 0.0;
   for (std::size_t j = 0; j < share.size(); ++j) {
-    power += share[j] * share[j] * spectrum(record.bins() - 1, j);
+    (IsOfPressure(structure.noise[j].source) ? behind : before) +=
+        share[j] * share[j] * spectrum(record.bins() - 1, j);
   }
+  const double bin = record.bin_hz / record.scale.cycle_hz;
+  const auto instrument_power = [&](C s) {
+    return record.pressure_instrument ? std::norm(record.pressure_instrument(s)) : 1.0;
+  };
+  behind *= instrument_power(record.s[record.bins() - 1]);
   Eigen::VectorXcd edges(above + 1);
   edges << record.pressure.tail(1), record.above;
-  noise.tail(above) =
-      Tapered(edges).unaryExpr([&](C p) { return std::norm(p) < kMostOfBin * power ? p : C(0.0); });
+  const Eigen::VectorXcd tapered = Tapered(edges);
+  for (Eigen::Index i = 0; i < above; ++i) {
+    const C s = record.s[record.bins() - 1] + C(0.0, bin * static_cast<double>(i + 1));
+    const double power = before + behind / instrument_power(s);
+    if (std::norm(tapered[i]) < kMostOfBin * power) noise[record.bins() + i] = tapered[i];
+  }
   return WithoutTaper(noise, record.below.size(), record.Samples());
 }
 

@@ -8,8 +8,8 @@
 // it, as where the loop misses one of the cycle's lines. The residuals are under the sine taper
 // (record_spectra.h), by which the noise is divided but near the record's ends.
 //
-// Above the band it is taken to be as strong as at the band's upper end: what of p stands out of it
-// there, by the same odds, is p.
+// Above the band it is taken to be as strong as at the band's upper end, but for what an instrument
+// of p that was taken out makes of it: what of p stands out of it there, by the same odds, is p.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_PRESSURE_NOISE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_PRESSURE_NOISE_H_
 

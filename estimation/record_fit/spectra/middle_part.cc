@@ -42,18 +42,6 @@ class Middle {
         .segment(first_, edges_);
   }
 
-  // Of what is smooth over the whole's bins.
-  Eigen::VectorXd Nearest(const Eigen::VectorXd& of_bins) const {
-    if (of_bins.size() == 0) return {};
-    Eigen::VectorXd out(bins());
-    for (Eigen::Index i = 0; i < out.size(); ++i) {
-      const double bin = (static_cast<double>(first_ + i) + 0.5) * bins_of_part_;
-      const Eigen::Index at = static_cast<Eigen::Index>(bin) - first_whole_;
-      out[i] = of_bins[std::clamp<Eigen::Index>(at, 0, of_bins.size() - 1)];
-    }
-    return out;
-  }
-
  private:
   Eigen::Index whole_, samples_, first_whole_;
   double bins_of_part_;
@@ -96,8 +84,8 @@ void SetMiddle(RecordSpectra* of) {
   out.slopes = record.slopes;
   out.rest_slopes = record.rest_slopes;
   out.share = Eigen::VectorXd::Constant(middle.bins(), kSineTaperShare);
-  out.pressure_instrument_power = middle.Nearest(record.pressure_instrument_power);
-  out.heat_release_instrument_power = middle.Nearest(record.heat_release_instrument_power);
+  out.pressure_instrument = record.pressure_instrument;
+  out.heat_release_instrument = record.heat_release_instrument;
   of->middle = std::make_shared<const RecordSpectra>(std::move(out));
 }
 

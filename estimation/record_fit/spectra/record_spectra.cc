@@ -173,11 +173,9 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
 
 }  // namespace
 
-Eigen::VectorXd PowerTimes(Eigen::VectorXd power, const Eigen::VectorXcd& s,
-                           const TransferFunction& instrument) {
-  if (power.size() == 0) power.setOnes(s.size());
-  for (Eigen::Index i = 0; i < s.size(); ++i) power[i] *= std::norm(instrument(s[i]));
-  return power;
+TransferFunction Product(const TransferFunction& first, const TransferFunction& second) {
+  if (!first || !second) return first ? first : second;
+  return [first, second](C s) { return first(s) * second(s); };
 }
 
 std::complex<double> FlameInputResponse(FlameInput input, std::complex<double> s) {
@@ -225,12 +223,8 @@ RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise) 
 }
 
 RecordSpectra WithFilters(RecordSpectra record, const FlameFilters& filters) {
-  const auto both = [](const TransferFunction& first, const TransferFunction& second) {
-    if (!first || !second) return first ? first : second;
-    return TransferFunction([first, second](C s) { return first(s) * second(s); });
-  };
-  record.filters = {both(record.filters.before, filters.before),
-                    both(record.filters.after, filters.after)};
+  record.filters = {Product(record.filters.before, filters.before),
+                    Product(record.filters.after, filters.after)};
   SetFlame(std::move(record.driving), {}, &record);
   if (record.middle) SetMiddle(&record);
   return record;
@@ -248,8 +242,7 @@ RecordSpectra WithoutPressureInstrument(RecordSpectra record, const TransferFunc
   divide(0, &record.below);
   divide(record.below.size(), &record.pressure);
   divide(record.below.size() + record.pressure.size(), &record.above);
-  record.pressure_instrument_power =
-      PowerTimes(std::move(record.pressure_instrument_power), record.s, instrument);
+  record.pressure_instrument = Product(record.pressure_instrument, instrument);
   return WithFilters(std::move(record), filters);
 }
 

@@ -44,11 +44,12 @@ enum class FlameInput : std::uint8_t { kPressureRate, kPressure, kVelocity };
 // v's transfer from p at s = j f over the cycle's frequency: s, 1 or 1 / s.
 std::complex<double> FlameInputResponse(FlameInput input, std::complex<double> s);
 
-// Of s = j f over the cycle's frequency.
+// Of s = j f over the cycle's frequency. Empty: 1.
 using TransferFunction = std::function<std::complex<double>(std::complex<double> s)>;
+TransferFunction Product(const TransferFunction& first, const TransferFunction& second);
 
 // What stands beside a flame's curve: v is filtered by `before`, what the curve makes of it by
-// `after`. Empty: 1.
+// `after`.
 struct FlameFilters {
   TransferFunction before, after;
 
@@ -93,9 +94,8 @@ struct RecordSpectra {
   Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
   Eigen::VectorXd rest_slopes;  // d b_k / d v at v = 0
   Eigen::VectorXd share;        // what each bin counts for
-  // |H_p|^2 and |H_q|^2 of the instruments that were taken out of the record: noise that came in
-  // behind them was divided by it. Empty: 1.
-  Eigen::VectorXd pressure_instrument_power, heat_release_instrument_power;
+  // That were taken out of the record: noise that came in behind them was divided by them.
+  TransferFunction pressure_instrument, heat_release_instrument;
   // A part that is enough to compare starts (middle_part.h); of a short record none.
   std::shared_ptr<const RecordSpectra> middle;
 
@@ -126,10 +126,6 @@ RecordSpectra WithFilters(RecordSpectra record, const FlameFilters& filters);
 // The same, where p was recorded through this instrument.
 RecordSpectra WithoutPressureInstrument(RecordSpectra record, const TransferFunction& instrument,
                                         const FlameFilters& filters);
-
-// |H|^2 of an instrument at s, times this power; empty: 1.
-Eigen::VectorXd PowerTimes(Eigen::VectorXd power, const Eigen::VectorXcd& s,
-                           const TransferFunction& instrument);
 
 // A spectrum of the transform's bins under the taper.
 inline Eigen::VectorXcd Tapered(const Eigen::VectorXcd& x) {

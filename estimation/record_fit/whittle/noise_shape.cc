@@ -25,22 +25,21 @@ Eigen::VectorXd HumLines(const NoiseTerm& term, const RecordSpectra& record) {
   return out;
 }
 
-// Of the instruments before the place where it comes in. Empty: 1.
-const Eigen::VectorXd& InstrumentPower(LoopNoise source, const RecordSpectra& record) {
-  static const Eigen::VectorXd kNone;
+// Of the instrument before the place where it comes in.
+TransferFunction InstrumentBefore(LoopNoise source, const RecordSpectra& record) {
   switch (source) {
     case LoopNoise::kPressureSensor:
     case LoopNoise::kPressureHum:
-      return record.pressure_instrument_power;
+      return record.pressure_instrument;
     case LoopNoise::kHeatReleaseSensor:
     case LoopNoise::kHeatReleaseHum:
-      return record.heat_release_instrument_power;
+      return record.heat_release_instrument;
     case LoopNoise::kCombustion:
     case LoopNoise::kDuct:
     case LoopNoise::kBackground:
       break;
   }
-  return kNone;
+  return {};
 }
 
 }  // namespace
@@ -48,8 +47,9 @@ const Eigen::VectorXd& InstrumentPower(LoopNoise source, const RecordSpectra& re
 Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
   Eigen::VectorXd out =
       IsHum(term.source) ? HumLines(term, record) : Eigen::VectorXd::Ones(record.bins()).eval();
-  const Eigen::VectorXd& power = InstrumentPower(term.source, record);
-  if (power.size() > 0) out = out.cwiseQuotient(power);
+  if (const TransferFunction instrument = InstrumentBefore(term.source, record)) {
+    for (Eigen::Index i = 0; i < record.bins(); ++i) out[i] /= std::norm(instrument(record.s[i]));
+  }
   return out;
 }
 

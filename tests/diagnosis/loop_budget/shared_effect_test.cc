@@ -11,6 +11,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_budget.h"
@@ -38,6 +39,17 @@ std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig, const std::s
     out.push_back(TrySharedEffect(records, from, standing, item, "", options));
   }
   return out;
+}
+
+// From the loop itself, with no other items offered.
+LoopDiagnosis DiagnosisWith(const std::vector<LoopRecord>& rig,
+                            const std::vector<std::string>& offered) {
+  LoopBudgetOptions options;
+  options.starts = 4;
+  for (const std::string& id : LoopItemIds()) {
+    if (std::ranges::find(offered, id) == offered.end()) options.withheld.push_back(id);
+  }
+  return DiagnoseLoops(rig, DuctsForm(), options);
 }
 
 // The loop is a special case of each: no more is lost than the parameter's prior asks.
@@ -108,10 +120,23 @@ TEST(SharedEffect, FindsASecondPathBeforeTheCurve) {
   }));
   EXPECT_EQ(KeyOf(BestOf(trials).item), "second_delay_pathbefore_flame");
   EXPECT_GT(BestOf(trials).gain, 50.0);
-  const std::vector<double>& values = BestOf(trials).model.effects.back().values;
+  const std::vector<double> values = BestOf(trials).model.effects.back().values;
   ASSERT_EQ(values.size(), 2u);
   EXPECT_NEAR(values[0], 0.25, 0.04);
   EXPECT_NEAR(values[1], 1e-3, 8e-5);
+}
+
+// The loop's own spread, behind the curve, is as good to first order.
+TEST(SharedEffect, FindsASpreadBeforeTheCurve) {
+  const std::vector<LoopRecord> rig = Changed(1.6, [](ModalLoop* loop) { loop->spread_s = 3e-4; });
+  const LoopDiagnosis found = DiagnosisWith(rig, {std::string(kDelayDispersionId)});
+  const std::vector<BudgetEntry>& entries = found.diagnosis.budget->entries;
+  ASSERT_EQ(entries.size(), 1u);
+  EXPECT_EQ(entries[0].form, "side before_flame");
+  const EstimatedParameter& spread = entries[0].parameters[0];
+  EXPECT_LT(spread.low, 3e-4);
+  EXPECT_GT(spread.high, 3e-4);
+  EXPECT_NEAR(spread.value, 3e-4, 4e-5);
 }
 
 // The laws of a loop that was fitted without the resonance hold its modes where they are not: a
@@ -127,12 +152,7 @@ TEST(SharedEffect, FindsAResonanceOfThePressureSensor) {
   const LoopTrial best = BestOf(TrialsOn(rig));
   EXPECT_EQ(best.item.id, "p_sensor_resonance");
   EXPECT_GT(best.gain, 100.0);
-  LoopBudgetOptions options;
-  options.starts = 4;
-  for (const std::string& id : LoopItemIds()) {
-    if (id != "p_sensor_resonance") options.withheld.push_back(id);
-  }
-  const LoopDiagnosis found = DiagnoseLoops(rig, DuctsForm(), options);
+  const LoopDiagnosis found = DiagnosisWith(rig, {"p_sensor_resonance"});
   ASSERT_EQ(found.diagnosis.budget->entries.size(), 1u);
   const std::vector<EstimatedParameter>& parameters = found.diagnosis.budget->entries[0].parameters;
   ASSERT_EQ(parameters.size(), 2u);
@@ -148,15 +168,42 @@ TEST(SharedEffect, FindsALagOfTheFlame) {
   EXPECT_NEAR(BestOf(trials).model.effects.back().values[0], 300.0, 15.0);
 }
 
-// A second path stands behind the curve or before it.
-TEST(SharedEffect, IsNoSecondPathBesideAnother) {
-  const auto offered = [](const LoopForm& form) {
-    return std::ranges::count(LoopItems(form, DuctsForm()), kSecondPathId, &LoopItem::id);
-  };
-  EXPECT_EQ(offered(DuctsForm()), 2);
-  for (const LoopItem& item : LoopItems(DuctsForm(), DuctsForm())) {
-    if (item.id != kSecondPathId) continue;
-    EXPECT_EQ(offered(With(DuctsForm(), item)), 0) << KeyOf(item);
+// A second path, and a spread of delays, stands behind the curve or before it.
+TEST(SharedEffect, StandsOnOneSideOfTheCurve) {
+  for (const std::string_view id : {kSecondPathId, kDelayDispersionId}) {
+    const auto offered = [&](const LoopForm& form) {
+      return std::ranges::count(LoopItems(form, DuctsForm()), id, &LoopItem::id);
+    };
+    EXPECT_EQ(offered(DuctsForm()), 2);
+    for (const LoopItem& item : LoopItems(DuctsForm(), DuctsForm())) {
+      if (item.id != id) continue;
+      EXPECT_EQ(offered(With(DuctsForm(), item)), 0) << KeyOf(item);
+    }
+  }
+}
+
+EffectPointer NamedEffectOf(std::string_view id) {
+  const std::vector<EffectPointer> effects = SharedEffects();
+  return *std::ranges::find(effects, id, [](const EffectPointer& effect) { return effect->id(); });
+}
+
+// What the loop is fitted to moves with what was recorded as the matrix says.
+TEST(SharedEffect, MovesWithWhatWasRecorded) {
+  const LoopRecord of = DuctAt(1.5, 0.8, 1);
+  const RecordSpectra plain = MakeRecordSpectra(of.record, of.cycle_hz, FlameInput::kPressureRate);
+  const std::vector<SharedEffect> effects = {{NamedEffectOf("q_sensor_lowpass"), {300.0}},
+                                             {NamedEffectOf("p_sensor_resonance"), {900.0, 0.1}},
+                                             {NamedEffectOf("crosstalk_p_to_q"), {0.3}}};
+  const RecordSpectra before = RecordBeside(plain, effects);
+  for (const Eigen::Index bin : {Eigen::Index{20}, Eigen::Index{300}}) {
+    for (const int channel : {0, 1}) {
+      RecordSpectra moved = plain;
+      (channel == 0 ? moved.pressure : moved.heat_release)[bin] += 1.0;
+      moved = RecordBeside(std::move(moved), effects);
+      const Eigen::Vector2cd by = ByRecorded(effects, of.cycle_hz, plain.edge_s[bin]).col(channel);
+      EXPECT_LT(std::abs(moved.pressure[bin] - before.pressure[bin] - by[0]), 1e-9);
+      EXPECT_LT(std::abs(moved.heat_release[bin] - before.heat_release[bin] - by[1]), 1e-9);
+    }
   }
 }
 
@@ -165,11 +212,7 @@ TEST(SharedEffect, IsNoSecondPathBesideAnother) {
 TEST(SharedEffect, TakesAResonanceOut) {
   const LoopRecord of = DuctAt(1.5, 0.8, 1);
   const RecordSpectra plain = MakeRecordSpectra(of.record, of.cycle_hz, FlameInput::kPressureRate);
-  const auto is_resonance = [](const EffectPointer& effect) {
-    return effect->id() == "p_sensor_resonance";
-  };
-  const std::vector<EffectPointer> effects = SharedEffects();
-  const EffectPointer resonance = *std::ranges::find_if(effects, is_resonance);
+  const EffectPointer resonance = NamedEffectOf("p_sensor_resonance");
   const SharedEffect shared{resonance, {900.0, 0.1}};
   const RecordSpectra record = RecordBeside(plain, {shared});
   const auto response = [&](double hz) { return resonance->PressureInstrument(hz, shared.values); };
@@ -217,12 +260,7 @@ TEST(SharedEffect, ShapesTheNoiseBehindIt) {
 // White noise of the sensor's electronics comes in behind its low-pass, and stays white there.
 TEST(SharedEffect, HasNoColouredNoiseBesideIt) {
   const std::vector<LoopRecord> rig = Ducts([](Record* record) { LowPass(150.0, record); });
-  LoopBudgetOptions options;
-  options.starts = 4;
-  for (const std::string& id : LoopItemIds()) {
-    if (id != "q_sensor_lowpass" && id != "q_sensor_noise") options.withheld.push_back(id);
-  }
-  const LoopDiagnosis found = DiagnoseLoops(rig, DuctsForm(), options);
+  const LoopDiagnosis found = DiagnosisWith(rig, {"q_sensor_lowpass", "q_sensor_noise"});
   EXPECT_EQ(found.diagnosis.effect, "q_sensor_lowpass");
 }
 
