@@ -70,8 +70,8 @@ void PrintPoint(const std::string& name, const PointStructure& structure,
   for (Eigen::Index k = 0; k < structure.modes; ++k) {
     const LoopMode& mode = point.modes[static_cast<std::size_t>(k)];
     std::printf(" | %6.1f +-%4.1f%% xi %.4f +-%3.0f%% a %6.3f b %6.3f",
-                mode.omega * record.scale.cycle_hz, half(structure.ratio ? 0 : k), mode.xi,
-                half(structure.Frequencies() + (structure.own_damping ? k : 0)), mode.a, mode.b);
+                mode.omega * record.scale.cycle_hz, half(structure.Frequency(k)), mode.xi,
+                half(structure.Frequencies() + structure.Damping(k)), mode.a, mode.b);
   }
   std::printf(" | tau %.3f ms +-%.1f%%", 1e3 * point.path.tau / record.scale.AngularFrequency(),
               half(structure.Delay()));

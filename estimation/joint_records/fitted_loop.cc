@@ -30,9 +30,8 @@ std::vector<FittedMode> ModesOf(const PointStructure& structure, const LoopPoint
     const auto variance = [&](Eigen::Index i) { return covariance(i, i); };
     FittedMode fitted;
     fitted.omega_hz =
-        FromLogarithm(std::log(mode.omega), variance(structure.ratio ? 0 : k), scale.cycle_hz);
-    fitted.xi =
-        FromLogarithm(std::log(mode.xi), variance(dampings + (structure.own_damping ? k : 0)), 1.0);
+        FromLogarithm(std::log(mode.omega), variance(structure.Frequency(k)), scale.cycle_hz);
+    fitted.xi = FromLogarithm(std::log(mode.xi), variance(dampings + structure.Damping(k)), 1.0);
     fitted.N = {residue * mode.a, residue * std::sqrt(variance(residues + k))};
     fitted.B = {0.0, 0.0};
     if (structure.complex_residues) {

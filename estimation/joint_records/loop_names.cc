@@ -31,12 +31,14 @@ const char* DelaySpreadName(DelaySpread spread) {
 std::string ModelLine(const PointStructure& structure, FlameInput input) {
   std::ostringstream out;
   out << "model: {modes: " << structure.modes << ", ratio: ";
-  if (structure.ratio) {
+  // A config has no modes that are tied beside others that are not.
+  const bool free = structure.further_modes > 0;
+  if (structure.ratio && !free) {
     out << *structure.ratio;
   } else {
     out << "free";
   }
-  out << ", damping: " << (structure.own_damping ? "own" : "shared")
+  out << ", damping: " << (structure.own_damping || free ? "own" : "shared")
       << ", residue: " << (structure.complex_residues ? "complex" : "real")
       << ", flame_input: " << FlameInputName(input)
       << ", delay_spread: " << DelaySpreadName(structure.delay_spread)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostScans = 4;
 
-// Parameters with one of the modes elsewhere.
+// Parameters with one of the modes that are tied to no other elsewhere.
 std::vector<Eigen::VectorXd> Elsewhere(const RecordSpectra& record, const PointStructure& structure,
                                        const PointPrior& prior, const PoleStarts& starts,
                                        const Eigen::VectorXd& parameters) {
@@ -20,7 +20,8 @@ std::vector<Eigen::VectorXd> Elsewhere(const RecordSpectra& record, const PointS
   std::vector<StartPole> here;
   for (const LoopMode& mode : point.modes) here.push_back({mode.omega, mode.xi});
   std::vector<Eigen::VectorXd> out;
-  for (std::size_t k = 0; k < here.size(); ++k) {
+  const auto tied = static_cast<std::size_t>(structure.ratio ? structure.FirstModes() : 0);
+  for (std::size_t k = tied; k < here.size(); ++k) {
     std::vector<StartPole> others = here;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
     std::vector<StartPole> place = here;
@@ -36,7 +37,7 @@ std::vector<Eigen::VectorXd> Elsewhere(const RecordSpectra& record, const PointS
 
 PointFit BestByModes(const RecordSpectra& record, const PointStructure& structure,
                      const PointPrior& prior, PointFit fit) {
-  if (structure.ratio) return fit;
+  if (structure.ratio && structure.further_modes == 0) return fit;
   const PoleStarts starts(record, structure);
   for (int scan = 0; scan < kMostScans; ++scan) {
     const double before = fit.log_posterior;

@@ -37,14 +37,13 @@ bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& bas
     case LoopItemKind::kNoiseShape:
       return !model.fine_noise;
     case LoopItemKind::kDetuning:
-      return now.ratio.has_value() && now.modes > 1;
+      return now.ratio.has_value() && now.FirstModes() > 1;
     case LoopItemKind::kOwnDamping:
-      return !now.own_damping && now.modes > 1;
+      return !now.own_damping && now.FirstModes() > 1;
     case LoopItemKind::kComplexResidues:
       return !now.complex_residues;
     case LoopItemKind::kMode:
-      // One more of modes that are tied to one another would have no frequency of its own.
-      return !now.ratio && now.own_damping && now.modes < kMostModes;
+      return now.modes < kMostModes;
     case LoopItemKind::kDelaySpread:
       return now.delay_spread == DelaySpread::kNone && !HasShared(model, kDelayDispersionId);
     case LoopItemKind::kSecondPath:
@@ -83,8 +82,6 @@ LoopForm LeastForm(const RecordLoopSpec& spec) {
   LoopForm out{StructureOf(spec, spec.modes), spec.flame_input};
   out.structure.noise = LeastNoise();
   out.structure.acoustic_lines = out.structure.flame_lines = 0;
-  // The damping of a single mode is its own: others may stand beside it.
-  if (out.structure.modes == 1) out.structure.own_damping = true;
   return out;
 }
 
@@ -117,6 +114,7 @@ LoopForm With(LoopForm model, const LoopItem& item) {
       break;
     case LoopItemKind::kMode:
       ++structure.modes;
+      ++structure.further_modes;
       break;
     case LoopItemKind::kDelaySpread:
       structure.delay_spread = item.spread;
@@ -156,17 +154,16 @@ LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base) {
       break;
     case LoopItemKind::kDetuning:
       structure.ratio = base.structure.ratio;
-      structure.modes = base.structure.modes;
       break;
     case LoopItemKind::kOwnDamping:
       structure.own_damping = false;
-      structure.modes = base.structure.modes;
       break;
     case LoopItemKind::kComplexResidues:
       structure.complex_residues = false;
       break;
     case LoopItemKind::kMode:
       --structure.modes;
+      --structure.further_modes;
       break;
     case LoopItemKind::kDelaySpread:
       structure.delay_spread = DelaySpread::kNone;

@@ -30,8 +30,7 @@ std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);
 
 // A shared effect comes at its null.
 LoopForm With(LoopForm model, const LoopItem& item);
-// `model` has the item, which `base` has not. Modes that were added need frequencies and dampings
-// of their own: without either they go as well.
+// `model` has the item, which `base` has not.
 LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base);
 
 }  // namespace howl

@@ -9,7 +9,8 @@
 //   mode_detuning                    the modes' frequencies are free of the base's ratio
 //   own_damping                      each mode has its own
 //   complex_residues                 p is measured elsewhere than the flame is, or there is flow
-//   acoustic_mode                    one more mode; it may be added repeatedly
+//   acoustic_mode                    one more mode, with its own frequency and damping; it may be
+//                                    added repeatedly
 //   delay_dispersion                 delays are spread, normally (flame_path.h)
 //   gamma_delays                     or as behind a chain of lags
 //   second_delay_path                a share of the flame answers later

@@ -12,8 +12,13 @@ std::vector<std::string> ParameterLabels(const PointStructure& structure, Eigen:
   const auto add = [&](const std::string& name, Eigen::Index count) {
     for (Eigen::Index i = 0; i < count; ++i) out.push_back(name + std::to_string(i));
   };
-  add("omega", structure.Frequencies());
-  add("xi", structure.Dampings());
+  // What modes have in common is the first one's.
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    if (k == 0 || structure.Frequency(k) > 0) out.push_back("omega" + std::to_string(k));
+  }
+  for (Eigen::Index k = 0; k < structure.modes; ++k) {
+    if (k == 0 || structure.Damping(k) > 0) out.push_back("xi" + std::to_string(k));
+  }
   add("a", structure.modes);
   if (structure.complex_residues) add("b", structure.modes);
   add("g", structure.modes);

@@ -84,9 +84,9 @@ void KeptLoop::SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* 
       transfer.Add(Times(weighted_[i], record_.heat_release[i]), x, grids.edge_over[i]);
       transient.Add(weighted_[i], x, grids.edge_over[i]);
     }
-    (*out)[structure_.ratio ? 0 : k] +=
+    (*out)[structure_.Frequency(k)] +=
         transfer.ByLogOmega(mode, mode.a, mode.b) + transient.ByLogOmega(mode, mode.g, mode.h);
-    (*out)[dampings + (structure_.own_damping ? k : 0)] +=
+    (*out)[dampings + structure_.Damping(k)] +=
         transfer.ByLogDamping(mode, mode.a, mode.b) + transient.ByLogDamping(mode, mode.g, mode.h);
     (*out)[residues + k] = transfer.ByRate();
     if (structure_.complex_residues) {

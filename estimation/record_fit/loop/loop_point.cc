@@ -38,9 +38,9 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
   const Eigen::Index residues = dampings + structure.Dampings();
   for (Eigen::Index k = 0; k < structure.modes; ++k) {
     LoopMode mode;
-    mode.omega = std::exp(parameters[structure.ratio ? 0 : k]);
-    if (structure.ratio) mode.omega *= FrequencyRatio(structure, k);
-    mode.xi = std::exp(parameters[dampings + (structure.own_damping ? k : 0)]);
+    mode.omega = std::exp(parameters[structure.Frequency(k)]);
+    if (structure.ratio && k < structure.FirstModes()) mode.omega *= FrequencyRatio(structure, k);
+    mode.xi = std::exp(parameters[dampings + structure.Damping(k)]);
     mode.a = parameters[residues + k];
     if (structure.complex_residues) mode.b = parameters[residues + structure.modes + k];
     mode.g = parameters[structure.Transfer() + k];
@@ -82,8 +82,12 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
     add(all.imag());
   };
   const auto mode = [&](Eigen::Index k) { return point.modes[static_cast<std::size_t>(k)]; };
-  for (Eigen::Index k = 0; k < structure.Frequencies(); ++k) out[next++] = std::log(mode(k).omega);
-  for (Eigen::Index k = 0; k < structure.Dampings(); ++k) out[next++] = std::log(mode(k).xi);
+  // Of modes that are tied, those of the first.
+  for (Eigen::Index k = structure.modes - 1; k >= 0; --k) {
+    out[structure.Frequency(k)] = std::log(mode(k).omega);
+    out[structure.Frequencies() + structure.Damping(k)] = std::log(mode(k).xi);
+  }
+  next += structure.Frequencies() + structure.Dampings();
   for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).a;
   if (structure.complex_residues) {
     for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).b;

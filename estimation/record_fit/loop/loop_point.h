@@ -24,13 +24,15 @@
 // directions, are without it; the Jacobian is of the residuals, and has it (return_difference.h).
 //
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
-// and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared), real and
+// and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared, and those of
+// further modes, which are tied to none), real and
 // imaginary parts of d; the path's (flame_path.h); c; those of e; n; where there is a background
 // its ratio.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <complex>
 #include <optional>
 #include <vector>
@@ -50,6 +52,7 @@ struct PointStructure {
   int modes = 1;
   std::optional<double> ratio;  // of the second mode's frequency to the first's; none: all are free
   bool own_damping = true;
+  int further_modes = 0;  // of the modes, the last ones, with frequencies and dampings of their own
   bool complex_residues = true;
   DelaySpread delay_spread = DelaySpread::kNone;
   bool second_path = false;  // of the flame's answer
@@ -58,8 +61,13 @@ struct PointStructure {
   int acoustic_lines = 0;
   int flame_lines = 0;
 
-  Eigen::Index Frequencies() const { return ratio ? 1 : modes; }
-  Eigen::Index Dampings() const { return own_damping ? modes : 1; }
+  // As many as may be tied to one another.
+  Eigen::Index FirstModes() const { return modes - further_modes; }
+  // The index of mode k's, of all frequencies and of all dampings.
+  Eigen::Index Frequency(Eigen::Index k) const { return ratio ? AmongTied(k) : k; }
+  Eigen::Index Damping(Eigen::Index k) const { return own_damping ? k : AmongTied(k); }
+  Eigen::Index Frequencies() const { return Frequency(modes - 1) + 1; }
+  Eigen::Index Dampings() const { return Damping(modes - 1) + 1; }
   Eigen::Index Residues() const { return complex_residues ? Eigen::Index{2} * modes : modes; }
   // Of R alone; then those of what the record's ends leave follow, and the lines' errors.
   Eigen::Index Transfer() const { return Frequencies() + Dampings() + Residues(); }
@@ -83,6 +91,11 @@ struct PointStructure {
   Eigen::Index FlameLine(Eigen::Index flame) const { return Flame() + flame; }
   Eigen::Index Noise(Eigen::Index flame) const { return FlameLine(flame) + FlameLines(); }
   Eigen::Index Parameters(Eigen::Index flame) const { return Noise(flame) + NoiseParameters(); }
+
+ private:
+  Eigen::Index AmongTied(Eigen::Index k) const {
+    return std::max<Eigen::Index>(k - FirstModes() + 1, 0);
+  }
 };
 
 // One mode, without units.

@@ -26,9 +26,9 @@ void ForEachSlope(const PointStructure& structure, const LoopPoint& point, Eigen
   const C r_over = Times(Times(mode.a * s + mode.b * omega, over), over);
   const C t_over = Times(Times(mode.g * s + mode.h * omega, over), over);
   const C by_omega = damped + 2.0 * omega * omega;
-  take(structure.ratio ? 0 : k, mode.b * omega * over - Times(r_over, by_omega),
+  take(structure.Frequency(k), mode.b * omega * over - Times(r_over, by_omega),
        mode.h * omega * over - Times(t_over, by_omega));
-  take(dampings + (structure.own_damping ? k : 0), -Times(r_over, damped), -Times(t_over, damped));
+  take(dampings + structure.Damping(k), -Times(r_over, damped), -Times(t_over, damped));
   const C by_rate = Times(s, over);
   const C by_level = omega * over;
   take(residues + k, by_rate, C(0.0));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -83,8 +84,8 @@ std::vector<LoopMode> PoleStarts::WithResidues(const std::vector<StartPole>& pol
 
 std::vector<StartPole> PoleStarts::Tied(double omega, double xi) const {
   std::vector<StartPole> out;
-  for (int k = 0; k < structure_.modes; ++k) {
-    out.push_back({omega * (1.0 + (*structure_.ratio - 1.0) * k), xi});
+  for (Eigen::Index k = 0; k < structure_.FirstModes(); ++k) {
+    out.push_back({omega * (1.0 + (*structure_.ratio - 1.0) * static_cast<double>(k)), xi});
   }
   return out;
 }
@@ -116,13 +117,13 @@ StartPole PoleStarts::Next(const std::vector<StartPole>& poles) const {
 }
 
 std::vector<StartPole> PoleStarts::Greedy() const {
+  std::vector<StartPole> poles;
   if (structure_.ratio) {
     const StartPole first =
         BestOfGrid([&](const StartPole& pole) { return Columns(Tied(pole.omega, pole.xi)); });
-    return Tied(first.omega, first.xi);
+    poles = Tied(first.omega, first.xi);
   }
-  std::vector<StartPole> poles;
-  for (int k = 0; k < structure_.modes; ++k) poles.push_back(Next(poles));
+  while (std::ssize(poles) < structure_.modes) poles.push_back(Next(poles));
   return poles;
 }
 
@@ -169,9 +170,9 @@ std::vector<StartPole> PoleStarts::Relocated(std::vector<StartPole> poles) const
 std::vector<StartPole> PoleStarts::Drawn(RandomStream* random) const {
   const auto omega = [&] { return low_ * std::pow(high_ / low_, random->Uniform()); };
   const auto xi = [&] { return 0.02 * std::pow(10.0, random->Uniform()); };
-  if (structure_.ratio) return Tied(omega(), xi());
   std::vector<StartPole> out;
-  for (int k = 0; k < structure_.modes; ++k) out.push_back({omega(), xi()});
+  if (structure_.ratio) out = Tied(omega(), xi());
+  while (std::ssize(out) < structure_.modes) out.push_back({omega(), xi()});
   return out;
 }
 

@@ -25,7 +25,8 @@ const NoiseTerm* TermOf(const PointStructure& structure, LoopNoise source) {
 
 bool Contains(const PointStructure& rich, const PointStructure& poor) {
   if (rich.modes < poor.modes || (rich.ratio && rich.ratio != poor.ratio)) return false;
-  if (rich.ratio && rich.modes != poor.modes) return false;
+  if (rich.ratio && rich.FirstModes() != poor.FirstModes()) return false;
+  if (!rich.own_damping && rich.further_modes < poor.further_modes) return false;
   if (poor.own_damping && !rich.own_damping) return false;
   if (poor.complex_residues && !rich.complex_residues) return false;
   if (poor.HasSpread() && rich.delay_spread != poor.delay_spread) return false;

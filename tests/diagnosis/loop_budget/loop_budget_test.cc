@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/forms/loop_item.h"
+#include "diagnosis/loop_budget/forms/parameter_labels.h"
+#include "diagnosis/loop_budget/trials/loop_starts.h"
+#include "estimation/record_fit/starts/point_starts.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {
@@ -156,8 +159,9 @@ TEST(LoopItem, ComesAndGoes) {
   base.structure.noise = LeastNoise();
   for (const LoopItem& item : LoopItems(base, base)) {
     const LoopForm with = With(base, item);
-    // Hum may come in the other channel too.
-    EXPECT_EQ(Offered(LoopItems(with, base), item.id), IsHum(item.noise.source)) << item.id;
+    // Hum may come in the other channel too, and modes as often as they pay.
+    const bool again = IsHum(item.noise.source) || item.kind == LoopItemKind::kMode;
+    EXPECT_EQ(Offered(LoopItems(with, base), item.id), again) << item.id;
     const LoopForm back = Without(with, item, base);
     EXPECT_EQ(back.flame_input, base.flame_input);
     EXPECT_EQ(back.structure.modes, base.structure.modes);
@@ -168,13 +172,70 @@ TEST(LoopItem, ComesAndGoes) {
     EXPECT_EQ(back.structure.second_path, base.structure.second_path);
     EXPECT_EQ(back.structure.NoiseParameters(), base.structure.NoiseParameters());
   }
-  // Modes come where they have frequencies and dampings of their own, and go with either.
-  LoopForm free = With(base, {"mode_detuning", LoopItemKind::kDetuning});
-  EXPECT_FALSE(Offered(LoopItems(free, base), "acoustic_mode"));
-  free = With(free, {"own_damping", LoopItemKind::kOwnDamping});
-  EXPECT_TRUE(Offered(LoopItems(free, base), "acoustic_mode"));
+  // A further mode stays where the others are tied to one another again.
+  const LoopItem own_damping{"own_damping", LoopItemKind::kOwnDamping};
+  LoopForm free = With(base, own_damping);
   free = With(free, {"acoustic_mode", LoopItemKind::kMode});
-  EXPECT_EQ(Without(free, {"own_damping", LoopItemKind::kOwnDamping}, base).structure.modes, 2);
+  EXPECT_EQ(free.structure.Frequencies(), 2);
+  EXPECT_EQ(free.structure.Dampings(), 3);
+  const LoopForm tied = Without(free, own_damping, base);
+  EXPECT_EQ(tied.structure.modes, 3);
+  EXPECT_EQ(tied.structure.Dampings(), 2);
+}
+
+// Where tied modes stand on what the loop lacked, a third of their places say, they begin anew at
+// their own.
+TEST(LoopStarts, TiedModesBeginAnew) {
+  const LoopRecords records(DuctsAt({1.2, 1.8}), 0);
+  LoopFit fit;
+  fit.model = DuctsForm();
+  fit.model.structure.ratio = 455.0 / 200.0;
+  fit.model.structure.own_damping = false;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const RecordSpectra record = records.Whole(fit.model, e);
+    const PointPrior prior = PriorOf(fit.model.structure, record);
+    fit.fit.points.emplace_back().parameters =
+        StartsOf(record, fit.model.structure, prior, 4, 1).front();
+    fit.fit.points[e].parameters[0] = std::log(1.0 / 3.0);
+  }
+  const StartRows rows = Again(records, fit, 0);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0], ParametersOf(fit));
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const LoopPoint point =
+        ToPoint(fit.model.structure, records.FlameTerms(fit.model.flame_input, e), rows[1][e]);
+    EXPECT_NEAR(point.modes[0].omega * records.cycle_hz()[e], 200.0, 15.0);
+  }
+  fit.model = DuctsForm();
+  EXPECT_EQ(Again(records, fit, 0).size(), 1u);
+}
+
+// Beside the paper's modes, which stay tied to one another.
+TEST(LoopItem, FurtherModesHaveTheirOwnPlaces) {
+  PointStructure structure;
+  structure.modes = 3;
+  structure.ratio = 3.0;
+  structure.own_damping = false;
+  structure.further_modes = 1;
+  structure.noise = LeastNoise();
+  LoopPoint point;
+  point.modes = {{1.0, 0.1, 2.0}, {3.0, 0.1, 1.0}, {5.2, 0.02, 0.5}};
+  for (LoopMode& mode : point.modes) mode.b = 0.1;
+  point.path.tau = 1.0;
+  point.flame = Eigen::VectorXd::Ones(2);
+  for (const NoiseTerm& term : structure.noise) {
+    point.noise.push_back(Eigen::VectorXd::Zero(term.coefficients));
+  }
+  const Eigen::VectorXd parameters = ToParameters(structure, point);
+  const LoopPoint back = ToPoint(structure, 2, parameters);
+  for (std::size_t k = 0; k < point.modes.size(); ++k) {
+    EXPECT_NEAR(back.modes[k].omega, point.modes[k].omega, 1e-15);
+    EXPECT_NEAR(back.modes[k].xi, point.modes[k].xi, 1e-15);
+    EXPECT_EQ(back.modes[k].a, point.modes[k].a);
+  }
+  const std::vector<std::string> labels = ParameterLabels(structure, 2);
+  EXPECT_EQ(std::vector<std::string>(labels.begin(), labels.begin() + 5),
+            (std::vector<std::string>{"omega0", "omega2", "xi0", "xi2", "a0"}));
 }
 
 }  // namespace

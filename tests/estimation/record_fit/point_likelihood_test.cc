@@ -29,8 +29,10 @@ TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
   const ModalLoop loop = DuctOfModes(2);
   const RecordSpectra record =
       MakeRecordSpectra(SimulateModalLoop(loop, 0.5, 1), 203.0, FlameInput::kPressureRate);
-  for (const bool tied : {false, true}) {
-    PointStructure structure = FreeStructure(2);
+  for (const int further : {-1, 0, 1}) {
+    const bool tied = further >= 0;
+    PointStructure structure = FreeStructure(tied ? 2 + further : 2);
+    structure.further_modes = std::max(further, 0);
     std::tie(structure.delay_spread, structure.second_path) = GetParam();
     structure.acoustic_lines = tied ? 0 : 3;
     structure.flame_lines = 4;

@@ -26,6 +26,13 @@ PointStructure TiedStructure() {
   return structure;
 }
 
+PointStructure TiedBesideAnother() {
+  PointStructure structure = TiedStructure();
+  structure.modes = 3;
+  structure.further_modes = 1;
+  return structure;
+}
+
 PointStructure ErringStructure(DelaySpread spread, bool second_path = false) {
   PointStructure structure = FreeStructure(2);
   structure.delay_spread = spread;
@@ -40,7 +47,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
   const Record record = SimulateModalLoop(loop, 0.5, 1);
   const RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
   for (PointStructure structure :
-       {FreeStructure(2), TiedStructure(), ErringStructure(DelaySpread::kNone),
+       {FreeStructure(2), TiedStructure(), TiedBesideAnother(), ErringStructure(DelaySpread::kNone),
         ErringStructure(DelaySpread::kNormal), ErringStructure(DelaySpread::kGamma),
         ErringStructure(DelaySpread::kNone, true), ErringStructure(DelaySpread::kNormal, true)}) {
     structure.noise.push_back({LoopNoise::kDuct, 2});
