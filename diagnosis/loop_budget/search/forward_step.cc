@@ -99,7 +99,7 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
   for (const Fitted& each : best) {
     if (!(each.fit.Density() > from.Density())) break;
     const LoopTrial& trial = trials[each.trial];
-    LoopFit fit = FitTrial(records_, trial, {ParametersOf(each.fit)},
+    LoopFit fit = FitTrial(records_, trial, Again(records_, each.fit, options_.threads),
                            key + "best/" + KeyOf(trial.item) + "/", options_);
     if (fit.Density() > from.Density() + least) {
       return LoopStep{trial.item, least, RivalsOf(trials, best, each.trial, from), std::move(fit)};

@@ -4,7 +4,9 @@
 #include <numeric>
 #include <utility>
 
+#include "estimation/parallel.h"
 #include "estimation/record_fit/starts/path_starts.h"
+#include "estimation/record_fit/starts/pole_starts.h"
 
 namespace howl {
 namespace {
@@ -71,6 +73,21 @@ std::vector<Eigen::VectorXd> ParametersOf(const std::vector<PointFit>& fits) {
 
 std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit) {
   return ParametersOf(fit.fit.points);
+}
+
+StartRows Again(const LoopRecords& records, const LoopFit& fit, int threads) {
+  StartRows out = {ParametersOf(fit)};
+  const PointStructure& structure = fit.model.structure;
+  if (!structure.ratio || structure.FirstModes() < 2) return out;
+  out.push_back(out[0]);
+  RunUnits(records.size(), threads, [&](std::size_t e) {
+    const RecordSpectra record = records.Whole(fit.model, e);
+    const PoleStarts poles(record, structure);
+    LoopPoint point = ToPoint(structure, record.flame.cols(), out[0][e]);
+    point.modes = poles.WithResidues(poles.Greedy());
+    out[1][e] = ToParameters(structure, point);
+  });
+  return out;
 }
 
 LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with,

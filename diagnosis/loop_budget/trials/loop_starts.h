@@ -28,6 +28,11 @@ struct LoopStarts {
   bool apart = false;
 };
 
+// Where `fit` may begin again, besides where it stands. Modes that are tied to one another went, as
+// one, to what the loop lacked when they were found, and none can leave alone, as free ones do
+// (mode_maxima.h): they begin anew, each point where its cut A is met best (pole_starts.h).
+StartRows Again(const LoopRecords& records, const LoopFit& fit, int threads);
+
 LoopStarts StartsWith(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
                       int threads);
 
