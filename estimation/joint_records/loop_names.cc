@@ -28,17 +28,23 @@ const char* DelaySpreadName(DelaySpread spread) {
   return "gamma";
 }
 
-std::string ModelLine(const PointStructure& structure, FlameInput input) {
+PointStructure AsStated(PointStructure structure) {
+  if (structure.further_modes > 0) structure.ratio.reset();
+  if (structure.further_modes > 0 || structure.modes == 1) structure.own_damping = true;
+  structure.further_modes = 0;
+  return structure;
+}
+
+std::string ModelLine(const PointStructure& of, FlameInput input) {
+  const PointStructure structure = AsStated(of);
   std::ostringstream out;
   out << "model: {modes: " << structure.modes << ", ratio: ";
-  // A config has no modes that are tied beside others that are not.
-  const bool free = structure.further_modes > 0;
-  if (structure.ratio && !free) {
+  if (structure.ratio) {
     out << *structure.ratio;
   } else {
     out << "free";
   }
-  out << ", damping: " << (structure.own_damping || free ? "own" : "shared")
+  out << ", damping: " << (structure.own_damping ? "own" : "shared")
       << ", residue: " << (structure.complex_residues ? "complex" : "real")
       << ", flame_input: " << FlameInputName(input)
       << ", delay_spread: " << DelaySpreadName(structure.delay_spread)

@@ -11,6 +11,10 @@ namespace howl {
 const char* FlameInputName(FlameInput input);
 const char* DelaySpreadName(DelaySpread spread);
 
+// The least that a config can state with this loop in it: a config has no modes that are tied
+// beside others that are not, and a single mode's damping is its own.
+PointStructure AsStated(PointStructure structure);
+
 // The config's `model` that states this loop, in one line.
 std::string ModelLine(const PointStructure& structure, FlameInput input);
 

@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 
 // As in a config's `model`; and the sources of noise, with how many coefficients each has.
 Json FormJson(const LoopForm& form) {
-  const PointStructure& structure = form.structure;
+  const PointStructure structure = AsStated(form.structure);
   Json noise = Json::object();
   for (const NoiseTerm& term : structure.noise) {
     noise[std::string(LoopNoiseName(term.source))] = term.coefficients;

@@ -60,6 +60,14 @@ TEST(ConfigRecordLoop, ReadsTheModelLineOfALoop) {
   EXPECT_FALSE(spec.complex_residues);
   EXPECT_EQ(spec.delay_spread, DelaySpread::kGamma);
   EXPECT_TRUE(spec.second_path);
+  // Beside one that is not tied to the others all are free.
+  structure.modes = 3;
+  structure.further_modes = 1;
+  const std::string free = ModelLine(structure, FlameInput::kPressureRate);
+  const RecordLoopSpec of_free = *Read(free.substr(8, free.size() - 9)).record_loop;
+  EXPECT_EQ(of_free.modes, 3);
+  EXPECT_FALSE(of_free.ratio);
+  EXPECT_TRUE(of_free.own_damping);
 }
 
 TEST(ConfigRecordLoop, ThePapersLoopIsNoOther) {
