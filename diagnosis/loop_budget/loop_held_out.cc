@@ -2,6 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <complex>
+#include <cstddef>
+#include <vector>
 
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
@@ -36,11 +39,11 @@ Eigen::VectorXd WithTransientsOf(const RecordSpectra& record, const PointStructu
   return parameters;
 }
 
-// Of the signals as they were recorded: what an instrument takes out of one of them is foretold by
-// no loop.
-void SetErrors(const RecordSpectra& record, const LoopForm& form, const Eigen::VectorXd& parameters,
+// Of the signals as they were recorded, by which `record` moves so at each bin (ByRecorded): what
+// an instrument takes out of one of them is foretold by no loop.
+void SetErrors(const RecordSpectra& record, const std::vector<Eigen::Matrix2cd>& by_recorded,
+               const PointStructure& structure, const Eigen::VectorXd& parameters,
                PredictedSignals* signals) {
-  const PointStructure& structure = form.structure;
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   const LoopResiduals residuals = ResidualsOf(record, structure, point);
   signals->pressure_error.resize(record.bins());
@@ -49,7 +52,7 @@ void SetErrors(const RecordSpectra& record, const LoopForm& form, const Eigen::V
     const Eigen::Matrix2cd w = NoiseCovariance(structure.noise, residuals, i).inverse();
     Eigen::Matrix2cd cuts;
     cuts << 1.0, -residuals.r[i], -residuals.f[i], 1.0;
-    const Eigen::Matrix2cd by = cuts * ByRecorded(form.effects, record.scale.cycle_hz, record.s[i]);
+    const Eigen::Matrix2cd by = cuts * by_recorded[static_cast<std::size_t>(i)];
     SetPredictionErrors({residuals.acoustic[i], residuals.flame[i]}, w, by.col(0), by.col(1), i,
                         signals);
   }
@@ -75,8 +78,12 @@ std::vector<BandErrors> ErrorsOf(const RecordSpectra& recorded, const RecordSpec
                                  const LoopForm& form, const Eigen::VectorXd& at,
                                  const Eigen::MatrixXd& information, std::uint64_t seed) {
   const PointStructure& structure = form.structure;
+  std::vector<Eigen::Matrix2cd> by_recorded;
+  for (const std::complex<double> s : record.s) {
+    by_recorded.push_back(ByRecorded(form.effects, record.scale.cycle_hz, s));
+  }
   PredictedSignals signals = SignalsOf(recorded);
-  SetErrors(record, form, at, &signals);
+  SetErrors(record, by_recorded, structure, at, &signals);
   PredictedSignals moved = signals;
   std::vector<BandErrors> out = ErrorsOverBands(signals);
   const Eigen::LLT<Eigen::MatrixXd> root(information);
@@ -87,7 +94,7 @@ std::vector<BandErrors> ErrorsOf(const RecordSpectra& recorded, const RecordSpec
     root.matrixU().solveInPlace(step);
     // What this half holds at its ends is its own.
     step.segment(structure.Transfer(), structure.Transients()).setZero();
-    SetErrors(record, form, at + kStep * step, &moved);
+    SetErrors(record, by_recorded, structure, at + kStep * step, &moved);
     AddSpread(signals, moved, 1.0 / (kStep * kStep * kDraws), &out);
   }
   return out;
