@@ -18,6 +18,7 @@ struct Exchange {
   std::size_t step = 0;
   LoopItem rival;
   LoopFit fit = {};
+  double price = 0.0;  // more than the step's own
 };
 
 // Of rivals that may come where the step's item is not.
@@ -46,23 +47,29 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
     const LoopTrial trial =
         TryAll(records, now->without[each.step], 0.0, {each.rival}, of_this, options)[0];
     each.fit = FitTrial(records, trial, trial.starts, of_this, options);
+    each.price = trial.price - now->steps[each.step].price;
   });
   for (LoopStep& step : now->steps) step.equals.clear();
   const Exchange* best = nullptr;
+  double most = 0.0;
   for (const Exchange& each : exchanges) {
     LoopStep& step = now->steps[each.step];
-    const double gain = each.fit.Density() - now->best.Density();
+    const double gain = each.fit.Density() - now->best.Density() - each.price;
     VLOG(1) << key << each.rival.id << " for " << step.item.id << " " << gain << " nats";
     // Forms of one item are no class.
     const bool named = each.rival.id == step.item.id ||
                        std::ranges::find(step.equals, each.rival.id) != step.equals.end();
     if (!named && gain > -std::log(kOddsOfClass)) step.equals.push_back(each.rival.id);
-    if (gain > 0.0 && (best == nullptr || each.fit.Density() > best->fit.Density())) best = &each;
+    if (gain > most) {
+      most = gain;
+      best = &each;
+    }
   }
   if (best == nullptr) return std::nullopt;
   LoopStanding out{best->fit, now->steps, {}};
   const LoopStep& before = now->steps[best->step];
-  LoopStep next{best->rival, before.least, before.rivals, best->fit};
+  LoopStep next{best->rival, before.least + best->price, before.price + best->price, before.rivals,
+                best->fit};
   std::erase_if(next.rivals,
                 [&](const LoopItem& each) { return KeyOf(each) == KeyOf(best->rival); });
   next.rivals.push_back(before.item);

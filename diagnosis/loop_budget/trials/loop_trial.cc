@@ -70,7 +70,8 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
   std::vector<LoopTrial> out;
   const auto key_of = [&](const LoopItem& item) { return key + "trial/" + KeyOf(item) + "/"; };
   for (const LoopItem& item : items) {
-    LoopTrial& trial = out.emplace_back(LoopTrial{item, With(from.model, item), -standing, {}});
+    LoopTrial& trial =
+        out.emplace_back(LoopTrial{item, With(from.model, item), -standing, 0.0, {}});
     trial.starts = {StartOf(records, from, trial.model, key_of(item), options)};
   }
   std::vector<PointFit> fits(items.size() * records.size());

@@ -27,7 +27,10 @@ struct LoopTrial {
   LoopItem item;
   LoopForm model;
   double gain = 0.0;  // nats
-  StartRows starts;   // one row: where each point's fit came to
+  // Of that, what values which all points share cost. Densities of records that are left out do not
+  // pay for them: they are fitted to all records.
+  double price = 0.0;
+  StartRows starts;  // one row: where each point's fit came to
 };
 
 // Nats of evidence of all points' records for `from` as trials have it: each point by itself, under

@@ -50,10 +50,11 @@ LoopTrial TrySharedEffect(const LoopRecords& records, const LoopFit& from, doubl
     const bool first = maximum.at.fits.empty();
     if (first || next.at.log_posterior > maximum.at.log_posterior) maximum = std::move(next);
   }
-  LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, {ParametersOf(maximum.at.fits)}};
+  LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, 0.0, {ParametersOf(maximum.at.fits)}};
   // At its null it gains nothing.
   if (maximum.at.u[0] == profile.NullEnd()[0]) return out;
-  out.gain = maximum.at.log_evidence - without + maximum.LogShare(SearchSpans(profile.effect()));
+  out.price = -maximum.LogShare(SearchSpans(profile.effect()));
+  out.gain = maximum.at.log_evidence - without - out.price;
   return out;
 }
 

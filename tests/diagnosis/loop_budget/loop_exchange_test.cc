@@ -36,13 +36,16 @@ TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
   const LoopFit with_mode =
       FitLoopFrom(records, trial.model, trial.starts, MaximumTaken::kBest, "mode/", options);
   ASSERT_GT(with_mode.Density(), without.Density() + 100.0);
-  LoopStanding now{with_mode, {{mode, 6.0, ItemsOf("q_sensor_lowpass"), with_mode}}, {without}};
+  LoopStanding now{
+      with_mode, {{mode, 6.0, 0.0, ItemsOf("q_sensor_lowpass"), with_mode}}, {without}};
   std::optional<LoopStanding> next = BestExchange(records, base, "first/", options, &now);
   ASSERT_TRUE(next.has_value());
   ASSERT_EQ(next->steps.size(), 1u);
   const LoopStep& step = next->steps[0];
   EXPECT_EQ(step.item.id, "q_sensor_lowpass");
-  EXPECT_EQ(step.least, 6.0);
+  // The instrument's value, which all points share, has its price.
+  EXPECT_GT(step.price, 0.0);
+  EXPECT_EQ(step.least, 6.0 + step.price);
   EXPECT_GT(next->best.Density(), with_mode.Density());
   EXPECT_EQ(next->best.model.structure.modes, 2);
   EXPECT_TRUE(std::ranges::any_of(

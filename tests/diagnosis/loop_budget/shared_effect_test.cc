@@ -119,6 +119,9 @@ TEST(SharedEffect, FindsASecondPathBeforeTheCurve) {
     loop->later_s = 1e-3;
   }));
   EXPECT_EQ(KeyOf(BestOf(trials).item), "second_delay_pathbefore_flame");
+  // Two values that are told to a few hundredths of their ranges.
+  EXPECT_GT(BestOf(trials).price, 4.0);
+  EXPECT_LT(BestOf(trials).price, 15.0);
   EXPECT_GT(BestOf(trials).gain, 50.0);
   const std::vector<double> values = BestOf(trials).model.effects.back().values;
   ASSERT_EQ(values.size(), 2u);
