@@ -27,6 +27,11 @@ bool HasShared(const LoopForm& model, std::string_view id) {
                              [&](const SharedEffect& each) { return each.effect->id() == id; });
 }
 
+bool StandsBehindCurve(const PointStructure& structure, std::string_view id) {
+  return (id == kSecondPathId && structure.second_path) ||
+         (id == kDelayDispersionId && structure.HasSpread());
+}
+
 bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& base) {
   const PointStructure& now = model.structure;
   switch (item.kind) {
@@ -45,14 +50,13 @@ bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& bas
     case LoopItemKind::kMode:
       return now.modes < kMostModes;
     case LoopItemKind::kDelaySpread:
-      return now.delay_spread == DelaySpread::kNone && !HasShared(model, kDelayDispersionId);
+      return !now.HasSpread() && !HasShared(model, kDelayDispersionId);
     case LoopItemKind::kSecondPath:
       return !now.second_path && !HasShared(model, item.id);
     case LoopItemKind::kFlameInput:
       return model.flame_input == base.flame_input && item.input != base.flame_input;
     case LoopItemKind::kSharedEffect:
-      return !HasShared(model, item.id) && !(now.second_path && item.id == kSecondPathId) &&
-             !(now.delay_spread != DelaySpread::kNone && item.id == kDelayDispersionId);
+      return !HasShared(model, item.id) && !StandsBehindCurve(now, item.id);
     case LoopItemKind::kLineErrors:
       return now.*item.lines == 0;
   }

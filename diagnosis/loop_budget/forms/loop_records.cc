@@ -34,13 +34,16 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
 
 void LoopRecords::DriveWithout(const LoopForm& form, const std::vector<Eigen::VectorXd>& noise,
                                int threads) {
+  std::vector<Eigen::VectorXd> recorded;
+  for (std::size_t e = 0; e < size(); ++e) {
+    recorded.push_back(
+        PressureAsRecorded(Of(form.flame_input).points[e].record, form.effects, noise[e]));
+  }
   RunUnits(spectra_.size() * size(), threads, [&](std::size_t i) {
     const std::size_t e = i % size();
     Spectra& spectra = spectra_[i / size()];
-    const Eigen::VectorXd recorded =
-        PressureAsRecorded(spectra.points[e].record, form.effects, noise[e]);
     const auto drive = [&](RecordSpectra* record, Eigen::Index first) {
-      *record = DrivenWithout(std::move(*record), recorded.segment(first, record->Samples()));
+      *record = DrivenWithout(std::move(*record), recorded[e].segment(first, record->Samples()));
     };
     drive(&spectra.points[e].record, 0);
     drive(&spectra.halves[e][0], 0);

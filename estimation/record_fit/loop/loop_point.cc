@@ -11,10 +11,6 @@ namespace {
 
 using C = std::complex<double>;
 
-double FrequencyRatio(const PointStructure& structure, Eigen::Index mode) {
-  return 1.0 + (*structure.ratio - 1.0) * static_cast<double>(mode);
-}
-
 Eigen::VectorXcd ComplexOf(const Eigen::VectorXd& parts) {
   const Eigen::Index count = parts.size() / 2;
   Eigen::VectorXcd out(count);
@@ -39,7 +35,7 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
   for (Eigen::Index k = 0; k < structure.modes; ++k) {
     LoopMode mode;
     mode.omega = std::exp(parameters[structure.Frequency(k)]);
-    if (structure.ratio && k < structure.FirstModes()) mode.omega *= FrequencyRatio(structure, k);
+    if (structure.ratio && k < structure.FirstModes()) mode.omega *= structure.RatioOf(k);
     mode.xi = std::exp(parameters[dampings + structure.Damping(k)]);
     mode.a = parameters[residues + k];
     if (structure.complex_residues) mode.b = parameters[residues + structure.modes + k];

@@ -25,9 +25,8 @@
 //
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
 // and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared, and those of
-// further modes, which are tied to none), real and
-// imaginary parts of d; the path's (flame_path.h); c; those of e; n; where there is a background
-// its ratio.
+// further modes, which are tied to none), real and imaginary parts of d; the path's (flame_path.h);
+// c; those of e; n; where there is a background its ratio.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
 
@@ -63,6 +62,8 @@ struct PointStructure {
 
   // As many as may be tied to one another.
   Eigen::Index FirstModes() const { return modes - further_modes; }
+  // Of mode k's frequency to the first's, where they are tied.
+  double RatioOf(Eigen::Index k) const { return 1.0 + (*ratio - 1.0) * static_cast<double>(k); }
   // The index of mode k's, of all frequencies and of all dampings.
   Eigen::Index Frequency(Eigen::Index k) const { return ratio ? AmongTied(k) : k; }
   Eigen::Index Damping(Eigen::Index k) const { return own_damping ? k : AmongTied(k); }

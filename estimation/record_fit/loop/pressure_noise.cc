@@ -81,7 +81,7 @@ Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure&
   }
   const double bin = record.bin_hz / record.scale.cycle_hz;
   const auto instrument_power = [&](C s) {
-    return record.pressure_instrument ? std::norm(record.pressure_instrument(s)) : 1.0;
+    return std::norm(ValueAt(record.pressure_instrument, s));
   };
   behind *= instrument_power(record.s[record.bins() - 1]);
   Eigen::VectorXcd edges(above + 1);

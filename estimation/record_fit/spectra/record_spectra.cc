@@ -55,7 +55,7 @@ struct Band {
 
 // What the flame's curve answers to, from p.
 C CurveInputAt(const RecordSpectra& record, C s) {
-  return FlameInputResponse(record.flame_input, s) * record.filters.BeforeAt(s);
+  return FlameInputResponse(record.flame_input, s) * ValueAt(record.filters.before, s);
 }
 
 // The flame's input in time, from this p, whose spectrum begins at no frequency.
@@ -121,7 +121,7 @@ void SetFlame(Eigen::VectorXcd pressure, const FlamePrior& prior, RecordSpectra*
   out->flame = spectra * scale.functions;
   if (out->filters.after) {
     out->flame.array().colwise() *=
-        out->edge_s.unaryExpr([&](C s) { return out->filters.AfterAt(s); }).array();
+        out->edge_s.unaryExpr([&](C s) { return ValueAt(out->filters.after, s); }).array();
   }
   out->slopes = scale.functions.transpose() * rises;
   out->rest_slopes =

@@ -46,6 +46,9 @@ std::complex<double> FlameInputResponse(FlameInput input, std::complex<double> s
 
 // Of s = j f over the cycle's frequency. Empty: 1.
 using TransferFunction = std::function<std::complex<double>(std::complex<double> s)>;
+inline std::complex<double> ValueAt(const TransferFunction& function, std::complex<double> s) {
+  return function ? function(s) : 1.0;
+}
 TransferFunction Product(const TransferFunction& first, const TransferFunction& second);
 
 // What stands beside a flame's curve: v is filtered by `before`, what the curve makes of it by
@@ -53,9 +56,9 @@ TransferFunction Product(const TransferFunction& first, const TransferFunction& 
 struct FlameFilters {
   TransferFunction before, after;
 
-  std::complex<double> BeforeAt(std::complex<double> s) const { return before ? before(s) : 1.0; }
-  std::complex<double> AfterAt(std::complex<double> s) const { return after ? after(s) : 1.0; }
-  std::complex<double> At(std::complex<double> s) const { return BeforeAt(s) * AfterAt(s); }
+  std::complex<double> At(std::complex<double> s) const {
+    return ValueAt(before, s) * ValueAt(after, s);
+  }
 };
 
 // The units, and the flame's functions, that records of one operating point have in common.

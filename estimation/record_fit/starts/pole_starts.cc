@@ -85,7 +85,7 @@ std::vector<LoopMode> PoleStarts::WithResidues(const std::vector<StartPole>& pol
 std::vector<StartPole> PoleStarts::Tied(double omega, double xi) const {
   std::vector<StartPole> out;
   for (Eigen::Index k = 0; k < structure_.FirstModes(); ++k) {
-    out.push_back({omega * (1.0 + (*structure_.ratio - 1.0) * static_cast<double>(k)), xi});
+    out.push_back({omega * structure_.RatioOf(k), xi});
   }
   return out;
 }
