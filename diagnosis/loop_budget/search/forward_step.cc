@@ -102,8 +102,8 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
     LoopFit fit = FitTrial(records_, trial, Again(records_, each.fit, options_.threads),
                            key + "best/" + KeyOf(trial.item) + "/", options_);
     if (fit.Density() > from.Density() + least + trial.price) {
-      return LoopStep{trial.item, least + trial.price, trial.price,
-                      RivalsOf(trials, best, each.trial, from), std::move(fit)};
+      return LoopStep{trial.item, least, trial.price, RivalsOf(trials, best, each.trial, from),
+                      std::move(fit)};
     }
   }
   return std::nullopt;

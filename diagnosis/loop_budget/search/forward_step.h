@@ -21,7 +21,7 @@ namespace howl {
 struct LoopStep {
   LoopItem item;
   double least = 0.0;  // nats that it had to gain, among so many
-  double price = 0.0;  // of these, what its trial says that shared values cost
+  double price = 0.0;  // and for values that all points share (LoopTrial)
   // What was fitted beside it and gained too, or would have gained as much within odds of 50 to 1.
   std::vector<LoopItem> rivals;
   LoopFit after;

@@ -18,7 +18,7 @@ struct Exchange {
   std::size_t step = 0;
   LoopItem rival;
   LoopFit fit = {};
-  double price = 0.0;  // more than the step's own
+  double price = 0.0;  // the rival's
 };
 
 // Of rivals that may come where the step's item is not.
@@ -47,14 +47,14 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
     const LoopTrial trial =
         TryAll(records, now->without[each.step], 0.0, {each.rival}, of_this, options)[0];
     each.fit = FitTrial(records, trial, trial.starts, of_this, options);
-    each.price = trial.price - now->steps[each.step].price;
+    each.price = trial.price;
   });
   for (LoopStep& step : now->steps) step.equals.clear();
   const Exchange* best = nullptr;
   double most = 0.0;
   for (const Exchange& each : exchanges) {
     LoopStep& step = now->steps[each.step];
-    const double gain = each.fit.Density() - now->best.Density() - each.price;
+    const double gain = each.fit.Density() - now->best.Density() - (each.price - step.price);
     VLOG(1) << key << each.rival.id << " for " << step.item.id << " " << gain << " nats";
     // Forms of one item are no class.
     const bool named = each.rival.id == step.item.id ||
@@ -68,8 +68,7 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
   if (best == nullptr) return std::nullopt;
   LoopStanding out{best->fit, now->steps, {}};
   const LoopStep& before = now->steps[best->step];
-  LoopStep next{best->rival, before.least + best->price, before.price + best->price, before.rivals,
-                best->fit};
+  LoopStep next{best->rival, before.least, best->price, before.rivals, best->fit};
   std::erase_if(next.rivals,
                 [&](const LoopItem& each) { return KeyOf(each) == KeyOf(best->rival); });
   next.rivals.push_back(before.item);

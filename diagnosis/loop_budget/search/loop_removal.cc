@@ -60,7 +60,7 @@ std::vector<std::size_t> Idle(const LoopStanding& found) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
     const LoopFit& without = found.without[i];
-    const double least = found.steps[i].least;
+    const double least = found.steps[i].least + found.steps[i].price;
     if (without.log_density.empty() || without.Density() < found.best.Density() - least) continue;
     out.push_back(i);
   }

@@ -2,6 +2,7 @@
 #ifndef HOWL_TESTS_DIAGNOSIS_LOOP_BUDGET_DUCT_RIG_H_
 #define HOWL_TESTS_DIAGNOSIS_LOOP_BUDGET_DUCT_RIG_H_
 
+#include <algorithm>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
@@ -55,6 +56,16 @@ inline void Filter(const std::function<std::complex<double>(double frequency_hz)
 inline void LowPass(double cutoff_hz, Record* record) {
   const auto response = [&](double hz) { return 1.0 / std::complex<double>(1.0, hz / cutoff_hz); };
   Filter(response, record->sampling_hz, &record->heat_release);
+}
+
+// A search that is offered these items alone.
+inline LoopBudgetOptions Among(const std::vector<std::string>& kept) {
+  LoopBudgetOptions out;
+  out.starts = 4;
+  out.withheld = LoopItemIds();
+  std::erase_if(out.withheld,
+                [&](const std::string& id) { return std::ranges::find(kept, id) != kept.end(); });
+  return out;
 }
 
 // The duct's own: two free modes with complex residues, driven by dp/dt.

@@ -20,15 +20,6 @@ namespace {
 
 std::vector<LoopRecord> DuctsRecords() { return DuctsAt({1.2, 1.5, 1.8}); }
 
-LoopBudgetOptions Among(const std::vector<std::string>& kept) {
-  LoopBudgetOptions out;
-  out.starts = 4;
-  out.withheld = LoopItemIds();
-  std::erase_if(out.withheld,
-                [&](const std::string& id) { return std::ranges::find(kept, id) != kept.end(); });
-  return out;
-}
-
 TEST(LoopBudget, OfTheRightLoopHasNothing) {
   const LoopDiagnosis found = DiagnoseLoops(
       DuctsRecords(), DuctsForm(),

@@ -1,4 +1,4 @@
-// Instruments of q that a record shows, and those that it does not.
+// Instruments, and filters of the flame, that records show, and those that they do not.
 #include "diagnosis/loop_budget/forms/shared_effect.h"
 
 #include <gtest/gtest.h>
@@ -44,12 +44,7 @@ std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig, const std::s
 // From the loop itself, with no other items offered.
 LoopDiagnosis DiagnosisWith(const std::vector<LoopRecord>& rig,
                             const std::vector<std::string>& offered) {
-  LoopBudgetOptions options;
-  options.starts = 4;
-  for (const std::string& id : LoopItemIds()) {
-    if (std::ranges::find(offered, id) == offered.end()) options.withheld.push_back(id);
-  }
-  return DiagnoseLoops(rig, DuctsForm(), options);
+  return DiagnoseLoops(rig, DuctsForm(), Among(offered));
 }
 
 // The loop is a special case of each: no more is lost than the parameter's prior asks.
