@@ -5,11 +5,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
+#include <thread>
 
 namespace howl {
 
@@ -66,6 +69,15 @@ inline pid_t StartHowl(const std::string& arguments) {
   const std::string line = "exec " + std::string(HOWL_PROGRAM) + " " + arguments;
   execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
   _exit(127);
+}
+
+// True once `holds`, false after a minute.
+inline bool WaitUntil(const std::function<bool()>& holds) {
+  for (int i = 0; i < 12000; ++i) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
 }
 
 inline std::string Config(const std::string& name) {

@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "tests/app/program.h"
@@ -160,9 +158,7 @@ TEST_F(RecordLoop, PredictsLoopsBetweenThePoints) {
 int StatusAfter(int signal, const std::string& arguments, const std::filesystem::path& state) {
   const pid_t child = StartHowl(arguments);
   std::error_code ignored;
-  for (int i = 0; i < 6000 && std::filesystem::file_size(state, ignored) + 1 < 30000; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  EXPECT_TRUE(WaitUntil([&] { return std::filesystem::file_size(state, ignored) + 1 >= 30000; }));
   kill(child, signal);
   int status = 0;
   waitpid(child, &status, 0);

@@ -6,8 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <thread>
 #include <vector>
 
 #include "tests/app/program.h"
@@ -158,7 +156,8 @@ TEST(TrialShards, JoinToTheSheetOfOneMachineThoughOneWasKilled) {
   const std::string out = (folder.path() / "parts").string();
   const pid_t shard = StartHowl(command + "/parts --quiet" + ShardOption(2, 2));
   ASSERT_GT(shard, 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  // The second of three cases is this shard's only one; its diagnosis has begun.
+  EXPECT_TRUE(WaitUntil([&] { return fs::exists(out + "/diagnoses/case002/diagnosis.state"); }));
   EXPECT_EQ(kill(-shard, SIGKILL), 0);
   EXPECT_EQ(waitpid(shard, nullptr, 0), shard);
   EXPECT_FALSE(fs::exists(out + "/shards/2-of-2.trial.shard"));

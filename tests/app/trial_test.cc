@@ -4,10 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/app/program.h"
 
@@ -90,14 +88,10 @@ TEST_F(Trial, RunsBlindGoesOnScoresAndNoticesChanges) {
   // Interrupted when the first diagnosis has ended.
   const pid_t child = StartHowl(command_ + Folder().string() + " --quiet");
   ASSERT_GT(child, 0);
-  int waited = 0;
-  for (; waited < 6000 && Count(Folder(), "diagnosed") == 0; ++waited) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  EXPECT_TRUE(WaitUntil([&] { return Count(Folder(), "diagnosed") > 0; }));
   kill(child, SIGINT);
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_LT(waited, 6000);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
 

@@ -7,10 +7,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
 #include <string>
-#include <thread>
 
 #include "tests/app/program.h"
 
@@ -40,15 +37,6 @@ inline void ExpectOneLine(const ProgramResult& run, const std::string& what) {
   EXPECT_EQ(run.status, 2) << run.err;
   EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
   EXPECT_THAT(run.err, testing::HasSubstr(what));
-}
-
-// True once `holds`, false after half a minute.
-inline bool WaitUntil(const std::function<bool()>& holds) {
-  for (int i = 0; i < 6000; ++i) {
-    if (holds()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return false;
 }
 
 inline int WaitForEnd(pid_t child) {
