@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-// Of hum, which is no noise but one oscillation: what is expected of it, given the record (Wiener's
-// filter). j: of the sources.
-double HumPower(const RecordSpectra& record, const PointStructure& structure,
-                const LoopPoint& point, std::size_t j) {
+// Of hum or a tone, which are no noise but oscillations: what is expected of it, given the record
+// (Wiener's filter). j: of the sources.
+double LinesPower(const RecordSpectra& record, const PointStructure& structure,
+                  const LoopPoint& point, std::size_t j) {
   const LoopNoise source = structure.noise[j].source;
   const LoopResiduals left = ResidualsOf(record, structure, point);
   double power = 0.0;
@@ -40,8 +40,8 @@ double RelativeAmplitude(const RecordSpectra& record, const PointStructure& stru
                          const LoopPoint& point, LoopNoise source) {
   const auto at = std::ranges::find(structure.noise, source, &NoiseTerm::source);
   const auto j = static_cast<std::size_t>(at - structure.noise.begin());
-  const double power = IsHum(source) ? HumPower(record, structure, point, j)
-                                     : NoiseSpectrum(*at, record, point.noise[j]).sum();
+  const double power = HasLines(source) ? LinesPower(record, structure, point, j)
+                                        : NoiseSpectrum(*at, record, point.noise[j]).sum();
   return std::sqrt(power * record.bin_hz / record.sampling_hz);
 }
 
@@ -77,8 +77,8 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
       add("amplitude", "", [&](const RecordSpectra& record, const LoopPoint& point) {
         return RelativeAmplitude(record, fit.model.structure, point, item.noise.source);
       });
-      if (IsHum(item.noise.source)) {
-        const double hz = item.noise.mains_hz;
+      if (HasLines(item.noise.source)) {
+        const double hz = item.noise.line_hz;
         out.push_back({"hz", hz, hz, hz, "Hz"});
       }
       break;

@@ -109,7 +109,8 @@ void AddNoiseTo(ModalRig* rig, const RecordSpectra& record, const PointStructure
         break;
       case LoopNoise::kPressureHum:
       case LoopNoise::kHeatReleaseHum:
-        LOG(FATAL) << "no loop that a config states has hum";
+      case LoopNoise::kTone:
+        LOG(FATAL) << "no loop that a config states has hum or tones";
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "diagnosis/loop_budget/forms/loop_form.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace howl {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 Eigen::Index Fine(Eigen::Index coefficients) { return coefficients > 1 ? 2 * coefficients : 1; }
 
 void Refine(NoiseTerm* term) {
-  if (!IsHum(term->source)) term->coefficients = Fine(term->coefficients);
+  if (!HasLines(term->source)) term->coefficients = Fine(term->coefficients);
 }
 
 NoiseTerm TermIn(const LoopForm& model, NoiseTerm term) {
@@ -36,6 +37,7 @@ bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& bas
   const PointStructure& now = model.structure;
   switch (item.kind) {
     case LoopItemKind::kNoise: {
+      if (HasLines(item.noise.source) && item.noise.line_hz == 0.0) return false;
       const NoiseTerm* const term = TermOf(model, item.noise.source);
       return term == nullptr || term->coefficients < item.noise.coefficients;
     }
@@ -91,8 +93,9 @@ LoopForm LeastForm(const RecordLoopSpec& spec) {
 
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
   std::vector<LoopItem> out;
-  for (const LoopItem& item : AllLoopItems()) {
-    if (MayBeAdded(item, model, base)) out.push_back(item);
+  for (LoopItem item : AllLoopItems()) {
+    if (item.noise.source == LoopNoise::kTone) item.noise.line_hz = base.tone_hz;
+    if (MayBeAdded(item, model, base)) out.push_back(std::move(item));
   }
   return out;
 }
@@ -153,7 +156,7 @@ LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base) {
     case LoopItemKind::kNoiseShape:
       model.fine_noise = false;
       for (NoiseTerm& term : structure.noise) {
-        if (term.coefficients > 1 && !IsHum(term.source)) term.coefficients /= 2;
+        if (term.coefficients > 1 && !HasLines(term.source)) term.coefficients /= 2;
       }
       break;
     case LoopItemKind::kDetuning:

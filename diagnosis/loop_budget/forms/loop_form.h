@@ -16,6 +16,9 @@ struct LoopForm {
   FlameInput flame_input = FlameInput::kPressureRate;
   std::vector<SharedEffect> effects;
   bool fine_noise = false;  // noise_shape
+  // Where the rig's records may have a tone (tone.h), of the loop that a search begins with; 0:
+  // none is looked for.
+  double tone_hz = 0.0;
 };
 
 // The least noise that a rig has: combustion's, coloured, and white noise of both sensors.

@@ -20,6 +20,7 @@ std::vector<LoopItem> MakeItems() {
       {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kHeatReleaseHum, kHumCoefficients, 60.0}},
       {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kPressureHum, kHumCoefficients, 50.0}},
       {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kPressureHum, kHumCoefficients, 60.0}},
+      {"external_tone", LoopItemKind::kNoise, {LoopNoise::kTone, 1}},
       {"noise_shape", LoopItemKind::kNoiseShape},
       {"mode_detuning", LoopItemKind::kDetuning},
       {"own_damping", LoopItemKind::kOwnDamping},
@@ -74,7 +75,7 @@ std::vector<std::string> LoopItemIds() {
 std::string KeyOf(const LoopItem& item) {
   if (IsHum(item.noise.source)) {
     return item.id + "_" + std::string(LoopNoiseName(item.noise.source)) + "_" +
-           std::to_string(std::lround(item.noise.mains_hz));
+           std::to_string(std::lround(item.noise.line_hz));
   }
   return item.id + (item.effect ? item.effect->form().value : "");
 }

@@ -4,6 +4,7 @@
 //   duct_noise                       a source in the duct that q does not show
 //   background_noise                 one that both channels show without the loop
 //   mains_hum                        lines at multiples of 50 or 60 Hz in one of the channels
+//   external_tone                    another source drives the duct at one frequency (tone.h)
 //   noise_shape                      spectra of sources have twice as many coefficients: peaks half
 //                                    an octave wide
 //   mode_detuning                    the modes' frequencies are free of the base's ratio

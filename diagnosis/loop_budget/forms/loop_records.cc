@@ -13,6 +13,7 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   for (const LoopRecord& each : records) {
     names_.push_back(each.name);
     cycle_hz_.push_back(each.cycle_hz);
+    length_s_.push_back(static_cast<double>(each.record.pressure.size()) / each.record.sampling_hz);
   }
   for (Spectra& spectra : spectra_) {
     spectra.points.resize(records.size());

@@ -22,6 +22,7 @@ class LoopRecords {
   std::size_t size() const { return names_.size(); }
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<double>& cycle_hz() const { return cycle_hz_; }
+  const std::vector<double>& length_s() const { return length_s_; }
   // As `form` has them, without its shared effects.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
@@ -50,6 +51,7 @@ class LoopRecords {
 
   std::vector<std::string> names_;
   std::vector<double> cycle_hz_;
+  std::vector<double> length_s_;
   std::array<Spectra, 3> spectra_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "diagnosis/loop_budget/forms/odds.h"
@@ -17,8 +18,8 @@ namespace {
 struct Exchange {
   std::size_t step = 0;
   LoopItem rival;
-  LoopFit fit = {};
-  double price = 0.0;  // the rival's
+  std::optional<LoopFit> fit = {};  // none of a trial that says of itself that it is none
+  double price = 0.0;               // the rival's
 };
 
 // Of rivals that may come where the step's item is not.
@@ -46,6 +47,7 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
     const std::string of_this = key + std::to_string(each.step) + "/" + KeyOf(each.rival) + "/";
     const LoopTrial trial =
         TryAll(records, now->without[each.step], 0.0, {each.rival}, of_this, options)[0];
+    if (!std::isfinite(trial.gain)) return;
     each.fit = FitTrial(records, trial, trial.starts, of_this, options);
     each.price = trial.price;
   });
@@ -53,8 +55,9 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
   const Exchange* best = nullptr;
   double most = 0.0;
   for (const Exchange& each : exchanges) {
+    if (!each.fit) continue;
     LoopStep& step = now->steps[each.step];
-    const double gain = each.fit.Density() - now->best.Density() - (each.price - step.price);
+    const double gain = each.fit->Density() - now->best.Density() - (each.price - step.price);
     VLOG(1) << key << each.rival.id << " for " << step.item.id << " " << gain << " nats";
     // Forms of one item are no class.
     const bool named = each.rival.id == step.item.id ||
@@ -66,9 +69,9 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
     }
   }
   if (best == nullptr) return std::nullopt;
-  LoopStanding out{best->fit, now->steps, {}};
+  LoopStanding out{*best->fit, now->steps, {}};
   const LoopStep& before = now->steps[best->step];
-  LoopStep next{best->rival, before.least, best->price, before.rivals, best->fit};
+  LoopStep next{best->rival, before.least, best->price, before.rivals, *best->fit};
   std::erase_if(next.rivals,
                 [&](const LoopItem& each) { return KeyOf(each) == KeyOf(best->rival); });
   next.rivals.push_back(before.item);

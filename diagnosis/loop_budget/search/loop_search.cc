@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "diagnosis/loop_budget/forms/tone.h"
 #include "diagnosis/loop_budget/search/loop_removal.h"
 #include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/parallel.h"
@@ -18,7 +19,9 @@ constexpr std::size_t kMostItems = 24;
 class Search {
  public:
   Search(LoopRecords records, const LoopForm& base, const LoopBudgetOptions& options)
-      : records_(std::move(records)), base_(base), options_(options) {}
+      : records_(std::move(records)), base_(base), options_(options) {
+    base_.tone_hz = ToneIn(records_);
+  }
 
   LoopFound Run();
 
@@ -31,7 +34,7 @@ class Search {
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
 
   LoopRecords records_;
-  const LoopForm& base_;
+  LoopForm base_;
   const LoopBudgetOptions& options_;
 };
 

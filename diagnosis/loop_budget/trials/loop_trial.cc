@@ -1,6 +1,9 @@
 #include "diagnosis/loop_budget/trials/loop_trial.h"
 
+#include <algorithm>
 #include <atomic>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -32,6 +35,22 @@ std::vector<Eigen::VectorXd> StartOf(const LoopRecords& records, const LoopFit& 
     return fit;
   };
   return BestRow({starts.rows.size(), records.size(), starts.apart}, options.threads, on_middle);
+}
+
+// Whether at most points a mode rings on for longer than the record.
+bool HasATone(const LoopRecords& records, const LoopTrial& trial) {
+  std::size_t points = 0;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const LoopPoint point = ToPoint(
+        trial.model.structure, records.FlameTerms(trial.model.flame_input, e), trial.starts[0][e]);
+    const double of_record = 2.0 * std::numbers::pi * records.cycle_hz()[e] * records.length_s()[e];
+    if (std::ranges::any_of(point.modes, [of_record](const LoopMode& mode) {
+          return mode.xi * mode.omega * of_record < 1.0;
+        })) {
+      ++points;
+    }
+  }
+  return 2 * points > records.size();
 }
 
 }  // namespace
@@ -84,8 +103,8 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
       const PointPrior prior = PriorOfTrial(records, from, trial.model, e, record);
       PointFit fit =
           FitPoint(record, trial.model.structure, prior, trial.starts[0][e], kToTheMaximum);
-      // Without hum a mode may have taken its line for a resonance, and would keep it.
-      if (!IsHum(trial.item.noise.source)) return fit;
+      // Without hum or a tone a mode may have taken its line for a resonance, and would keep it.
+      if (!HasLines(trial.item.noise.source)) return fit;
       return BestByModes(record, trial.model.structure, prior, std::move(fit));
     });
     if (options.progress) options.progress(++done, fits.size());
@@ -94,6 +113,11 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     LoopTrial& trial = out[i / records.size()];
     trial.gain += fits[i].log_evidence;
     trial.starts[0][i % records.size()] = fits[i].parameters;
+  }
+  for (LoopTrial& trial : out) {
+    if (trial.item.kind == LoopItemKind::kMode && HasATone(records, trial)) {
+      trial.gain = -std::numeric_limits<double>::infinity();
+    }
   }
   return out;
 }

@@ -26,7 +26,9 @@ struct LoopBudgetOptions {
 struct LoopTrial {
   LoopItem item;
   LoopForm model;
-  double gain = 0.0;  // nats
+  // Nats. Of a mode that at most points rings on for longer than the record minus infinity: the
+  // records do not tell it from a tone, which is another item.
+  double gain = 0.0;
   // Of that, what values which all points share cost. Densities of records that are left out do not
   // pay for them: they are fitted to all records.
   double price = 0.0;

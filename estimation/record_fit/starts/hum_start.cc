@@ -19,7 +19,10 @@ constexpr double kRidge = 1e-3;
 Eigen::VectorXd HumStart(const RecordSpectra& record, const NoiseTerm& hum,
                          const LoopResiduals& left) {
   const Eigen::VectorXd shape = NoiseShape(hum, record);
-  const Eigen::VectorXd power = (IsOfPressure(hum.source) ? left.acoustic : left.flame).cwiseAbs2();
+  Eigen::VectorXd power =
+      (hum.source == LoopNoise::kTone || IsOfPressure(hum.source) ? left.acoustic : left.flame)
+          .cwiseAbs2();
+  if (hum.source == LoopNoise::kTone) power = power.cwiseQuotient(left.r.cwiseAbs2());
   std::vector<Eigen::Index> bins;
   for (Eigen::Index i = 0; i < shape.size(); ++i) {
     if (shape[i] > kOnLine) bins.push_back(i);

@@ -1,4 +1,4 @@
-// Where a fit looks for hum.
+// Where a fit looks for hum, or for a tone.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_STARTS_HUM_START_H_
 #define HOWL_ESTIMATION_RECORD_FIT_STARTS_HUM_START_H_
 

@@ -102,6 +102,7 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, const FlamePath& path) c
         break;
       case LoopNoise::kPressureHum:
       case LoopNoise::kHeatReleaseHum:
+      case LoopNoise::kTone:
         c = HumStart(record_, term, left);
         break;
     }

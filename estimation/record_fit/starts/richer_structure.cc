@@ -81,7 +81,7 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
       point.background_ratio = start.ratio;
       c[0] = start.log_level;
     }
-    if (IsHum(term.source)) c = HumStart(record, term, left);
+    if (HasLines(term.source)) c = HumStart(record, term, left);
     for (std::size_t j = 0; j < poor.noise.size(); ++j) {
       if (poor.noise[j].source != term.source) continue;
       c[0] = 0.0;

@@ -9,12 +9,13 @@ namespace {
 // Of the cycle's frequency: as far as its lines reach (loop_point.h).
 constexpr double kBesideCycle = 0.06;
 
-Eigen::VectorXd HumLines(const NoiseTerm& term, const RecordSpectra& record) {
+Eigen::VectorXd Lines(const NoiseTerm& term, const RecordSpectra& record) {
   const double cycle_hz = record.scale.cycle_hz;
   const Eigen::VectorXd f_hz = cycle_hz * record.s.imag();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(record.bins());
-  const double highest_hz = f_hz[record.bins() - 1] + term.mains_hz;
-  for (double line_hz = term.mains_hz; line_hz < highest_hz; line_hz += term.mains_hz) {
+  const double highest_hz =
+      IsHum(term.source) ? f_hz[record.bins() - 1] + term.line_hz : 1.5 * term.line_hz;
+  for (double line_hz = term.line_hz; line_hz < highest_hz; line_hz += term.line_hz) {
     const double of_cycle = line_hz / cycle_hz;
     if (std::abs(of_cycle - std::round(of_cycle)) < kBesideCycle) continue;
     for (Eigen::Index i = 0; i < record.bins(); ++i) {
@@ -37,6 +38,7 @@ TransferFunction InstrumentBefore(LoopNoise source, const RecordSpectra& record)
     case LoopNoise::kCombustion:
     case LoopNoise::kDuct:
     case LoopNoise::kBackground:
+    case LoopNoise::kTone:
       break;
   }
   return {};
@@ -46,7 +48,7 @@ TransferFunction InstrumentBefore(LoopNoise source, const RecordSpectra& record)
 
 Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
   Eigen::VectorXd out =
-      IsHum(term.source) ? HumLines(term, record) : Eigen::VectorXd::Ones(record.bins()).eval();
+      HasLines(term.source) ? Lines(term, record) : Eigen::VectorXd::Ones(record.bins()).eval();
   if (const TransferFunction instrument = InstrumentBefore(term.source, record)) {
     for (Eigen::Index i = 0; i < record.bins(); ++i) out[i] /= std::norm(instrument(record.s[i]));
   }

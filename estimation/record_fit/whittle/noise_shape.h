@@ -3,10 +3,10 @@
 //
 //   w(f) = sum over n of 1 / max(1, (4 d_n^2 - 1)^2),   d_n: bins from n times the mains' frequency
 //
-// the bound of a line's power under a sine taper (Thomson 1982; Riedel & Sidorenko 1995). Multiples
-// next to one of the cycle's lines tell nothing of hum, and are left out. Noise and hum that come
-// in behind an instrument which was taken out of the record have 1 / |H|^2 of it as well. Of all
-// other sources w is one.
+// or for a tone over n = 1 alone: the bound of a line's power under a sine taper (Thomson 1982;
+// Riedel & Sidorenko 1995). Multiples next to one of the cycle's lines tell nothing of hum, and are
+// left out. Noise and hum that come in behind an instrument which was taken out of the record have
+// 1 / |H|^2 of it as well. Of all other sources w is one.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
 

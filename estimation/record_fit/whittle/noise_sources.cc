@@ -20,6 +20,8 @@ std::string_view LoopNoiseName(LoopNoise source) {
       return "p_hum";
     case LoopNoise::kHeatReleaseHum:
       return "q_hum";
+    case LoopNoise::kTone:
+      return "tone";
   }
   return "";
 }

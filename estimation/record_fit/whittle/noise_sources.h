@@ -6,6 +6,7 @@
 //   background  (beta - R, 1 - beta F): both channels show it, p beta times as much as q, as they
 //               do what the electronics or the building's mains add
 //   hum of p, of q   as their sensors, at multiples of the mains' frequency alone (noise_shape.h)
+//   tone        as the duct's, at one frequency alone
 //
 //   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
 //
@@ -29,22 +30,25 @@ enum class LoopNoise : std::uint8_t {
   kDuct,
   kBackground,
   kPressureHum,
-  kHeatReleaseHum
+  kHeatReleaseHum,
+  kTone
 };
 
-inline constexpr std::size_t kMostNoiseTerms = 7;  // one of each
+inline constexpr std::size_t kMostNoiseTerms = 8;  // one of each
 
 std::string_view LoopNoiseName(LoopNoise source);
 
 struct NoiseTerm {
   LoopNoise source = LoopNoise::kCombustion;
   Eigen::Index coefficients = 1;
-  double mains_hz = 0.0;  // of hum
+  double line_hz = 0.0;  // of hum the first of its lines, of a tone its frequency
 };
 
 inline bool IsHum(LoopNoise source) {
   return source == LoopNoise::kPressureHum || source == LoopNoise::kHeatReleaseHum;
 }
+// Whether it is no noise, but oscillations.
+inline bool HasLines(LoopNoise source) { return IsHum(source) || source == LoopNoise::kTone; }
 // Whether its spectrum is in units of |P|^2.
 inline bool IsOfPressure(LoopNoise source) {
   return source == LoopNoise::kPressureSensor || source == LoopNoise::kPressureHum;
@@ -68,6 +72,7 @@ inline NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std:
     case LoopNoise::kHeatReleaseHum:
       return {-r, 1.0};
     case LoopNoise::kDuct:
+    case LoopNoise::kTone:
       return {r, 0.0};
     case LoopNoise::kBackground:
       return {background_ratio - r, 1.0 - background_ratio * f};
@@ -91,6 +96,7 @@ inline NoiseTurn TurnOf(LoopNoise source, double background_ratio) {
     case LoopNoise::kHeatReleaseHum:
       return {-1.0, 0.0};
     case LoopNoise::kDuct:
+    case LoopNoise::kTone:
       return {1.0, 0.0};
     case LoopNoise::kBackground:
       return {-1.0, -background_ratio};

@@ -40,6 +40,8 @@ struct ModalLoop {
   double later_s = 0.0;   // which comes later by this
   double spread_s = 0.0;  // of what drives the curve: deviation of its delays
   double lag_hz = 0.0;    // of the flame's answer; 0: none
+  double tone = 0.0;      // amplitude in p of an oscillation from outside, which the flame answers
+  double tone_hz = 0.0;   // to as to all of p
   double drift = 0.0;     // of tau: so much longer in the record's second half, of tau
   double slope = 0.0;
   double range = 1000.0;
@@ -170,6 +172,12 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
     for (const State& m : states) {
       p += m.a * m.rate + m.b * m.w * m.x;
       rate += m.a * (q - 2.0 * m.xi * m.w * m.rate - m.w * m.w * m.x) + m.b * m.w * m.rate;
+    }
+    if (loop.tone != 0.0) {
+      const double tone_rad_s = 2.0 * std::numbers::pi * loop.tone_hz;
+      const double turn = tone_rad_s * h * static_cast<double>(i);
+      p += loop.tone * std::cos(turn);
+      rate -= loop.tone * tone_rad_s * std::sin(turn);
     }
     if (i >= settle && (i - settle) % ModalLoop::kSteps == 0) {
       out.pressure.push_back(p);

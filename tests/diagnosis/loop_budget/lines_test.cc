@@ -1,0 +1,66 @@
+// Oscillations that are no part of the loop: hum in a sensor, and a tone in the duct.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "diagnosis/loop_budget/forms/tone.h"
+#include "diagnosis/loop_budget/loop_budget.h"
+#include "tests/diagnosis/loop_budget/duct_rig.h"
+
+namespace howl {
+namespace {
+
+TEST(LinesOfRecords, AreHumInTheChannelThatHasIt) {
+  constexpr double kShare = 0.05;  // of the signal
+  for (const bool in_p : {false, true}) {
+    std::vector<LoopRecord> records = DuctsAt({1.2, 1.5, 1.8});
+    for (LoopRecord& each : records) {
+      std::vector<double>& signal = in_p ? each.record.pressure : each.record.heat_release;
+      const double amplitude = kShare * std::numbers::sqrt2 * RootMeanSquare(signal);
+      for (std::size_t i = 0; i < signal.size(); ++i) {
+        const double t = static_cast<double>(i) / each.record.sampling_hz;
+        signal[i] +=
+            amplitude * std::sin(2.0 * std::numbers::pi * 60.0 * t + each.operating_parameter);
+      }
+    }
+    const LoopDiagnosis found = DiagnoseLoops(
+        records, DuctsForm(), Among({"mains_hum", "background_noise", "channel_skew"}));
+    const Budget& budget = *found.diagnosis.budget;
+    ASSERT_EQ(budget.entries.size(), 1u);
+    const BudgetEntry& hum = budget.entries[0];
+    EXPECT_EQ(hum.item, "mains_hum");
+    EXPECT_EQ(hum.experiments_better, 3u);
+    ASSERT_EQ(hum.parameters.size(), 2u);
+    EXPECT_NEAR(hum.parameters[0].value, kShare, 0.3 * kShare);
+    EXPECT_EQ(hum.parameters[1].value, 60.0);
+    const auto& noise = found.best.structure.noise;
+    const LoopNoise source = in_p ? LoopNoise::kPressureHum : LoopNoise::kHeatReleaseHum;
+    EXPECT_EQ(std::ranges::count(noise, source, &NoiseTerm::source), 1) << in_p;
+  }
+}
+
+// Of a source in the duct that is no part of the loop.
+TEST(LinesOfRecords, AreATone) {
+  constexpr double kTone_hz = 98.13;
+  std::vector<LoopRecord> rig;
+  for (const double gain : {1.2, 1.5, 1.8}) {
+    const double size = RootMeanSquare(DuctAt(gain, 0.8, 1).record.pressure);
+    const auto with_tone = [&](ModalLoop* loop) {
+      loop->tone = 0.05 * size;
+      loop->tone_hz = kTone_hz;
+    };
+    rig.push_back(DuctAt(gain, 0.8, rig.size() + 1, {}, with_tone));
+  }
+  EXPECT_NEAR(ToneIn(LoopRecords(rig, 0)), kTone_hz, 0.1);
+  const LoopDiagnosis found =
+      DiagnoseLoops(rig, DuctsForm(), Among({"external_tone", "acoustic_mode", "duct_noise"}));
+  ASSERT_EQ(found.diagnosis.budget->entries.size(), 1u);
+  EXPECT_EQ(found.diagnosis.budget->entries[0].item, "external_tone");
+  EXPECT_NEAR(found.diagnosis.budget->entries[0].parameters[1].value, kTone_hz, 0.1);
+}
+
+}  // namespace
+}  // namespace howl
