@@ -11,6 +11,7 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/numerics/real_fft.h"
 #include "diagnosis/records/channel_signal.h"
+#include "model/numerics/smooth_length.h"
 
 namespace howl {
 

@@ -12,6 +12,7 @@
 #include "diagnosis/numerics/real_fft.h"
 #include "estimation/analysis/spectra/half_of_record.h"
 #include "estimation/analysis/spectra/statistics.h"
+#include "model/numerics/smooth_length.h"
 
 namespace howl {
 namespace {

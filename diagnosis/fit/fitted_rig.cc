@@ -12,6 +12,7 @@
 #include "estimation/unit_seed.h"
 #include "model/loop/loop_effect.h"
 #include "model/noise/random_stream.h"
+#include "model/numerics/smooth_length.h"
 
 namespace howl {
 namespace {

@@ -11,9 +11,6 @@ Eigen::VectorXcd ForwardFft(const Eigen::VectorXd& signal);
 // The real signal of `size` samples whose half spectrum this is.
 Eigen::VectorXd InverseFft(const Eigen::VectorXcd& half_spectrum, Eigen::Index size);
 
-// The longest length up to `size` that has no prime factor above five.
-Eigen::Index SmoothLength(Eigen::Index size);
-
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_NUMERICS_REAL_FFT_H_

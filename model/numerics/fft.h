@@ -1,4 +1,4 @@
-// Discrete Fourier transforms, by Eigen's kissfft.
+// Discrete Fourier transforms, by Eigen's kissfft, of any length in N log N steps.
 //
 //   X_k = sum_n x_n e^(-2 pi j k n / N)
 //
@@ -22,6 +22,9 @@ class Fft {
   ~Fft();
   Fft(const Fft&) = delete;
   Fft& operator=(const Fft&) = delete;
+
+  // One that each thread keeps.
+  static Fft& OfThisThread();
 
   // spectrum has signal.size() / 2 + 1 values.
   void Forward(std::span<const double> signal, std::span<std::complex<double>> spectrum);

@@ -39,12 +39,6 @@ TEST(RealFft, RoundTripAndALine) {
   EXPECT_NEAR((InverseFft(spectrum, n) - x).norm(), 0.0, 1e-11);
 }
 
-TEST(RealFft, SmoothLengths) {
-  EXPECT_EQ(SmoothLength(16000), 16000);
-  EXPECT_EQ(SmoothLength(16001), 16000);
-  EXPECT_EQ(SmoothLength(997), 972);
-}
-
 TEST(CutRecord, WindowIsTheFourthPowerOfASine) {
   // Under the taps a constant spectrum is an impulse at the record's start, where the window is 0;
   // an alternating one is an impulse in the middle, where it is 1.

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "model/numerics/smooth_length.h"
+
 namespace howl {
 namespace {
 
@@ -32,7 +34,8 @@ std::complex<double> Sum(const std::vector<double>& signal, std::size_t k) {
   return sum;
 }
 
-// Lengths that the transform treats in ways of their own: multiples of four, even, odd, a prime.
+// Lengths that the transform treats in ways of their own: multiples of four, even, odd, and those
+// with a large prime factor.
 class FftOfLength : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(FftOfLength, IsTheDefinitionAndHasAnInverse) {
@@ -52,7 +55,13 @@ TEST_P(FftOfLength, IsTheDefinitionAndHasAnInverse) {
   for (std::size_t n = 0; n < signal.size(); ++n) EXPECT_NEAR(back[n], signal[n], 1e-12) << n;
 }
 
-INSTANTIATE_TEST_SUITE_P(Lengths, FftOfLength, ::testing::Values(16, 60, 66, 81, 97));
+INSTANTIATE_TEST_SUITE_P(Lengths, FftOfLength, ::testing::Values(16, 60, 66, 81, 97, 202, 1009));
+
+TEST(SmoothLength, HasNoFactorAboveFive) {
+  EXPECT_EQ(SmoothLength(16000), 16000);
+  EXPECT_EQ(SmoothLength(16001), 16000);
+  EXPECT_EQ(SmoothLength(997), 972);
+}
 
 TEST(FftDeathTest, SpectraHaveTheirLength) {
   Spectrum spectrum(16);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "estimation/record_fit/spectra/unitary_transform.h"
+#include "model/numerics/smooth_length.h"
 
 namespace howl {
 namespace {
@@ -53,9 +54,9 @@ class Middle {
 
 void SetMiddle(RecordSpectra* of) {
   const RecordSpectra& record = *of;
-  const auto samples =
+  const Eigen::Index samples = SmoothLength(
       std::max(static_cast<Eigen::Index>(kCycles * record.sampling_hz / record.scale.cycle_hz),
-               static_cast<Eigen::Index>(kShare * static_cast<double>(record.Samples())));
+               static_cast<Eigen::Index>(kShare * static_cast<double>(record.Samples()))));
   of->middle = nullptr;
   if (2 * samples > record.Samples()) return;
   const Middle middle(record, samples);

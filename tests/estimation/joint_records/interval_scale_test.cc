@@ -115,7 +115,7 @@ TEST(IntervalScale, IsOneButForChanceWhereTheModelIsRight) {
 // Half way between two states there is none, and the plain intervals are about what the fit makes
 // of both.
 TEST(IntervalScale, IntervalsOfARigThatChangesHoldItsMiddle) {
-  Drifting rig(0.04);
+  Drifting rig(0.06);
   const std::vector<IntervalScale> scales = rig.Scales();
   const IntervalScale* const tau = Find(scales, "tau_s");
   ASSERT_NE(tau, nullptr);

@@ -90,7 +90,7 @@ TEST(ModeMaxima, FindTheWeakModeThatAFitMisses) {
   for (std::size_t missed = 1; missed < 3; ++missed) {
     LoopPoint point = ToPoint(structure, spectra.flame.cols(), right.parameters);
     point.modes[missed].omega = 6.0;
-    point.modes[missed].xi = 0.01;
+    point.modes[missed].xi = 0.003;
     const PointFit wrong = FitPoint(spectra, structure, prior, ToParameters(structure, point));
     ASSERT_LT(wrong.log_posterior, right.log_posterior - 100.0) << missed;
     const PointFit found = BestByModes(spectra, structure, prior, wrong);
