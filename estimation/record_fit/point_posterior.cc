@@ -84,9 +84,9 @@ double PointPosterior::ShareWithin(const Eigen::VectorXd& parameters,
 Eigen::MatrixXd Positive(const Eigen::MatrixXd& information) {
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1.0).cwiseSqrt();
   const Eigen::VectorXd inverse = scale.cwiseInverse();
-  const SymmetricEigen eigen =
-      EigenOfSymmetric(inverse.asDiagonal() * information * inverse.asDiagonal());
-  if (eigen.values[0] > 1e-9) return information;
+  const Eigen::MatrixXd scaled = inverse.asDiagonal() * information * inverse.asDiagonal();
+  if (HasEigenvaluesAbove(1e-9, scaled)) return information;
+  const SymmetricEigen eigen = EigenOfSymmetric(scaled);
   return scale.asDiagonal() * eigen.vectors * eigen.values.cwiseAbs().cwiseMax(1e-6).asDiagonal() *
          eigen.vectors.transpose() * scale.asDiagonal();
 }

@@ -7,8 +7,8 @@
 namespace howl {
 namespace {
 
-// A generic factor p costs p complex multiplications for each value; transforms padded to a power of
-// two of at least twice the length cost as much as p = 30 at lengths of 2^14, 50 at 2^18
+// A generic factor p costs p complex multiplications for each value; transforms padded to a power
+// of two of at least twice the length cost as much as p = 30 at lengths of 2^14, 50 at 2^18
 // (bench/fft_bench.cc).
 constexpr std::size_t kLargestFactor = 40;
 

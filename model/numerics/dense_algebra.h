@@ -17,6 +17,10 @@ Eigen::VectorXd SolveByLu(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 // x with a x = b for a symmetric a, of which the lower half is read, by L D L^T with pivoting.
 Eigen::MatrixXd SolveSymmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
+// Whether all eigenvalues of a symmetric a, of which the lower half is read, are above `least`, as
+// far as rounding lets Cholesky's factors tell.
+bool HasEigenvaluesAbove(double least, Eigen::MatrixXd a);
+
 struct SymmetricEigen {
   Eigen::VectorXd values;   // ascending
   Eigen::MatrixXd vectors;  // one a column

@@ -9,6 +9,11 @@ Eigen::MatrixXd SolveSymmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& 
   return a.ldlt().solve(b);
 }
 
+bool HasEigenvaluesAbove(double least, Eigen::MatrixXd a) {
+  a.diagonal().array() -= least;
+  return a.llt().info() == Eigen::Success;
+}
+
 SymmetricEigen EigenOfSymmetric(const Eigen::MatrixXd& a) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
   return {solver.eigenvalues(), solver.eigenvectors()};

@@ -54,6 +54,8 @@ TEST(EigenOfSymmetric, OfSecondDifferences) {
     EXPECT_NEAR(eigen.values(k), 2.0 - 2.0 * std::cos(std::numbers::pi * (k + 1) / (kSize + 1)),
                 1e-14);
   }
+  EXPECT_TRUE(HasEigenvaluesAbove(eigen.values(0) - 1e-12, a.triangularView<Eigen::Lower>()));
+  EXPECT_FALSE(HasEigenvaluesAbove(eigen.values(0) + 1e-12, a.triangularView<Eigen::Lower>()));
   EXPECT_LT((a * eigen.vectors - eigen.vectors * eigen.values.asDiagonal()).norm(), 1e-13);
   EXPECT_TRUE((eigen.vectors.transpose() * eigen.vectors).isIdentity(1e-13));
 }
