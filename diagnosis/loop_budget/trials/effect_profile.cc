@@ -30,18 +30,26 @@ constexpr double kLongestStep = 0.03;  // of the search's range, so that fits fo
 // last digits of sums over thousands of bins.
 constexpr double kDifference = 1e-5;
 
-struct SearchEnds {
-  Eigen::VectorXd low, high;
-};
+// Of the cycles for which the catalogue's ranges and starts were made, those of the paper's rig: in
+// seconds they go with the cycle's period, in Hz with its frequency.
+constexpr double kCyclesOfCatalogue_hz = 210.0;
 
-SearchEnds Ends(const Effect& effect) {
-  std::vector<double> low;
-  std::vector<double> high;
+double FactorOf(const EffectParameter& parameter, const LoopRecords& records) {
+  if (parameter.unit != "Hz" && parameter.unit != "s") return 1.0;
+  double sum = 0.0;
+  for (const double cycle_hz : records.cycle_hz()) sum += std::log(cycle_hz);
+  const double cycles_hz = std::exp(sum / static_cast<double>(records.size()));
+  return parameter.unit == "Hz" ? cycles_hz / kCyclesOfCatalogue_hz
+                                : kCyclesOfCatalogue_hz / cycles_hz;
+}
+
+Eigen::VectorXd End(const LoopRecords& records, const Effect& effect,
+                    double EffectParameter::*end) {
+  std::vector<double> out;
   for (const EffectParameter& each : effect.parameters()) {
-    low.push_back(each.low);
-    high.push_back(each.high);
+    out.push_back(FactorOf(each, records) * each.*end);
   }
-  return {ToSearch(effect, low), ToSearch(effect, high)};
+  return ToSearch(effect, out);
 }
 
 }  // namespace
@@ -61,8 +69,6 @@ Eigen::VectorXd ToSearch(const Effect& effect, const std::vector<double>& values
   }
   return out;
 }
-
-Eigen::VectorXd SearchSpans(const Effect& effect) { return Ends(effect).high - Ends(effect).low; }
 
 void EffectPoint::SumUp() {
   log_posterior = 0.0;
@@ -97,8 +103,8 @@ EffectProfile::EffectProfile(const LoopRecords& records, const LoopFit& from, co
     : records_(records),
       from_(from),
       form_(With(Without(from.model, item, from.model), item)),
-      low_(Ends(*item.effect).low),
-      high_(Ends(*item.effect).high),
+      low_(End(records, *item.effect, &EffectParameter::low)),
+      high_(End(records, *item.effect, &EffectParameter::high)),
       span_(high_ - low_),
       key_(std::move(key)),
       options_(options) {}
@@ -144,7 +150,8 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
     return BeginFromNull(At(null, at_null));
   }
   std::vector<double> starts;
-  for (const double start : parameter.starts) starts.push_back(ToSearch(parameter, start));
+  const double factor = FactorOf(parameter, records_);
+  for (const double start : parameter.starts) starts.push_back(ToSearch(parameter, factor * start));
   std::ranges::sort(starts, {}, [&](double u) { return std::abs(u - null[0]); });
   const auto roughly_at = [&](const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& from) {
     return At(u, from, kToCompare, RecordExtent::kMiddle);

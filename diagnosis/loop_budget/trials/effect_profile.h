@@ -20,8 +20,6 @@ namespace howl {
 double ToSearch(const EffectParameter& parameter, double value);
 double FromSearch(const EffectParameter& parameter, double u);
 Eigen::VectorXd ToSearch(const Effect& effect, const std::vector<double>& values);
-// Of the range of each.
-Eigen::VectorXd SearchSpans(const Effect& effect);
 
 // What of a record is fitted: the whole, or what is enough to compare starts (middle_part.h).
 enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
@@ -56,6 +54,8 @@ class EffectProfile {
                 std::string key, const LoopBudgetOptions& options);
 
   const Effect& effect() const { return *form_.effects.back().effect; }
+  // Of u, their ranges'.
+  const Eigen::VectorXd& spans() const { return span_; }
   // The null, or where it is infinite the end of the range next to it.
   Eigen::VectorXd NullEnd() const;
   LoopForm FormAt(const Eigen::VectorXd& u) const;

@@ -53,7 +53,7 @@ LoopTrial TrySharedEffect(const LoopRecords& records, const LoopFit& from, doubl
   LoopTrial out{item, profile.FormAt(maximum.at.u), 0.0, 0.0, {ParametersOf(maximum.at.fits)}};
   // At its null it gains nothing.
   if (maximum.at.u[0] == profile.NullEnd()[0]) return out;
-  out.price = -maximum.LogShare(SearchSpans(profile.effect()));
+  out.price = -maximum.LogShare(profile.spans());
   out.gain = maximum.at.log_evidence - without - out.price;
   return out;
 }
