@@ -6,7 +6,7 @@
 //
 //   sum over records e of |u^H P_e|^2 / (|u|^2 M_e)
 //
-// is largest, beside the cycles' lines of all records. It is a start for the item external_tone,
+// is largest, away from the lines of all records' cycles. It is a start for the item external_tone,
 // which has to pay; whether there is a tone is not said here.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_TONE_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_TONE_H_
