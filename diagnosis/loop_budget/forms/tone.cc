@@ -9,10 +9,11 @@
 namespace howl {
 namespace {
 
-// Of a tone's tapered line beyond these bins to either side a thousandth is left.
+// Of a tone's tapered line two thousandths are beyond these bins to either side.
 constexpr Eigen::Index kReach = 2;
 constexpr double kStep = 0.5;  // of a bin, which loses a tenth of a tone's power at most
 constexpr double kFineStep = 0.01;
+constexpr double kHalfWay = 1e-6;
 
 struct Pressure {
   Eigen::VectorXcd tapered;
@@ -58,7 +59,8 @@ double OverFloor(const Pressure& p, double hz) {
        i <= std::min(middle + kReach, p.tapered.size() - 1); ++i) {
     const double bins = static_cast<double>(i) - at;
     const double edge = bins * bins - 0.25;
-    const double u = 1.0 / std::copysign(std::max(std::abs(edge), 1e-6), edge);
+    // Half way between two bins it is in both of them alone, with either sign.
+    const double u = std::abs(edge) > kHalfWay ? 1.0 / edge : std::copysign(1.0 / kHalfWay, -bins);
     sum += u * p.tapered[i];
     shape += u * u;
   }

@@ -42,6 +42,22 @@ TEST(LinesOfRecords, AreHumInTheChannelThatHasIt) {
   }
 }
 
+// Wherever it lies between two bins: half way it is in both with either sign.
+TEST(ToneIn, IsFoundToAFractionOfABin) {
+  const LoopRecord duct = DuctAt(1.5, 0.8, 1);
+  const double bin_hz = 1.0 / 0.8;
+  for (const double bins : {78.0, 78.13, 78.25, 78.5, 78.62, 78.75, 79.0}) {
+    LoopRecord with_tone = duct;
+    std::vector<double>& p = with_tone.record.pressure;
+    const double amplitude = 0.05 * RootMeanSquare(p);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const double t = static_cast<double>(i) / duct.record.sampling_hz;
+      p[i] += amplitude * std::cos(2.0 * std::numbers::pi * bins * bin_hz * t + 0.4);
+    }
+    EXPECT_NEAR(ToneIn(LoopRecords({with_tone}, 0)) / bin_hz, bins, 0.05) << bins;
+  }
+}
+
 // Of a source in the duct that is no part of the loop.
 TEST(LinesOfRecords, AreATone) {
   constexpr double kTone_hz = 98.13;
