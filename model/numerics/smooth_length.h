@@ -6,16 +6,27 @@
 
 namespace howl {
 
-// The longest even length up to `size` that has no prime factor above five; below four `size`.
+// Whether it has no prime factor above five.
+constexpr bool IsSmooth(std::ptrdiff_t size) {
+  for (const std::ptrdiff_t prime : {2, 3, 5}) {
+    while (size % prime == 0) size /= prime;
+  }
+  return size == 1;
+}
+
+// The longest even length up to `size` that is smooth; below four `size`.
 constexpr std::ptrdiff_t SmoothLength(std::ptrdiff_t size) {
   for (std::ptrdiff_t n = size - size % 2; n > 2; n -= 2) {
-    std::ptrdiff_t rest = n;
-    for (const std::ptrdiff_t prime : {2, 3, 5}) {
-      while (rest % prime == 0) rest /= prime;
-    }
-    if (rest == 1) return n;
+    if (IsSmooth(n)) return n;
   }
   return size;
+}
+
+// The shortest even length from `size` on that is smooth.
+constexpr std::ptrdiff_t SmoothLengthFrom(std::ptrdiff_t size) {
+  std::ptrdiff_t n = size > 2 ? size + size % 2 : 2;
+  while (!IsSmooth(n)) n += 2;
+  return n;
 }
 
 }  // namespace howl

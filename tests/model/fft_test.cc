@@ -61,6 +61,9 @@ TEST(SmoothLength, HasNoFactorAboveFive) {
   EXPECT_EQ(SmoothLength(16000), 16000);
   EXPECT_EQ(SmoothLength(16001), 16000);
   EXPECT_EQ(SmoothLength(997), 972);
+  EXPECT_EQ(SmoothLengthFrom(16000), 16000);
+  EXPECT_EQ(SmoothLengthFrom(16001), 16200);
+  EXPECT_EQ(SmoothLengthFrom(997), 1000);
 }
 
 TEST(FftDeathTest, SpectraHaveTheirLength) {

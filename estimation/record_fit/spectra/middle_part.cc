@@ -20,11 +20,11 @@ constexpr double kShare = 0.2;
 
 class Middle {
  public:
-  Middle(const RecordSpectra& record, Eigen::Index samples)
-      : whole_(record.Samples()),
-        samples_(samples),
+  Middle(const RecordSpectra& record, Eigen::Index instants)
+      : whole_(record.Instants()),
+        instants_(instants),
         first_whole_(record.below.size()),
-        bins_of_part_(static_cast<double>(whole_) / static_cast<double>(samples)) {
+        bins_of_part_(static_cast<double>(whole_) / static_cast<double>(instants)) {
     const auto first = static_cast<double>(first_whole_) / bins_of_part_;
     const auto last = static_cast<double>(first_whole_ + record.bins()) / bins_of_part_;
     first_ = static_cast<Eigen::Index>(std::ceil(first)) + kBesideBand;
@@ -39,12 +39,12 @@ class Middle {
     Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(whole_ / 2 + 1);
     spectrum.segment(first_whole_, edges.size()) = edges;
     const Eigen::VectorXd signal = UnitarySignal(std::move(spectrum), whole_);
-    return UnitarySpectrum(signal.segment((whole_ - samples_) / 2, samples_))
+    return UnitarySpectrum(signal.segment((whole_ - instants_) / 2, instants_))
         .segment(first_, edges_);
   }
 
  private:
-  Eigen::Index whole_, samples_, first_whole_;
+  Eigen::Index whole_, instants_, first_whole_;
   double bins_of_part_;
   Eigen::Index first_ = 0;
   Eigen::Index edges_ = 0;
@@ -54,12 +54,13 @@ class Middle {
 
 void SetMiddle(RecordSpectra* of) {
   const RecordSpectra& record = *of;
-  const Eigen::Index samples = SmoothLength(
-      std::max(static_cast<Eigen::Index>(kCycles * record.sampling_hz / record.scale.cycle_hz),
-               static_cast<Eigen::Index>(kShare * static_cast<double>(record.Samples()))));
+  const auto whole = static_cast<double>(record.Instants());
+  const double cycles = record.scale.cycle_hz / record.bin_hz;
+  const Eigen::Index instants =
+      SmoothLength(static_cast<Eigen::Index>(std::max(kCycles / cycles, kShare) * whole));
   of->middle = nullptr;
-  if (2 * samples > record.Samples()) return;
-  const Middle middle(record, samples);
+  if (2 * instants > record.Instants()) return;
+  const Middle middle(record, instants);
   RecordSpectra out;
   out.scale = record.scale;
   out.flame_input = record.flame_input;

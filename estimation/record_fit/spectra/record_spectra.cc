@@ -58,18 +58,25 @@ C CurveInputAt(const RecordSpectra& record, C s) {
   return FlameInputResponse(record.flame_input, s) * ValueAt(record.filters.before, s);
 }
 
-// The flame's input in time, from this p, whose spectrum begins at no frequency.
-Eigen::VectorXd InputOf(const RecordSpectra& record, const Eigen::VectorXcd& pressure) {
+// Between spectra that are unitary for the record's samples and for its instants.
+double InstantsOverSamples(const RecordSpectra& record) {
+  return std::sqrt(static_cast<double>(record.Instants()) * record.bin_hz / record.sampling_hz);
+}
+
+// The flame's input in time, at the record's instants, of what drives it.
+Eigen::VectorXd InputOf(const RecordSpectra& record) {
+  const Eigen::VectorXcd& pressure = record.driving;
   const double bin = record.bin_hz / record.scale.cycle_hz;
   const auto end = static_cast<double>(pressure.size());
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.Samples() / 2 + 1);
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.Instants() / 2 + 1);
   for (Eigen::Index k = 1; k < pressure.size(); ++k) {
     const auto at = static_cast<double>(k);
     const double over = std::max(at / end - kFilterEdge, 0.0) / (1.0 - kFilterEdge);
     spectrum[k] = pressure[k] * CurveInputAt(record, C(0.0, at * bin)) * 0.5 *
                   (1.0 + std::cos(std::numbers::pi * over));
   }
-  return UnitarySignal(std::move(spectrum), record.Samples());
+  spectrum *= InstantsOverSamples(record);
+  return UnitarySignal(std::move(spectrum), record.Instants());
 }
 
 // Of recorded p, from no frequency on, with as much above the band as `above` has.
@@ -93,7 +100,8 @@ void SetFlame(Eigen::VectorXcd pressure, const FlamePrior& prior, RecordSpectra*
   out->input = out->s.unaryExpr([&](C s) { return out->InputAt(s); });
   RecordScale& scale = out->scale;
   const Band band{out->below.size(), out->bins()};
-  const Eigen::VectorXd v = InputOf(*out, out->driving);
+  const Eigen::VectorXd v = InputOf(*out);
+  const double in_samples = 1.0 / InstantsOverSamples(*out);
   if (scale.input_range == 0.0) {
     scale.input_range = kRangeOverLargest * LargestInside(v, out->bin_hz / scale.cycle_hz);
   }
@@ -104,11 +112,11 @@ void SetFlame(Eigen::VectorXcd pressure, const FlamePrior& prior, RecordSpectra*
       (2.0 * step);
   const Eigen::VectorXcd rest = out->edge_s.unaryExpr([&](C s) { return CurveInputAt(*out, s); })
                                     .cwiseProduct(out->pressure) -
-                                band.Of(UnitarySpectrum(v));
+                                in_samples * band.Of(UnitarySpectrum(v));
   const Eigen::MatrixXd splines = basis.Columns(v);
   Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
   for (Eigen::Index k = 0; k < splines.cols(); ++k) {
-    spectra.col(k) = band.Of(UnitarySpectrum(splines.col(k))) + rises[k] * rest;
+    spectra.col(k) = in_samples * band.Of(UnitarySpectrum(splines.col(k))) + rises[k] * rest;
   }
   const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
   const Eigen::MatrixXd at_rest = basis.Columns(about_rest);

@@ -34,6 +34,7 @@
 
 #include "estimation/analysis/spectra/record.h"
 #include "estimation/record_fit/spectra/flame_functions.h"
+#include "model/numerics/smooth_length.h"
 
 namespace howl {
 
@@ -107,6 +108,13 @@ struct RecordSpectra {
     return FlameInputResponse(flame_input, at) * filters.At(at);
   }
   Eigen::Index Samples() const { return std::lround(sampling_hz / bin_hz); }
+  // Over the record's time, evenly: where its flame's functions are taken, however finely it was
+  // sampled. Of what a curve makes only that is taken for the band's which lies beyond twice the
+  // input's highest frequency, or one and a half times where the sampling ends both. A Fourier
+  // transform of this length is fast.
+  Eigen::Index Instants() const {
+    return SmoothLengthFrom(std::lround(2.5 * static_cast<double>(driving.size() - 1)));
+  }
   // What a state of one unit, that begins with the record, has in its spectrum but for 1 / s.
   double OneSample() const {
     const double samples = sampling_hz / bin_hz;

@@ -75,8 +75,9 @@ TEST_P(SteepFlame, EndsAtTheLoopThatOthersFind) {
 
 INSTANTIATE_TEST_SUITE_P(Records, SteepFlame, testing::Values(5, 8, 9, 11));
 
-// Begun with a mode far beyond the band a fit ends beside the maximum. Of the weak modes, for
-// without that which rules the cycle nothing of the loop is found.
+// Begun with a mode at the band's upper end a fit may end beside the maximum: which of such starts
+// do is chance, but of each mode some. Of the weak modes, for without that which rules the cycle
+// nothing of the loop is found.
 TEST(ModeMaxima, FindTheWeakModeThatAFitMisses) {
   ModalLoop loop = DuctOfModes(3);
   loop.noise = 0.02;
@@ -88,13 +89,18 @@ TEST(ModeMaxima, FindTheWeakModeThatAFitMisses) {
   const PointPrior prior = PriorOf(structure, spectra);
   const PointFit right = Identify(loop, record, 1).from_truth;
   for (std::size_t missed = 1; missed < 3; ++missed) {
-    LoopPoint point = ToPoint(structure, spectra.flame.cols(), right.parameters);
-    point.modes[missed].omega = 6.0;
-    point.modes[missed].xi = 0.003;
-    const PointFit wrong = FitPoint(spectra, structure, prior, ToParameters(structure, point));
-    ASSERT_LT(wrong.log_posterior, right.log_posterior - 100.0) << missed;
-    const PointFit found = BestByModes(spectra, structure, prior, wrong);
-    EXPECT_GT(found.log_posterior, right.log_posterior - 1.0) << missed;
+    int misses = 0;
+    for (const double omega : {5.6, 5.8, 6.0, 6.2}) {
+      LoopPoint point = ToPoint(structure, spectra.flame.cols(), right.parameters);
+      point.modes[missed].omega = omega;
+      point.modes[missed].xi = 0.003;
+      const PointFit wrong = FitPoint(spectra, structure, prior, ToParameters(structure, point));
+      if (wrong.log_posterior > right.log_posterior - 100.0) continue;
+      ++misses;
+      const PointFit found = BestByModes(spectra, structure, prior, wrong);
+      EXPECT_GT(found.log_posterior, right.log_posterior - 1.0) << missed << " " << omega;
+    }
+    EXPECT_GT(misses, 0) << missed;
   }
 }
 
