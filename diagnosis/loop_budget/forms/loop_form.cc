@@ -1,10 +1,23 @@
 #include "diagnosis/loop_budget/forms/loop_form.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 namespace howl {
 namespace {
+
+// Of the mains' frequency: 200 mHz of 50 Hz, the most that the grid of continental Europe may be
+// off by for long (Regulation (EU) 2017/1485, annex III).
+constexpr double kMainsWander = 0.004;
+
+bool IsOfMains(double line_hz) {
+  return std::ranges::any_of(std::array{50.0, 60.0}, [line_hz](double mains_hz) {
+    const double multiple = std::max(std::round(line_hz / mains_hz), 1.0);
+    return std::abs(line_hz / (multiple * mains_hz) - 1.0) < kMainsWander;
+  });
+}
 
 // Of a source that has any shape.
 Eigen::Index Fine(Eigen::Index coefficients) { return coefficients > 1 ? 2 * coefficients : 1; }
@@ -94,7 +107,10 @@ LoopForm LeastForm(const RecordLoopSpec& spec) {
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
   std::vector<LoopItem> out;
   for (LoopItem item : AllLoopItems()) {
-    if (item.noise.source == LoopNoise::kTone) item.noise.line_hz = base.tone_hz;
+    const bool hum = IsHum(item.noise.source);
+    if (HasOneLine(item.noise) && (!hum || IsOfMains(base.tone_hz))) {
+      item.noise.line_hz = base.tone_hz;
+    }
     if (MayBeAdded(item, model, base)) out.push_back(std::move(item));
   }
   return out;

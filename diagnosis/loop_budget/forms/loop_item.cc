@@ -20,6 +20,8 @@ std::vector<LoopItem> MakeItems() {
       {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kHeatReleaseHum, kHumCoefficients, 60.0}},
       {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kPressureHum, kHumCoefficients, 50.0}},
       {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kPressureHum, kHumCoefficients, 60.0}},
+      {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kHeatReleaseHum, 1}},
+      {"mains_hum", LoopItemKind::kNoise, {LoopNoise::kPressureHum, 1}},
       {"external_tone", LoopItemKind::kNoise, {LoopNoise::kTone, 1}},
       {"noise_shape", LoopItemKind::kNoiseShape},
       {"mode_detuning", LoopItemKind::kDetuning},

@@ -3,7 +3,8 @@
 //   p_sensor_noise, q_sensor_noise   the sensor's noise is coloured (the base's is white)
 //   duct_noise                       a source in the duct that q does not show
 //   background_noise                 one that both channels show without the loop
-//   mains_hum                        lines at multiples of 50 or 60 Hz in one of the channels
+//   mains_hum                        lines at multiples of 50 or 60 Hz in one of the channels, or
+//                                    the one of them at which p stands out (tone.h)
 //   external_tone                    another source drives the duct at one frequency (tone.h)
 //   noise_shape                      spectra of sources have twice as many coefficients: peaks half
 //                                    an octave wide

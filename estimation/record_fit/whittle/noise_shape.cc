@@ -14,7 +14,7 @@ Eigen::VectorXd Lines(const NoiseTerm& term, const RecordSpectra& record) {
   const Eigen::VectorXd f_hz = cycle_hz * record.s.imag();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(record.bins());
   const double highest_hz =
-      IsHum(term.source) ? f_hz[record.bins() - 1] + term.line_hz : 1.5 * term.line_hz;
+      HasOneLine(term) ? 1.5 * term.line_hz : f_hz[record.bins() - 1] + term.line_hz;
   for (double line_hz = term.line_hz; line_hz < highest_hz; line_hz += term.line_hz) {
     const double of_cycle = line_hz / cycle_hz;
     if (std::abs(of_cycle - std::round(of_cycle)) < kBesideCycle) continue;

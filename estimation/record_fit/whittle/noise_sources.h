@@ -5,7 +5,8 @@
 //   duct        (R, 0): a source other than the flame, which q does not show
 //   background  (beta - R, 1 - beta F): both channels show it, p beta times as much as q, as they
 //               do what the electronics or the building's mains add
-//   hum of p, of q   as their sensors, at multiples of the mains' frequency alone (noise_shape.h)
+//   hum of p, of q   as their sensors, at multiples of the mains' frequency alone (noise_shape.h),
+//               or with one coefficient at one frequency
 //   tone        as the duct's, at one frequency alone
 //
 //   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
@@ -46,6 +47,10 @@ struct NoiseTerm {
 
 inline bool IsHum(LoopNoise source) {
   return source == LoopNoise::kPressureHum || source == LoopNoise::kHeatReleaseHum;
+}
+// Whether it has one line. Of several the powers are as their coefficients have them.
+inline bool HasOneLine(const NoiseTerm& term) {
+  return term.source == LoopNoise::kTone || (IsHum(term.source) && term.coefficients == 1);
 }
 // Whether it is no noise, but oscillations.
 inline bool HasLines(LoopNoise source) { return IsHum(source) || source == LoopNoise::kTone; }
