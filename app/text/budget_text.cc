@@ -83,6 +83,19 @@ std::string DoubtfulText(const Budget& budget) {
          CommaSeparated(items) + "\n";
 }
 
+std::string SeenText(const Budget& budget) {
+  std::string out;
+  for (const SampleFact& fact : budget.seen_in_samples) {
+    const bool levels = fact.effect == "quantisation";
+    out += "seen in the samples: " + fact.effect + ", " +
+           (levels ? Fixed(fact.value, 0) + " levels"
+                   : Significant(100.0 * fact.value, 2) + " % at the ends of the range") +
+           ", in " + std::to_string(fact.experiments) + " of " +
+           std::to_string(budget.experiments) + " records\n";
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
@@ -97,11 +110,12 @@ std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
 }
 
 std::string BudgetText(const Budget& budget) {
-  std::string out = budget.entries.empty()
-                        ? "gap, left out: " + Fixed(budget.gap_left, 3) + "\n"
-                        : "budget, left out: several causes take the gap from " +
-                              Fixed(budget.gap_before, 3) + " to " + Fixed(budget.gap_left, 3) +
-                              "\n" + WaterfallText(budget) + DoubtfulText(budget);
+  std::string out = SeenText(budget);
+  out += budget.entries.empty()
+             ? "gap, left out: " + Fixed(budget.gap_left, 3) + "\n"
+             : "budget, left out: several causes take the gap from " + Fixed(budget.gap_before, 3) +
+                   " to " + Fixed(budget.gap_left, 3) + "\n" + WaterfallText(budget) +
+                   DoubtfulText(budget);
   for (const Place& place : budget.left) {
     const bool acoustics = place.block == LoopBlock::kAcoustics;
     out += "left: " + std::string(acoustics ? "p from q, " : "q from p, ") +

@@ -12,6 +12,7 @@
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "diagnosis/loop_budget/loop_item_parameters.h"
+#include "diagnosis/loop_budget/sample_facts.h"
 #include "diagnosis/loop_budget/search/loop_search.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/shared_units.h"
@@ -108,18 +109,39 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
   return out;
 }
 
+bool IsClipped(const Budget& budget) {
+  return std::ranges::any_of(budget.seen_in_samples, IsClipping);
+}
+
 std::string Joined(const Budget& budget) {
   std::string out;
-  for (const BudgetEntry& entry : budget.entries) out += (out.empty() ? "" : "+") + entry.item;
+  const auto add = [&out](const std::string& name) { out += (out.empty() ? "" : "+") + name; };
+  for (const SampleFact& fact : budget.seen_in_samples) add(fact.effect);
+  for (const BudgetEntry& entry : budget.entries) add(entry.item);
   return out;
+}
+
+// What the samples show stands in them; of what else there may be nothing is said.
+void TakeClipping(Diagnosis* diagnosis) {
+  diagnosis->kind = VerdictKind::kEffect;
+  diagnosis->effect = Joined(*diagnosis->budget);
+  Candidate candidate;
+  candidate.effect = diagnosis->effect;
+  candidate.probability = 1.0;
+  candidate.gap_after = diagnosis->gap_after;
+  candidate.shrinkage_low = candidate.shrinkage_high = candidate.p_value =
+      std::numeric_limits<double>::quiet_NaN();
+  diagnosis->candidates.push_back(std::move(candidate));
 }
 
 void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
   const double gained = std::max(out->acoustics.nats, out->flame.nats);
   const bool unknown = gained > std::log(kOddsOfUnknown);
-  const bool any = std::ranges::any_of(
-      found.steps, [](const LoopStep& step) { return step.item.lines == nullptr; });
+  const bool seen = !diagnosis.budget->seen_in_samples.empty();
+  const bool any = seen || std::ranges::any_of(found.steps, [](const LoopStep& step) {
+                     return step.item.lines == nullptr;
+                   });
   diagnosis.kind = unknown ? VerdictKind::kUnknown
                    : any   ? VerdictKind::kEffect
                            : VerdictKind::kNone;
@@ -130,7 +152,8 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   const double base = found.base.Density();
   const double most = std::max({with_lines, best, base});
   const std::array<double, 3> odds = {std::exp(with_lines - most),
-                                      any ? std::exp(best - most) : 0.0, std::exp(base - most)};
+                                      any ? std::exp(best - most) : 0.0,
+                                      seen ? 0.0 : std::exp(base - most)};
   const double sum = odds[0] + odds[1] + odds[2];
   diagnosis.probability_unknown = odds[0] / sum;
   diagnosis.probability_none = odds[2] / sum;
@@ -150,6 +173,10 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
 }
 
 std::string AdviceOf(const LoopDiagnosis& found) {
+  if (IsClipped(*found.diagnosis.budget)) {
+    return "record again with a wider range: whatever is fitted to clipped samples speaks of the "
+           "clipping";
+  }
   const std::string& model = found.diagnosis.budget->best_model;
   switch (found.diagnosis.kind) {
     case VerdictKind::kNone:
@@ -167,7 +194,10 @@ std::string AdviceOf(const LoopDiagnosis& found) {
 
 LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& base,
                             const LoopBudgetOptions& options) {
-  const LoopFound found = SearchLoopBudget(LoopRecords(all, options.threads), base, options);
+  const std::vector<SampleFact> seen = SampleFactsOf(all);
+  LoopBudgetOptions how = options;
+  if (std::ranges::any_of(seen, IsClipping)) how.withheld = LoopItemIds();
+  const LoopFound found = SearchLoopBudget(LoopRecords(all, options.threads), base, how);
   const LoopRecords& records = found.records;
   LoopDiagnosis out;
   out.base = base;
@@ -177,13 +207,18 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   out.flame = LinesOf(records, found, found.with_flame_lines, &PointStructure::flame_lines);
   Diagnosis& diagnosis = out.diagnosis;
   diagnosis.budget = BudgetOf(records, found, options);
+  diagnosis.budget->seen_in_samples = seen;
   diagnosis.where = diagnosis.budget->left;
   diagnosis.gap_before = diagnosis.budget->gap_before;
   diagnosis.gap_after = diagnosis.budget->gap_left;
   diagnosis.gap_floor = diagnosis.budget->floor;
   diagnosis.budget->acoustic_error = out.acoustics.size;
   diagnosis.budget->flame_error = out.flame.size;
-  TakeVerdict(found, &out);
+  if (IsClipped(*diagnosis.budget)) {
+    TakeClipping(&diagnosis);
+  } else {
+    TakeVerdict(found, &out);
+  }
   diagnosis.advice = AdviceOf(out);
   return out;
 }

@@ -32,7 +32,15 @@ struct BudgetEntry {
   std::vector<EstimatedParameter> parameters;
 };
 
+// An effect that the samples themselves show (loop_budget/sample_facts.h).
+struct SampleFact {
+  std::string effect;
+  double value = 0.0;  // of clipping the share of samples at the range's ends; else the levels
+  std::size_t experiments = 0;
+};
+
 struct Budget {
+  std::vector<SampleFact> seen_in_samples;
   std::vector<BudgetEntry> entries;
   double gap_before = 0.0;
   double gap_left = 0.0;

@@ -73,6 +73,16 @@ Json ParametersJson(const std::vector<EstimatedParameter>& all) {
   return parameters;
 }
 
+Json SeenJson(const Budget& budget) {
+  Json out = Json::array();
+  for (const SampleFact& fact : budget.seen_in_samples) {
+    out.push_back({{"effect", fact.effect},
+                   {"value", fact.value},
+                   {"experiments", {fact.experiments, budget.experiments}}});
+  }
+  return out;
+}
+
 Json BudgetJson(const Budget& budget) {
   Json entries = Json::array();
   for (const BudgetEntry& entry : budget.entries) {
@@ -161,6 +171,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
   if (diagnosis.budget) {
     const Budget& budget = *diagnosis.budget;
     json["budget"] = BudgetJson(budget);
+    json["seen_in_samples"] = SeenJson(budget);
     json["best_model"] = budget.best_model;
     json["left"] = {{"gap", NumberOrNull(budget.gap_left)},
                     {"floor", NumberOrNull(budget.floor)},

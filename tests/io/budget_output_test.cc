@@ -31,6 +31,7 @@ Diagnosis Example() {
   effect.equals = {"flame_lowpass"};
   effect.parameters = {{"sigma_s", 1e-4, 0.9e-4, 1.1e-4, "s"}};
   budget.entries = {noise, effect};
+  budget.seen_in_samples = {{"quantisation", 24.0, 5}};
   budget.left_by_octave = {{"exp2", LoopBlock::kFlame, -1, 70.0, 140.0, 0.4, 0.6}};
   budget.left = {{LoopBlock::kFlame, 100.0, 240.0, {"exp2"}, 0.7}};
   diagnosis.budget = budget;
@@ -50,6 +51,9 @@ TEST(BudgetOutput, JsonHasTheContractsKeys) {
   EXPECT_EQ(effect["lost_without"]["experiments_better"], (nlohmann::ordered_json{5, 6}));
   EXPECT_EQ(effect["class"], (nlohmann::ordered_json{"flame_lowpass"}));
   EXPECT_EQ(effect["parameters"]["sigma_s"]["lo"], 0.9e-4);
+  EXPECT_EQ(json["seen_in_samples"][0]["effect"], "quantisation");
+  EXPECT_EQ(json["seen_in_samples"][0]["value"], 24.0);
+  EXPECT_EQ(json["seen_in_samples"][0]["experiments"], (nlohmann::ordered_json{5, 6}));
   EXPECT_EQ(json["left"]["gap"], 0.3);
   EXPECT_EQ(json["left"]["floor"], 0.1);
   EXPECT_EQ(json["best_model"], "model: {modes: 2, delay_spread: normal}");

@@ -1,0 +1,76 @@
+// What samples show before any loop is fitted to them.
+#include "diagnosis/loop_budget/sample_facts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "diagnosis/loop_budget/loop_budget.h"
+#include "tests/diagnosis/loop_budget/duct_rig.h"
+
+namespace howl {
+namespace {
+
+std::vector<LoopRecord> Ducts() { return DuctsAt({1.2, 1.5, 1.8}); }
+
+void Clip(double of_largest, std::vector<double>* signal) {
+  const double level = of_largest * std::ranges::max(*signal);
+  for (double& value : *signal) value = std::clamp(value, -level, level);
+}
+
+TEST(SampleFacts, AreNoneOfASimulatedLoop) { EXPECT_TRUE(SampleFactsOf(Ducts()).empty()); }
+
+TEST(SampleFacts, AreOfMoreThanHalfOfTheRecords) {
+  std::vector<LoopRecord> records = Ducts();
+  Clip(0.6, &records[0].record.heat_release);
+  EXPECT_TRUE(SampleFactsOf(records).empty());
+  Clip(0.6, &records[2].record.heat_release);
+  const std::vector<SampleFact> facts = SampleFactsOf(records);
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_EQ(facts[0].effect, "q_clipping");
+  EXPECT_EQ(facts[0].experiments, 2u);
+  double share = 0.0;
+  for (const std::size_t e : {0, 2}) {
+    const std::vector<double>& q = records[e].record.heat_release;
+    const auto at_ends = static_cast<double>(std::ranges::count(q, std::ranges::max(q)) +
+                                             std::ranges::count(q, std::ranges::min(q)));
+    share += 0.5 * at_ends / static_cast<double>(q.size());
+  }
+  EXPECT_NEAR(facts[0].value, share, 1e-12);
+}
+
+// A loop that lacks nothing but what the clipping imitates: nothing else is named.
+TEST(SampleFacts, ClippingIsTheVerdict) {
+  std::vector<LoopRecord> records = Ducts();
+  for (LoopRecord& each : records) Clip(0.6, &each.record.pressure);
+  const LoopDiagnosis found = DiagnoseLoops(records, DuctsForm(), Among({"complex_residues"}));
+  EXPECT_EQ(found.diagnosis.kind, VerdictKind::kEffect);
+  EXPECT_EQ(found.diagnosis.effect, "p_clipping");
+  ASSERT_EQ(found.diagnosis.candidates.size(), 1u);
+  EXPECT_EQ(found.diagnosis.candidates[0].effect, "p_clipping");
+  EXPECT_TRUE(found.diagnosis.budget->entries.empty());
+  EXPECT_NE(found.diagnosis.advice.find("wider range"), std::string::npos);
+}
+
+// What few levels add is noise, beside which the search goes on.
+TEST(SampleFacts, FewLevelsStandBesideWhatElseIsFound) {
+  std::vector<LoopRecord> records = Ducts();
+  for (LoopRecord& each : records) {
+    std::vector<double>& p = each.record.pressure;
+    const double step = std::ranges::max(p) / 12.0;
+    for (double& value : p) value = step * std::round(value / step);
+  }
+  LoopForm base = DuctsForm();
+  base.structure.complex_residues = false;
+  const LoopDiagnosis found = DiagnoseLoops(records, base, Among({"complex_residues"}));
+  EXPECT_EQ(found.diagnosis.effect, "quantisation+complex_residues");
+  ASSERT_EQ(found.diagnosis.budget->seen_in_samples.size(), 1u);
+  EXPECT_NEAR(found.diagnosis.budget->seen_in_samples[0].value, 24.0, 2.0);
+  EXPECT_EQ(found.diagnosis.probability_none, 0.0);
+}
+
+}  // namespace
+}  // namespace howl
