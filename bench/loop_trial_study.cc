@@ -33,13 +33,25 @@ struct Tally {
   double seconds = 0.0;
 };
 
-// The rig's names where the budget has others.
+// The rig's names where the budget has others. Some that the catalogue has not are items.
 std::string ItemOf(const std::string& effect) {
-  return effect == "extra_acoustic_mode" ? "acoustic_mode" : effect;
+  static const std::map<std::string, std::string> kItems = {
+      {"extra_acoustic_mode", "acoustic_mode"},
+      {"x_mode_damping", "own_damping"},
+      {"x_duct_noise", "duct_noise"}};
+  const auto at = kItems.find(effect);
+  return at == kItems.end() ? effect : at->second;
 }
 
 bool IsOneOf(const BudgetEntry& entry, const std::string& item) {
   return entry.item == item || std::ranges::find(entry.equals, item) != entry.equals.end();
+}
+
+bool IsNamed(const Budget& budget, const std::string& item) {
+  return std::ranges::find(budget.seen_in_samples, item, &SampleFact::effect) !=
+             budget.seen_in_samples.end() ||
+         std::ranges::any_of(budget.entries,
+                             [&](const BudgetEntry& entry) { return IsOneOf(entry, item); });
 }
 
 void PrintCase(const std::filesystem::path& folder, const std::string& name,
@@ -62,10 +74,8 @@ void PrintCase(const std::filesystem::path& folder, const std::string& name,
   Tally& tally = (*tallies)[wanted.empty() ? "none"
                             : outside      ? "from outside"
                                            : std::to_string(wanted.size()) + " of the catalogue"];
-  const bool named = std::ranges::all_of(wanted, [&](const std::string& item) {
-    return std::ranges::any_of(budget.entries,
-                               [&](const BudgetEntry& entry) { return IsOneOf(entry, item); });
-  });
+  const bool named =
+      std::ranges::all_of(wanted, [&](const std::string& item) { return IsNamed(budget, item); });
   const bool others = std::ranges::any_of(budget.entries, [&](const BudgetEntry& entry) {
     return std::ranges::none_of(wanted,
                                 [&](const std::string& item) { return IsOneOf(entry, item); });
@@ -78,6 +88,7 @@ void PrintCase(const std::filesystem::path& folder, const std::string& name,
   tally.seconds += seconds;
   std::printf("%s %s%s%s %s | ", name.c_str(), named ? "NAMED" : "MISSED", others ? " OTHERS" : "",
               unknown ? " UNKNOWN" : "", text.empty() ? "none" : text.c_str());
+  for (const SampleFact& fact : budget.seen_in_samples) std::printf("%s ", fact.effect.c_str());
   PrintBudget(budget);
   std::printf(" | lines %.1f %.1f | %.0f s\n", found.acoustics.nats, found.flame.nats, seconds);
   std::fflush(stdout);

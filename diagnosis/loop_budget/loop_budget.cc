@@ -109,10 +109,6 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
   return out;
 }
 
-bool IsClipped(const Budget& budget) {
-  return std::ranges::any_of(budget.seen_in_samples, IsClipping);
-}
-
 std::string Joined(const Budget& budget) {
   std::string out;
   const auto add = [&out](const std::string& name) { out += (out.empty() ? "" : "+") + name; };
@@ -122,7 +118,7 @@ std::string Joined(const Budget& budget) {
 }
 
 // What the samples show stands in them; of what else there may be nothing is said.
-void TakeClipping(Diagnosis* diagnosis) {
+void TakeWhatSamplesShow(Diagnosis* diagnosis) {
   diagnosis->kind = VerdictKind::kEffect;
   diagnosis->effect = Joined(*diagnosis->budget);
   Candidate candidate;
@@ -138,10 +134,8 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
   const double gained = std::max(out->acoustics.nats, out->flame.nats);
   const bool unknown = gained > std::log(kOddsOfUnknown);
-  const bool seen = !diagnosis.budget->seen_in_samples.empty();
-  const bool any = seen || std::ranges::any_of(found.steps, [](const LoopStep& step) {
-                     return step.item.lines == nullptr;
-                   });
+  const bool any = std::ranges::any_of(
+      found.steps, [](const LoopStep& step) { return step.item.lines == nullptr; });
   diagnosis.kind = unknown ? VerdictKind::kUnknown
                    : any   ? VerdictKind::kEffect
                            : VerdictKind::kNone;
@@ -152,8 +146,7 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   const double base = found.base.Density();
   const double most = std::max({with_lines, best, base});
   const std::array<double, 3> odds = {std::exp(with_lines - most),
-                                      any ? std::exp(best - most) : 0.0,
-                                      seen ? 0.0 : std::exp(base - most)};
+                                      any ? std::exp(best - most) : 0.0, std::exp(base - most)};
   const double sum = odds[0] + odds[1] + odds[2];
   diagnosis.probability_unknown = odds[0] / sum;
   diagnosis.probability_none = odds[2] / sum;
@@ -173,9 +166,9 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
 }
 
 std::string AdviceOf(const LoopDiagnosis& found) {
-  if (IsClipped(*found.diagnosis.budget)) {
-    return "record again with a wider range: whatever is fitted to clipped samples speaks of the "
-           "clipping";
+  if (!found.diagnosis.budget->seen_in_samples.empty()) {
+    return "record again, within the converter's range and with finer steps: whatever is fitted to "
+           "such samples speaks of what was done to them";
   }
   const std::string& model = found.diagnosis.budget->best_model;
   switch (found.diagnosis.kind) {
@@ -196,7 +189,7 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
                             const LoopBudgetOptions& options) {
   const std::vector<SampleFact> seen = SampleFactsOf(all);
   LoopBudgetOptions how = options;
-  if (std::ranges::any_of(seen, IsClipping)) how.withheld = LoopItemIds();
+  if (!seen.empty()) how.withheld = LoopItemIds();
   const LoopFound found = SearchLoopBudget(LoopRecords(all, options.threads), base, how);
   const LoopRecords& records = found.records;
   LoopDiagnosis out;
@@ -214,10 +207,10 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   diagnosis.gap_floor = diagnosis.budget->floor;
   diagnosis.budget->acoustic_error = out.acoustics.size;
   diagnosis.budget->flame_error = out.flame.size;
-  if (IsClipped(*diagnosis.budget)) {
-    TakeClipping(&diagnosis);
-  } else {
+  if (seen.empty()) {
     TakeVerdict(found, &out);
+  } else {
+    TakeWhatSamplesShow(&diagnosis);
   }
   diagnosis.advice = AdviceOf(out);
   return out;

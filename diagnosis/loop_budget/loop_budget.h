@@ -1,12 +1,11 @@
 // The diagnosis of loops that records show (record_loop_spec.h): which sources of noise and which
 // freedoms the config's loop lacks, one after the other, how much each explains, and what is left.
 //
-// The verdict names what the samples themselves show (sample_facts.h) and all that was added, in
-// that order; `none` where there is neither. Where a signal is clipped, nothing is added. It is
-// `unknown` where free errors at the cycle's lines (loop_point.h), of the acoustics or of the
-// flame, pay where nothing else does: the best loop then is not the rig's. The probabilities are
-// those of the base, of the best loop without such errors, and of that with them, by the densities
-// of what was left out.
+// The verdict names what the samples themselves show (sample_facts.h), and then nothing is added;
+// else all that was added, in that order; `none` where nothing pays. It is `unknown` where free
+// errors at the cycle's lines (loop_point.h), of the acoustics or of the flame, pay where nothing
+// else does: the best loop then is not the rig's. The probabilities are those of the base, of the
+// best loop without such errors, and of that with them, by the densities of what was left out.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
 

@@ -1,8 +1,6 @@
 #include "diagnosis/loop_budget/sample_facts.h"
 
-#include <algorithm>
 #include <array>
-#include <string_view>
 
 #include "estimation/health/sample_health.h"
 
@@ -14,7 +12,6 @@ struct Kind {
   const char* subject;  // of a finding (sample_health.h)
 };
 
-constexpr std::string_view kClippingOf[] = {"p_clipping", "q_clipping"};
 constexpr std::array<Kind, 3> kKinds = {
     {{"p_clipping", "p_clipped"}, {"q_clipping", "q_clipped"}, {"quantisation", "p_coarse"}}};
 
@@ -26,10 +23,6 @@ Health FindingsOf(const LoopRecord& of) {
 }
 
 }  // namespace
-
-bool IsClipping(const SampleFact& fact) {
-  return std::ranges::find(kClippingOf, fact.effect) != std::end(kClippingOf);
-}
 
 std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records) {
   std::array<SampleFact, kKinds.size()> seen;

@@ -20,8 +20,6 @@ namespace howl {
 // Of what more than half of the records show; values are means over those that do.
 std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records);
 
-bool IsClipping(const SampleFact& fact);
-
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
