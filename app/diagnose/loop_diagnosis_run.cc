@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "app/process/progress_line.h"
 #include "app/text/loop_diagnosis_text.h"
 #include "diagnosis/loop_budget/loop_budget.h"
+#include "diagnosis/loop_budget/sample_facts.h"
 #include "estimation/joint_records/record_loop_spec.h"
 #include "io/results/loop_diagnosis_json.h"
 #include "io/user_error.h"
@@ -29,6 +32,13 @@ void RefuseOthers(const Options& options) {
                      ": the config's model states a loop that is fitted to records, expected the "
                      "paper's loop for it");
   }
+}
+
+// What `--without` may name.
+std::vector<std::string> Known() {
+  std::vector<std::string> out = LoopItemIds();
+  std::ranges::copy(SampleFactIds(), std::back_inserter(out));
+  return out;
 }
 
 // The config's loop, of which nothing is to be chosen.
@@ -51,7 +61,7 @@ LoopForm BaseOf(const Config& config) {
 int RunLoopDiagnosis(const Config& config, const Options& options) {
   RefuseOthers(options);
   LoopBudgetOptions how;
-  how.withheld = WithheldOf(options, LoopItemIds(), "nothing that a loop of records may lack");
+  how.withheld = WithheldOf(options, Known(), "nothing that a loop of records may lack");
   const LoopForm base = BaseOf(config);
   const std::vector<LoopRecord> records = LoopRecordsOf(LoadUsableRecords(config, options));
   FitState state(config, options, "diagnosis.state", options.Text("--without").value_or(""));

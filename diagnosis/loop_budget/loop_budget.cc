@@ -187,7 +187,7 @@ std::string AdviceOf(const LoopDiagnosis& found) {
 
 LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& base,
                             const LoopBudgetOptions& options) {
-  const std::vector<SampleFact> seen = SampleFactsOf(all);
+  const std::vector<SampleFact> seen = SampleFactsOf(all, options.withheld);
   LoopBudgetOptions how = options;
   if (!seen.empty()) how.withheld = LoopItemIds();
   const LoopFound found = SearchLoopBudget(LoopRecords(all, options.threads), base, how);

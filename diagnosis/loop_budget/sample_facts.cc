@@ -1,5 +1,6 @@
 #include "diagnosis/loop_budget/sample_facts.h"
 
+#include <algorithm>
 #include <array>
 
 #include "estimation/health/sample_health.h"
@@ -24,7 +25,14 @@ Health FindingsOf(const LoopRecord& of) {
 
 }  // namespace
 
-std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records) {
+std::vector<std::string> SampleFactIds() {
+  std::vector<std::string> out;
+  for (const Kind& kind : kKinds) out.emplace_back(kind.effect);
+  return out;
+}
+
+std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
+                                      const std::vector<std::string>& withheld) {
   std::array<SampleFact, kKinds.size()> seen;
   for (const LoopRecord& record : records) {
     const Health findings = FindingsOf(record);
@@ -42,6 +50,7 @@ std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records) {
   std::vector<SampleFact> out;
   for (std::size_t k = 0; k < kKinds.size(); ++k) {
     if (2 * seen[k].experiments <= records.size()) continue;
+    if (std::ranges::find(withheld, kKinds[k].effect) != withheld.end()) continue;
     out.push_back({kKinds[k].effect, seen[k].value / static_cast<double>(seen[k].experiments),
                    seen[k].experiments});
   }

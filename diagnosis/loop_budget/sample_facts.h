@@ -4,12 +4,13 @@
 //   p_clipping, q_clipping   a signal stands at the end of its range
 //   quantisation             p has a few levels
 //
-// A loop that is fitted to a clipped signal speaks of the clipping, whatever is added to it, so
-// that nothing else is looked for beside it. What few levels add to p is noise, which every loop
-// has.
+// A loop that is fitted to such samples speaks of what was done to them, whatever is added to it:
+// what clipping and coarse steps add goes with the signal, and no source of noise does. So nothing
+// else is looked for beside them, unless they are withheld as an item is.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
 
+#include <string>
 #include <vector>
 
 #include "diagnosis/verdict/budget.h"
@@ -17,8 +18,12 @@
 
 namespace howl {
 
-// Of what more than half of the records show; values are means over those that do.
-std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records);
+std::vector<std::string> SampleFactIds();
+
+// Of what more than half of the records show, without those that are withheld; values are means
+// over the records that do.
+std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
+                                      const std::vector<std::string>& withheld = {});
 
 }  // namespace howl
 

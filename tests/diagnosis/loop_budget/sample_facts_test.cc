@@ -40,6 +40,8 @@ TEST(SampleFacts, AreOfMoreThanHalfOfTheRecords) {
     share += 0.5 * at_ends / static_cast<double>(q.size());
   }
   EXPECT_NEAR(facts[0].value, share, 1e-12);
+  EXPECT_EQ(SampleFactsOf(records, {"p_clipping"}).size(), 1u);
+  EXPECT_TRUE(SampleFactsOf(records, {"q_clipping"}).empty());
 }
 
 // A loop that lacks nothing but what the clipping imitates: nothing else is named.
