@@ -9,9 +9,10 @@
 
 namespace howl {
 
-// The gap, and each item with the nats that are lost without it, its parameters and its class. The
-// line is left open.
+// What the samples show, the gap, and each item with the nats that are lost without it, its
+// parameters and its class. The line is left open.
 inline void PrintBudget(const Budget& budget) {
+  for (const SampleFact& fact : budget.seen_in_samples) std::printf("%s ", fact.effect.c_str());
   std::printf("gap %.3f to %.3f |", budget.gap_before, budget.gap_left);
   for (const BudgetEntry& entry : budget.entries) {
     std::printf(" %s (%.0f nats, %zu of %zu", entry.item.c_str(), entry.lost_nats,

@@ -88,7 +88,6 @@ void PrintCase(const std::filesystem::path& folder, const std::string& name,
   tally.seconds += seconds;
   std::printf("%s %s%s%s %s | ", name.c_str(), named ? "NAMED" : "MISSED", others ? " OTHERS" : "",
               unknown ? " UNKNOWN" : "", text.empty() ? "none" : text.c_str());
-  for (const SampleFact& fact : budget.seen_in_samples) std::printf("%s ", fact.effect.c_str());
   PrintBudget(budget);
   std::printf(" | lines %.1f %.1f | %.0f s\n", found.acoustics.nats, found.flame.nats, seconds);
   std::fflush(stdout);

@@ -117,17 +117,25 @@ std::string Joined(const Budget& budget) {
   return out;
 }
 
+// All that is named, as the only candidate.
+void AddCandidate(const LoopFound& found, double probability, Diagnosis* diagnosis) {
+  const Budget& budget = *diagnosis->budget;
+  Candidate candidate;
+  candidate.effect = Joined(budget);
+  candidate.probability = probability;
+  candidate.gain = found.best.Density() - found.base.Density();
+  candidate.gap_after = budget.gap_left;
+  candidate.shrinkage = budget.gap_before > 0.0 ? 1.0 - budget.gap_left / budget.gap_before : 0.0;
+  candidate.shrinkage_low = candidate.shrinkage_high = std::numeric_limits<double>::quiet_NaN();
+  candidate.p_value = std::numeric_limits<double>::quiet_NaN();
+  diagnosis->candidates.push_back(std::move(candidate));
+}
+
 // What the samples show stands in them; of what else there may be nothing is said.
-void TakeWhatSamplesShow(Diagnosis* diagnosis) {
+void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
   diagnosis->kind = VerdictKind::kEffect;
   diagnosis->effect = Joined(*diagnosis->budget);
-  Candidate candidate;
-  candidate.effect = diagnosis->effect;
-  candidate.probability = 1.0;
-  candidate.gap_after = diagnosis->gap_after;
-  candidate.shrinkage_low = candidate.shrinkage_high = candidate.p_value =
-      std::numeric_limits<double>::quiet_NaN();
-  diagnosis->candidates.push_back(std::move(candidate));
+  AddCandidate(found, 1.0, diagnosis);
 }
 
 void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
@@ -150,19 +158,7 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   const double sum = odds[0] + odds[1] + odds[2];
   diagnosis.probability_unknown = odds[0] / sum;
   diagnosis.probability_none = odds[2] / sum;
-  if (any) {
-    Candidate candidate;
-    candidate.effect = Joined(*diagnosis.budget);
-    candidate.probability = odds[1] / sum;
-    candidate.gain = found.best.Density() - found.base.Density();
-    candidate.gap_after = diagnosis.budget->gap_left;
-    candidate.shrinkage = diagnosis.budget->gap_before > 0.0
-                              ? 1.0 - diagnosis.budget->gap_left / diagnosis.budget->gap_before
-                              : 0.0;
-    candidate.shrinkage_low = candidate.shrinkage_high = std::numeric_limits<double>::quiet_NaN();
-    candidate.p_value = std::numeric_limits<double>::quiet_NaN();
-    diagnosis.candidates.push_back(std::move(candidate));
-  }
+  if (any) AddCandidate(found, odds[1] / sum, &diagnosis);
 }
 
 std::string AdviceOf(const LoopDiagnosis& found) {
@@ -210,7 +206,7 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   if (seen.empty()) {
     TakeVerdict(found, &out);
   } else {
-    TakeWhatSamplesShow(&diagnosis);
+    TakeWhatSamplesShow(found, &diagnosis);
   }
   diagnosis.advice = AdviceOf(out);
   return out;
