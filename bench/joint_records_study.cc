@@ -148,7 +148,8 @@ int Run(int argc, char** argv) {
       std::vector<OperatingPoint> points = recorded.Points(fit.model);
       fit.fit = FitRecords(points, each.structure, {}, before.empty() ? nullptr : &poorer);
       LoopRecords records = recorded;
-      records.DriveWithout(fit.model, PressureNoiseOf(points, fit.fit, 0), 0);
+      records.DriveWithout(fit.model, PressureNoiseOf(points, fit.fit, 0), PointsOf(recorded, fit),
+                           0);
       fit.fit = FitDriven(fit.fit, {}, &points);
       FitWithHalves found = GoOnFromHalves(recorded_as, points, std::move(fit.fit), {});
       fit.fit = std::move(found.fit);

@@ -1,14 +1,17 @@
 // Known effects put into measured records, and what the budget of loops names beside what the
 // records lack anyway:
 //
-//   [EFFECTS=mains_hum,channel_skew] loop_effects_study CONFIG [EXPERIMENT ...]
+//   [EFFECTS=mains_hum,channel_skew] [WITH=own_damping,duct_noise]
+//       loop_effects_study CONFIG [EXPERIMENT ...]
 //
 // EFFECTS: of known_effects.h, those asked for; all where not given.
-// The budget of the untouched records comes first. Its best loop, without the instruments in it,
-// then is the base from which records with each effect in them are diagnosed, as by a user who has
-// taken the budget's advice: a row with what was added, its value and what is lost without it.
+// WITH: the items that the rig's own budget has named (loop_budget_study), with which every search
+// begins, as `howl diagnose --with` does; where not given that budget is made first.
+// A row for each effect: what was added beside those, its value and what is lost without it.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,7 @@
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
 #include "bench/seconds.h"
+#include "diagnosis/loop_budget/forms/shared_effect.h"
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/kept_memory.h"
 
@@ -31,23 +35,47 @@ void PrintRow(const std::string& what, const LoopDiagnosis& found, double second
   std::fflush(stdout);
 }
 
+// In the order in which they came. Instruments that the rig has itself are looked for anew: with a
+// known one they make one.
+std::vector<std::string> ItemsOf(const Budget& budget) {
+  const auto instrument = [](const std::string& id) {
+    return std::ranges::any_of(SharedEffects(), [&](const EffectPointer& effect) {
+      return effect->id() == id && !IsFlameFilter(*effect);
+    });
+  };
+  std::vector<std::string> out;
+  for (const BudgetEntry& entry : budget.entries) {
+    if (!instrument(entry.item)) out.push_back(entry.item);
+  }
+  return out;
+}
+
+std::vector<std::string> ItemsOf(const char* list) {
+  std::vector<std::string> out;
+  std::istringstream items(list);
+  for (std::string id; std::getline(items, id, ',');) out.push_back(id);
+  return out;
+}
+
 int Run(int argc, char** argv) {
   const Config config = LoadConfig(argv[1], LoopsTaken::kAny);
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
-  double begun = Seconds();
-  const LoopDiagnosis clean = DiagnoseLoops(LoopRecordsOf(rig), LoopBaseOf(config), {});
-  PrintRow("untouched", clean, Seconds() - begun);
-  // Instruments that the rig has itself are looked for anew: with a known one they make one.
-  LoopForm base = clean.best;
-  base.effects.clear();
+  const LoopForm base = LoopBaseOf(config);
+  LoopBudgetOptions how;
+  if (const char* const with = std::getenv("WITH")) {
+    how.given = ItemsOf(with);
+  } else {
+    const double begun = Seconds();
+    const LoopDiagnosis clean = DiagnoseLoops(LoopRecordsOf(rig), base, {});
+    PrintRow("untouched", clean, Seconds() - begun);
+    how.given = ItemsOf(*clean.diagnosis.budget);
+  }
   for (const KnownEffect& known : KnownEffects()) {
-    const std::vector<std::string> ids = LoopItemIds();
-    if (known.effect != "none" && std::ranges::find(ids, known.effect) == ids.end()) continue;
     if (!Asked("EFFECTS", known.effect)) continue;
     MeasuredRig touched = rig;
     known.put(&touched);
-    begun = Seconds();
-    const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(touched), base, {});
+    const double begun = Seconds();
+    const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(touched), base, how);
     PrintRow(known.effect + " " + known.strength, found, Seconds() - begun);
   }
   return 0;

@@ -10,9 +10,9 @@
 #include "app/diagnose/diagnose_plan.h"
 #include "app/diagnose/diagnose_state.h"
 #include "app/diagnose/diagnose_table.h"
+#include "app/diagnose/listed_names.h"
 #include "app/diagnose/loop_diagnosis_run.h"
 #include "app/diagnose/planned_records.h"
-#include "app/diagnose/withheld.h"
 #include "app/files/digest.h"
 #include "app/input/diagnose_input.h"
 #include "app/jobs/shard.h"
@@ -34,7 +34,8 @@ namespace {
 std::vector<std::string> Withheld(const Options& options) {
   std::vector<std::string> known = LoopItemIds();
   for (const EffectPointer& effect : Catalogue()) known.emplace_back(effect->id());
-  return WithheldOf(options, known, "no effect of the catalogue and no item of a budget");
+  return ListedNames(options, "--without", known,
+                     "no effect of the catalogue and no item of a budget");
 }
 
 // The least number of replicates, with which one in twenty can be resolved.
@@ -77,6 +78,11 @@ void Adopt(const Options& options, const Units& units) {
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   if (config.record_loop) return RunLoopDiagnosis(config, options);
+  if (options.Has("--with")) {
+    throw UsageError(
+        "--with begins a budget of records with these items, expected a config whose model states "
+        "a loop that records alone show");
+  }
   const std::optional<Shard> shard = ShardOfReplicates(options);
   if (options.Has("--plan")) return RunPlan(config, options, Withheld(options));
   if (!HasRecords(config)) return RunTable(config, options);
@@ -172,6 +178,9 @@ Command DiagnoseCommand() {
         "where the verdict is unknown, do not account for the gap by several causes, which takes "
         "longer than the search for one"},
        {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"},
+       {"--with", "ITEMS",
+        "begin the budget of a loop that records alone show with these items (a,b,...), as an "
+        "earlier diagnosis named them"},
        ShardOption()},
       Run,
       true,

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/command_line/command.h"
-#include "app/diagnose/withheld.h"
+#include "app/diagnose/listed_names.h"
 #include "app/input/fit_state.h"
 #include "app/input/usable_records.h"
 #include "app/process/progress_line.h"
@@ -32,6 +32,13 @@ void RefuseOthers(const Options& options) {
                      ": the config's model states a loop that is fitted to records, expected the "
                      "paper's loop for it");
   }
+}
+
+constexpr char kNoItem[] = "nothing that a loop of records may lack";
+
+std::string Choices(const Options& options) {
+  const std::string with = options.Text("--with").value_or("");
+  return options.Text("--without").value_or("") + (with.empty() ? "" : " with " + with);
 }
 
 // What `--without` may name.
@@ -61,10 +68,11 @@ LoopForm BaseOf(const Config& config) {
 int RunLoopDiagnosis(const Config& config, const Options& options) {
   RefuseOthers(options);
   LoopBudgetOptions how;
-  how.withheld = WithheldOf(options, Known(), "nothing that a loop of records may lack");
+  how.withheld = ListedNames(options, "--without", Known(), kNoItem);
+  how.given = ListedNames(options, "--with", LoopItemIds(), kNoItem);
   const LoopForm base = BaseOf(config);
   const std::vector<LoopRecord> records = LoopRecordsOf(LoadUsableRecords(config, options));
-  FitState state(config, options, "diagnosis.state", options.Text("--without").value_or(""));
+  FitState state(config, options, "diagnosis.state", Choices(options));
   if (!options.quiet) state.SayWhereItStands();
   how.starts = StatedStarts(config).value_or(how.starts);
   how.seed = options.seed;

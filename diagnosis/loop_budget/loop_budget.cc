@@ -189,7 +189,7 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   const LoopFound found = SearchLoopBudget(LoopRecords(all, options.threads), base, how);
   const LoopRecords& records = found.records;
   LoopDiagnosis out;
-  out.base = base;
+  out.base = found.base.model;
   out.best = found.best.model;
   out.acoustics =
       LinesOf(records, found, found.with_acoustic_lines, &PointStructure::acoustic_lines);

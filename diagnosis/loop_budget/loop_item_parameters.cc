@@ -10,6 +10,7 @@
 
 #include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/record_fit/loop/modal_parts.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 
 namespace howl {
@@ -118,6 +119,26 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
       add("tau_s", "s", [](const RecordSpectra& record, const LoopPoint& point) {
         return point.path.tau / record.scale.AngularFrequency();
       });
+      break;
+    case LoopItemKind::kSlowChange:
+      if (item.change == &PointStructure::damping_follows_amplitude) {
+        add("xi_add_at_cycle", "", [](const RecordSpectra&, const LoopPoint& point) {
+          const LoopMode& of_cycle = ModeOfCycle(point.modes);
+          return 0.5 * std::hypot(of_cycle.a, of_cycle.b) *
+                 point.Change(SlowChange::kDamping).sum() / of_cycle.omega;
+        });
+      } else if (item.change == &PointStructure::frequency_drifts) {
+        add("rel_span", "", [](const RecordSpectra&, const LoopPoint& point) {
+          const LoopMode& of_cycle = ModeOfCycle(point.modes);
+          return 0.5 * std::hypot(of_cycle.a, of_cycle.b) *
+                 point.Change(SlowChange::kFrequency).sum() / std::pow(of_cycle.omega, 2);
+        });
+      } else {
+        add("rel_at_cycle", "", [](const RecordSpectra&, const LoopPoint& point) {
+          const double at_cycle = point.Change(SlowChange::kDelay).sum();
+          return at_cycle / (point.path.tau - at_cycle);
+        });
+      }
       break;
     case LoopItemKind::kLineErrors:
       add("rms", "", [&](const RecordSpectra&, const LoopPoint& point) {

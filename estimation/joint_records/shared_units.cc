@@ -12,6 +12,13 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
   for (Eigen::Index i = structure.Delay(); i < structure.Flame(); ++i) index_.push_back(i);
   const Eigen::Index noise = structure.Noise(record.flame.cols());
   for (Eigen::Index i = 0; i < structure.NoiseParameters(); ++i) index_.push_back(noise + i);
+  const auto changes = static_cast<Eigen::Index>(index_.size());
+  for (Eigen::Index i = 0; i < structure.AcousticChanges(); ++i) {
+    index_.push_back(structure.AcousticChange() + i);
+  }
+  for (Eigen::Index i = 0; i < structure.FlameChanges(); ++i) {
+    index_.push_back(structure.FlameChange(record.flame.cols()) + i);
+  }
   const auto add_errors = [&](Eigen::Index first, Eigen::Index count) {
     if (count == 0) return;
     errors_.push_back({static_cast<Eigen::Index>(index_.size()), count});
@@ -37,6 +44,15 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
     next += term.coefficients;
   }
   if (HasBackground(structure.noise)) scale_[next] = pressure / heat_release;
+  next = changes;
+  const auto set_unit = [&](bool has, SlowChange change, double unit) {
+    if (!has) return;
+    scale_.segment(next, ColumnsOf(change).count).setConstant(unit);
+    next += ColumnsOf(change).count;
+  };
+  set_unit(structure.damping_follows_amplitude, SlowChange::kDamping, heat_release / pressure);
+  set_unit(structure.frequency_drifts, SlowChange::kFrequency, cycle * heat_release / pressure);
+  set_unit(structure.delay_follows_amplitude, SlowChange::kDelay, 1.0 / cycle);
 }
 
 Eigen::VectorXd SharedUnits::ToCommon(const Eigen::VectorXd& parameters) const {

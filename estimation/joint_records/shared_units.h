@@ -6,6 +6,7 @@
 //
 //   ln omega: + ln c     ln tau, ln lambda: - ln c     a, b: times c P / Q
 //   ln S_j: + 2 ln(P or Q) - ln F     the background's ratio: times P / Q
+//   k of damping: times Q / P         of frequency: times c Q / P          r: over c
 //
 // c, P, Q and F: the point's cycle, root mean squares of p and q, and sampling rate, over those of
 // the reference. The shape of a spectrum is over the band, which follows the cycle.

@@ -72,6 +72,8 @@ bool MayBeAdded(const LoopItem& item, const LoopForm& model, const LoopForm& bas
       return model.flame_input == base.flame_input && item.input != base.flame_input;
     case LoopItemKind::kSharedEffect:
       return !HasShared(model, item.id) && !StandsBehindCurve(now, item.id);
+    case LoopItemKind::kSlowChange:
+      return !(now.*item.change);
     case LoopItemKind::kLineErrors:
       return now.*item.lines == 0;
   }
@@ -116,6 +118,16 @@ std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
   return out;
 }
 
+std::vector<LoopItem> SharedItemsOf(const LoopForm& model) {
+  std::vector<LoopItem> out;
+  for (const SharedEffect& each : model.effects) {
+    out.push_back({.id = std::string(each.effect->id()),
+                   .kind = LoopItemKind::kSharedEffect,
+                   .effect = each.effect});
+  }
+  return out;
+}
+
 LoopForm With(LoopForm model, const LoopItem& item) {
   PointStructure& structure = model.structure;
   switch (item.kind) {
@@ -150,6 +162,9 @@ LoopForm With(LoopForm model, const LoopItem& item) {
       break;
     case LoopItemKind::kSharedEffect:
       model.effects.push_back({item.effect, NullValues(*item.effect)});
+      break;
+    case LoopItemKind::kSlowChange:
+      structure.*item.change = true;
       break;
     case LoopItemKind::kLineErrors:
       structure.*item.lines = kCycleLines;
@@ -201,6 +216,9 @@ LoopForm Without(LoopForm model, const LoopItem& item, const LoopForm& base) {
       std::erase_if(model.effects, [&](const SharedEffect& each) {
         return each.effect->id() == item.effect->id();
       });
+      break;
+    case LoopItemKind::kSlowChange:
+      structure.*item.change = false;
       break;
     case LoopItemKind::kLineErrors:
       structure.*item.lines = 0;

@@ -31,6 +31,9 @@ LoopForm LeastForm(const RecordLoopSpec& spec);
 // All that may be added to `model` now, of a search that began at `base`.
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);
 
+// The shared effects that it has, as items.
+std::vector<LoopItem> SharedItemsOf(const LoopForm& model);
+
 // A shared effect comes at its null.
 LoopForm With(LoopForm model, const LoopItem& item);
 // `model` has the item, which `base` has not.

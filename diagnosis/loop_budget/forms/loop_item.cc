@@ -46,6 +46,15 @@ std::vector<LoopItem> MakeItems() {
        {},
        DelaySpread::kNone,
        FlameInput::kVelocity}};
+  out.push_back({.id = "nonlinear_damping",
+                 .kind = LoopItemKind::kSlowChange,
+                 .change = &PointStructure::damping_follows_amplitude});
+  out.push_back({.id = "amplitude_dependent_delay",
+                 .kind = LoopItemKind::kSlowChange,
+                 .change = &PointStructure::delay_follows_amplitude});
+  out.push_back({.id = "slow_drift",
+                 .kind = LoopItemKind::kSlowChange,
+                 .change = &PointStructure::frequency_drifts});
   out.push_back({.id = "acoustic_line_errors",
                  .kind = LoopItemKind::kLineErrors,
                  .lines = &PointStructure::acoustic_lines});

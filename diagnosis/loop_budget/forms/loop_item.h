@@ -20,6 +20,9 @@
 //   ID of the catalogue              an instrument, or a filter of the flame, with parameters
 //                                    that all points share (shared_effect.h); a second path and a
 //                                    spread before the flame's curve are among them
+//   nonlinear_damping, amplitude_dependent_delay, slow_drift
+//                                    damping and delay follow the cycle's amplitude, frequencies
+//                                    drift within the record (slow_changes.h)
 //   acoustic_line_errors, flame_line_errors
 //                                    free errors at the cycle's lines (loop_point.h): no cause, but
 //                                    what stands in its place where none is known
@@ -57,6 +60,7 @@ enum class LoopItemKind : std::uint8_t {
   kSecondPath,
   kFlameInput,
   kSharedEffect,
+  kSlowChange,
   kLineErrors
 };
 
@@ -68,6 +72,7 @@ struct LoopItem {
   FlameInput input = FlameInput::kPressureRate;  // of kFlameInput
   EffectPointer effect = nullptr;                // of kSharedEffect: one form of the effect
   int PointStructure::*lines = nullptr;          // of kLineErrors
+  bool PointStructure::*change = nullptr;        // of kSlowChange
 };
 
 std::vector<std::string> LoopItemIds();

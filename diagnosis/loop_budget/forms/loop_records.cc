@@ -8,6 +8,7 @@
 #include "estimation/parallel.h"
 
 namespace howl {
+
 LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   CHECK(!records.empty());
   for (const LoopRecord& each : records) {
@@ -34,7 +35,10 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
 }
 
 void LoopRecords::DriveWithout(const LoopForm& form, const std::vector<Eigen::VectorXd>& noise,
-                               int threads) {
+                               std::vector<LoopPoint> fitted, int threads) {
+  CHECK_EQ(fitted.size(), size());
+  fitted_ = std::move(fitted);
+  fitted_input_ = form.flame_input;
   std::vector<Eigen::VectorXd> recorded;
   for (std::size_t e = 0; e < size(); ++e) {
     recorded.push_back(
@@ -52,25 +56,41 @@ void LoopRecords::DriveWithout(const LoopForm& form, const std::vector<Eigen::Ve
   });
 }
 
+RecordSpectra LoopRecords::Prepared(RecordSpectra record, const LoopForm& form, std::size_t e,
+                                    const DriftRange& drift) const {
+  record = RecordBeside(std::move(record), form.effects);
+  if (!form.structure.HasChanges()) return record;
+  if (fitted_.empty()) {
+    SetSlowSignals(nullptr, drift, &record);
+  } else {
+    LoopPoint fitted = fitted_[e];
+    if (form.flame_input != fitted_input_) fitted.flame.resize(0);
+    SetSlowSignals(&fitted, drift, &record);
+  }
+  return record;
+}
+
 std::vector<OperatingPoint> LoopRecords::Points(const LoopForm& form) const {
   std::vector<OperatingPoint> out = Of(form.flame_input).points;
-  for (OperatingPoint& point : out)
-    point.record = RecordBeside(std::move(point.record), form.effects);
+  for (std::size_t e = 0; e < out.size(); ++e) {
+    out[e].record = Prepared(std::move(out[e].record), form, e);
+  }
   return out;
 }
 
 RecordSpectra LoopRecords::Whole(const LoopForm& form, std::size_t e) const {
-  return RecordBeside(Of(form.flame_input).points[e].record, form.effects);
+  return Prepared(Of(form.flame_input).points[e].record, form, e);
 }
 
 RecordSpectra LoopRecords::WholeAlone(const LoopForm& form, std::size_t e) const {
   RecordSpectra record = Of(form.flame_input).points[e].record;
   record.middle = nullptr;
-  return RecordBeside(std::move(record), form.effects);
+  return Prepared(std::move(record), form, e);
 }
 
 RecordSpectra LoopRecords::Half(const LoopForm& form, std::size_t e, std::size_t half) const {
-  return RecordBeside(Of(form.flame_input).halves[e][half], form.effects);
+  const DriftRange drift = half == 0 ? DriftRange{-0.5, 0.0} : DriftRange{0.0, 0.5};
+  return Prepared(Of(form.flame_input).halves[e][half], form, e, drift);
 }
 
 double LoopRecords::LogJacobianOfWhole(const LoopForm& form, std::size_t e) const {

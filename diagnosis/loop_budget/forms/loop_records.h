@@ -11,6 +11,7 @@
 #include "diagnosis/loop_budget/forms/loop_form.h"
 #include "estimation/joint_records/loop_record.h"
 #include "estimation/joint_records/records_fit.h"
+#include "estimation/record_fit/loop/slow_signals.h"
 
 namespace howl {
 
@@ -23,7 +24,7 @@ class LoopRecords {
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<double>& cycle_hz() const { return cycle_hz_; }
   const std::vector<double>& length_s() const { return length_s_; }
-  // As `form` has them, without its shared effects.
+  // As `form` has them, without its shared effects, and with what its slow changes need.
   std::vector<OperatingPoint> Points(const LoopForm& form) const;
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
   // Without its middle, which costs as much as the rest.
@@ -39,10 +40,15 @@ class LoopRecords {
   double LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const;
 
   // From now on the flames are driven by p without this noise of each point, which the points tell
-  // as `form` has them (PressureNoiseOf).
-  void DriveWithout(const LoopForm& form, const std::vector<Eigen::VectorXd>& noise, int threads);
+  // as `form` has them (PressureNoiseOf), and these loops of that form say what slow changes there
+  // may be (slow_signals.h).
+  void DriveWithout(const LoopForm& form, const std::vector<Eigen::VectorXd>& noise,
+                    std::vector<LoopPoint> fitted, int threads);
 
  private:
+  // As `form` is fitted to it.
+  RecordSpectra Prepared(RecordSpectra record, const LoopForm& form, std::size_t e,
+                         const DriftRange& drift = {}) const;
   struct Spectra {
     std::vector<OperatingPoint> points;
     std::vector<std::array<RecordSpectra, 2>> halves;
@@ -53,6 +59,8 @@ class LoopRecords {
   std::vector<double> cycle_hz_;
   std::vector<double> length_s_;
   std::array<Spectra, 3> spectra_;
+  std::vector<LoopPoint> fitted_;  // none before a loop was fitted
+  FlameInput fitted_input_ = FlameInput::kPressureRate;
 };
 
 }  // namespace howl

@@ -25,6 +25,10 @@ std::vector<std::string> ParameterLabels(const PointStructure& structure, Eigen:
   add("h", structure.modes);
   add("d_real", structure.acoustic_lines);
   add("d_imaginary", structure.acoustic_lines);
+  if (structure.damping_follows_amplitude)
+    add("growing_damping", ColumnsOf(SlowChange::kDamping).count);
+  if (structure.frequency_drifts)
+    add("drifting_frequency", ColumnsOf(SlowChange::kFrequency).count);
   add("tau", 1);
   if (structure.HasSpread()) add("rho", 1);
   if (structure.second_path) {
@@ -34,6 +38,7 @@ std::vector<std::string> ParameterLabels(const PointStructure& structure, Eigen:
   add("c", flame);
   add("e_real", structure.flame_lines);
   add("e_imaginary", structure.flame_lines);
+  if (structure.delay_follows_amplitude) add("moving_delay", ColumnsOf(SlowChange::kDelay).count);
   for (const NoiseTerm& term : structure.noise) {
     add(std::string(LoopNoiseName(term.source)), term.coefficients);
   }

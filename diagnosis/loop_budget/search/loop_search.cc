@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/forms/tone.h"
+#include "diagnosis/loop_budget/search/given_items.h"
 #include "diagnosis/loop_budget/search/loop_removal.h"
 #include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/parallel.h"
@@ -42,7 +43,7 @@ class Search {
 LoopFit Search::Driven(const LoopFit& fit, const std::string& key) {
   records_.DriveWithout(fit.model,
                         PressureNoiseOf(records_.Points(fit.model), fit.fit, options_.threads),
-                        options_.threads);
+                        PointsOf(records_, fit), options_.threads);
   return FitLoopFrom(records_, fit.model, {ParametersOf(fit)}, MaximumTaken::kNext, key + "driven/",
                      options_);
 }
@@ -50,7 +51,11 @@ LoopFit Search::Driven(const LoopFit& fit, const std::string& key) {
 LoopFit Search::FitBase() {
   const RecordsFitOptions fit_options = FitOptionsOf(options_, "base/");
   const std::vector<OperatingPoint> points = records_.Points(base_);
-  return Driven({base_, FitRecords(points, base_.structure, fit_options), {}}, "base/");
+  LoopFit fit = Driven({base_, FitRecords(points, base_.structure, fit_options), {}}, "base/");
+  if (options_.given.empty()) return fit;
+  fit = Driven(WithGiven(records_, base_, std::move(fit), options_), "given/");
+  base_ = fit.model;
+  return fit;
 }
 
 // Beside a loop that stands: whether such errors lead to another the search has tried.
@@ -71,9 +76,8 @@ void Search::Forward(LoopFound* out) {
     out->best = next->after;
     out->steps.push_back(std::move(*next));
   }
-  for (const LoopStep& step : out->steps) {
-    if (step.item.kind != LoopItemKind::kSharedEffect) continue;
-    out->best = Refined(records_, std::move(out->best), step.item, "best/", options_);
+  for (const LoopItem& item : SharedItemsOf(out->best.model)) {
+    out->best = Refined(records_, std::move(out->best), item, "best/", options_);
   }
 }
 

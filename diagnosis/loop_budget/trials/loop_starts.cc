@@ -50,15 +50,6 @@ LoopStarts WithOtherInput(const LoopRecords& records, const LoopForm& form,
   return out;
 }
 
-std::vector<LoopPoint> PointsOf(const LoopRecords& records, const LoopFit& fit) {
-  std::vector<LoopPoint> out;
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    const Eigen::Index flame = records.FlameTerms(fit.model.flame_input, e);
-    out.push_back(ToPoint(fit.model.structure, flame, fit.fit.points[e].parameters));
-  }
-  return out;
-}
-
 }  // namespace
 
 double LoopFit::Density() const {
@@ -73,6 +64,15 @@ std::vector<Eigen::VectorXd> ParametersOf(const std::vector<PointFit>& fits) {
 
 std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit) {
   return ParametersOf(fit.fit.points);
+}
+
+std::vector<LoopPoint> PointsOf(const LoopRecords& records, const LoopFit& fit) {
+  std::vector<LoopPoint> out;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const Eigen::Index flame = records.FlameTerms(fit.model.flame_input, e);
+    out.push_back(ToPoint(fit.model.structure, flame, fit.fit.points[e].parameters));
+  }
+  return out;
 }
 
 StartRows Again(const LoopRecords& records, const LoopFit& fit, int threads) {

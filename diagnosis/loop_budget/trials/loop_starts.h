@@ -21,6 +21,8 @@ struct LoopFit {
 std::vector<Eigen::VectorXd> ParametersOf(const std::vector<PointFit>& fits);
 std::vector<Eigen::VectorXd> ParametersOf(const LoopFit& fit);
 
+std::vector<LoopPoint> PointsOf(const LoopRecords& records, const LoopFit& fit);
+
 struct LoopStarts {
   StartRows rows;
   // Whether each point may begin at another row, as where rows have each point's own paths: rows of

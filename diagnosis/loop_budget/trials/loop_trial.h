@@ -20,6 +20,7 @@ struct LoopBudgetOptions {
   int threads = 0;
   FitUnits* units = nullptr;
   std::vector<std::string> withheld = {};                             // items that are not tried
+  std::vector<std::string> given = {};                                // that the base has
   std::function<void(std::size_t done, std::size_t total)> progress;  // in trials of a step
 };
 

@@ -1,9 +1,12 @@
 #include "estimation/record_fit/loop/kept_loop.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <complex>
 
 #include "estimation/record_fit/loop/mode_sums.h"
+#include "estimation/record_fit/loop/slow_parts.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 #include "model/numerics/complex_products.h"
 
@@ -33,7 +36,10 @@ KeptLoop::KeptLoop(const RecordSpectra& record, const PointStructure& structure)
       band_lines_(record.s, std::max(structure.acoustic_lines, structure.flame_lines)),
       flame_real_(record.flame.real()),
       flame_imag_(record.flame.imag()),
-      modes_(static_cast<std::size_t>(structure.modes)) {
+      modes_(static_cast<std::size_t>(structure.modes)),
+      acoustic_heat_release_(record.heat_release),
+      flame_heat_release_(record.heat_release) {
+  CHECK(!structure.HasChanges() || record.slow.signals.cols() == kSlowColumns);
   for (const NoiseTerm& term : structure.noise) {
     noise_columns_.push_back(ChebyshevColumns(record.position, term.coefficients));
     noise_shapes_.push_back(NoiseShape(term, record));
@@ -50,7 +56,11 @@ bool KeptLoop::Moved(const Eigen::VectorXd& parameters, Eigen::Index begin,
 bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
   const Eigen::Index flame = record_.flame.cols();
   const bool modes = Moved(parameters, 0, structure_.Transfer());
-  const bool answer = modes || Moved(parameters, structure_.Transfer(), structure_.Transients());
+  const bool late = Moved(parameters, structure_.FlameChange(flame), structure_.FlameChanges());
+  const bool changes =
+      late || Moved(parameters, structure_.AcousticChange(), structure_.AcousticChanges());
+  const bool answer =
+      modes || changes || Moved(parameters, structure_.Transfer(), structure_.Transients());
   const bool acoustic_lines =
       Moved(parameters, structure_.AcousticLine(), structure_.AcousticLines());
   const bool path = Moved(parameters, structure_.Delay(), structure_.Delays());
@@ -58,6 +68,7 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
   const bool flame_lines = Moved(parameters, structure_.FlameLine(flame), structure_.FlameLines());
   point_ = ToPoint(structure_, flame, parameters);
   if (modes) MoveModes();
+  if (changes && structure_.HasChanges()) MoveChanges();
   if (answer) MoveAnswer();
   if (acoustic_lines) {
     lines_.Factors(point_.acoustic_lines, &acoustic_factors_);
@@ -89,8 +100,8 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
       residuals_.line_factors[i] = Times(band_acoustic_factors_[i], band_flame_factors_[i]);
     }
   }
-  if (path || burning || flame_lines) {
-    Leave(record_.heat_release, arriving_, flame_factors_, &residuals_.flame);
+  if (path || burning || flame_lines || late) {
+    Leave(flame_heat_release_, arriving_, flame_factors_, &residuals_.flame);
   }
   Eigen::Index next = structure_.Noise(flame);
   for (std::size_t j = 0; j < structure_.noise.size(); ++j) {
@@ -119,13 +130,19 @@ void KeptLoop::MoveModes() {
   }
 }
 
+void KeptLoop::MoveChanges() {
+  acoustic_heat_release_ = HeatReleaseOfAcoustics(record_, point_);
+  flame_heat_release_ = HeatReleaseOfFlame(record_, point_);
+  residuals_.slow = SlowFeedback(record_, point_);
+}
+
 void KeptLoop::MoveAnswer() {
   answer_.setZero(record_.edge_s.size());
   for (std::size_t k = 0; k < modes_.size(); ++k) {
     const LoopMode& mode = point_.modes[k];
     for (Eigen::Index i = 0; i < answer_.size(); ++i) {
       const double x = record_.edge_s[i].imag();
-      answer_[i] += Times(Times(C(mode.b * mode.omega, mode.a * x), record_.heat_release[i]) +
+      answer_[i] += Times(Times(C(mode.b * mode.omega, mode.a * x), acoustic_heat_release_[i]) +
                               C(mode.h * mode.omega, mode.g * x),
                           modes_[k].edge_over[i]);
     }

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <complex>
 #include <vector>
 
 #include "estimation/record_fit/loop/line_shapes.h"
@@ -46,6 +47,9 @@ class KeptLoop {
   // Of the lines' factors on the record's bins, by the errors of one cut.
   Eigen::VectorXd SlopeByBandLines(const WhittleWeights& weights,
                                    const Eigen::VectorXcd& other_factors, Eigen::Index lines);
+  void MoveChanges();
+  std::complex<double> EdgeTransfer(Eigen::Index edge) const;
+  void SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* out);
   void SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* out);
   void SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out);
 
@@ -61,6 +65,8 @@ class KeptLoop {
   LoopResiduals residuals_;
   std::vector<ModeGrids> modes_;
   PathOnGrids path_;
+  // Q in either cut.
+  Eigen::VectorXcd acoustic_heat_release_, flame_heat_release_;
   Eigen::VectorXcd burning_;  // sum of c_k b_k
   // Of the two cuts before the taper: without the lines' errors, and 1 + those.
   Eigen::VectorXcd answer_, acoustic_factors_;

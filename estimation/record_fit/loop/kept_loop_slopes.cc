@@ -3,6 +3,7 @@
 
 #include "estimation/record_fit/loop/kept_loop.h"
 #include "estimation/record_fit/loop/mode_sums.h"
+#include "estimation/record_fit/loop/slow_parts.h"
 #include "model/numerics/complex_products.h"
 
 namespace howl {
@@ -28,11 +29,23 @@ double Sum(const Eigen::VectorXcd& x, const Eigen::VectorXcd& y, const Eigen::Ve
 
 }  // namespace
 
+// R before the taper.
+C KeptLoop::EdgeTransfer(Eigen::Index edge) const {
+  const double x = record_.edge_s[edge].imag();
+  C out = 0.0;
+  for (std::size_t k = 0; k < modes_.size(); ++k) {
+    const LoopMode& mode = point_.modes[k];
+    out += Times(C(mode.b * mode.omega, mode.a * x), modes_[k].edge_over[edge]);
+  }
+  return out;
+}
+
 Eigen::VectorXd KeptLoop::Slope(const WhittleWeights& weights) {
   const Eigen::Index flame = record_.flame.cols();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(structure_.Parameters(flame));
   SlopeByAcoustics(weights, &out);
   SlopeByFlame(weights, &out);
+  if (structure_.HasChanges()) SlopeByChanges(weights, &out);
   Eigen::Index next = structure_.Noise(flame);
   for (std::size_t j = 0; j < noise_columns_.size(); ++j) {
     const Eigen::MatrixXd& columns = noise_columns_[j];
@@ -81,7 +94,7 @@ void KeptLoop::SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* 
     }
     for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
       const double x = record_.edge_s[i].imag();
-      transfer.Add(Times(weighted_[i], record_.heat_release[i]), x, grids.edge_over[i]);
+      transfer.Add(Times(weighted_[i], acoustic_heat_release_[i]), x, grids.edge_over[i]);
       transient.Add(weighted_[i], x, grids.edge_over[i]);
     }
     (*out)[structure_.Frequency(k)] +=
@@ -94,6 +107,31 @@ void KeptLoop::SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* 
     }
     (*out)[transients + k] = transient.ByRate();
     (*out)[transients + structure_.modes + k] = transient.ByLevel(mode);
+  }
+}
+
+void KeptLoop::SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* out) {
+  const auto of_feedback = [&](Eigen::Index column) {
+    return (weights.slow.transpose() * record_.slow.of_pressure.col(column)).value().real();
+  };
+  BeforeTaper(weights.acoustic, &edge_weights_);
+  Eigen::Index next = structure_.AcousticChange();
+  for (const Eigen::Index column : AcousticColumnsOf(structure_)) {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < edge_weights_.size(); ++i) {
+      const C weight = Times(edge_weights_[i], acoustic_factors_[i]);
+      sum -= Times(Times(weight, EdgeTransfer(i)), record_.slow.signals(i, column)).real();
+    }
+    (*out)[next++] = sum + of_feedback(column);
+  }
+  // What is added to q weighs as an answer does, with the other sign.
+  BeforeTaper(weights.flame, &edge_weights_);
+  next = structure_.FlameChange(record_.flame.cols());
+  for (Eigen::Index i = 0; i < structure_.FlameChanges(); ++i) {
+    const Eigen::Index column = ColumnsOf(SlowChange::kDelay).first + i;
+    const double sum =
+        (edge_weights_.transpose() * record_.slow.signals.col(column)).value().real();
+    (*out)[next++] = of_feedback(column) - sum;
   }
 }
 

@@ -45,7 +45,14 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
   }
   out.acoustic_lines =
       ComplexOf(parameters.segment(structure.AcousticLine(), structure.AcousticLines()));
-  Eigen::Index next = structure.Delay();
+  Eigen::Index next = structure.AcousticChange();
+  const auto take_change = [&](bool has, SlowChange change) {
+    if (!has) return;
+    out.Change(change) = parameters.segment(next, ColumnsOf(change).count);
+    next += ColumnsOf(change).count;
+  };
+  take_change(structure.damping_follows_amplitude, SlowChange::kDamping);
+  take_change(structure.frequency_drifts, SlowChange::kFrequency);
   out.path = {structure.delay_spread, std::exp(parameters[next++])};
   if (structure.HasSpread()) out.path.rho = std::exp(parameters[next++]);
   if (structure.second_path) {
@@ -56,6 +63,7 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
   next += flame;
   out.flame_lines = ComplexOf(parameters.segment(next, structure.FlameLines()));
   next += structure.FlameLines();
+  take_change(structure.delay_follows_amplitude, SlowChange::kDelay);
   for (const NoiseTerm& term : structure.noise) {
     out.noise.emplace_back(parameters.segment(next, term.coefficients));
     next += term.coefficients;
@@ -91,6 +99,8 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).g;
   for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).h;
   add_lines(point.acoustic_lines, structure.AcousticLines());
+  if (structure.damping_follows_amplitude) add(point.Change(SlowChange::kDamping));
+  if (structure.frequency_drifts) add(point.Change(SlowChange::kFrequency));
   out[next++] = std::log(point.path.tau);
   if (structure.HasSpread()) out[next++] = std::log(point.path.rho);
   if (structure.second_path) {
@@ -99,6 +109,7 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   }
   add(point.flame);
   add_lines(point.flame_lines, structure.FlameLines());
+  if (structure.delay_follows_amplitude) add(point.Change(SlowChange::kDelay));
   for (const Eigen::VectorXd& source : point.noise) add(source);
   if (HasBackground(structure.noise)) out[next] = point.background_ratio;
   return out;

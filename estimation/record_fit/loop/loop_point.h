@@ -23,10 +23,12 @@
 // It is an error of the mean alone: R and F, which small signals see, and with them the noise's
 // directions, are without it; the Jacobian is of the residuals, and has it (return_difference.h).
 //
+// Damping, frequencies and delay may change within the record (slow_changes.h): k and r.
+//
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
 // and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared, and those of
-// further modes, which are tied to none), real and imaginary parts of d; the path's (flame_path.h);
-// c; those of e; n; where there is a background its ratio.
+// further modes, which are tied to none), real and imaginary parts of d, k; the path's
+// (flame_path.h); c; those of e, r; n; where there is a background its ratio.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_LOOP_POINT_H_
 
@@ -59,6 +61,10 @@ struct PointStructure {
   // Multiples of the cycle's frequency at which acoustics and flame may err.
   int acoustic_lines = 0;
   int flame_lines = 0;
+  // Slow changes (slow_changes.h).
+  bool damping_follows_amplitude = false;
+  bool frequency_drifts = false;
+  bool delay_follows_amplitude = false;
 
   // As many as may be tied to one another.
   Eigen::Index FirstModes() const { return modes - further_modes; }
@@ -77,7 +83,16 @@ struct PointStructure {
   Eigen::Index FlameLines() const { return Eigen::Index{2} * flame_lines; }
   // The index of the first of them.
   Eigen::Index AcousticLine() const { return Transfer() + Transients(); }
-  Eigen::Index Acoustics() const { return AcousticLine() + AcousticLines(); }
+  Eigen::Index AcousticChange() const { return AcousticLine() + AcousticLines(); }
+  Eigen::Index AcousticChanges() const {
+    return (damping_follows_amplitude ? ColumnsOf(SlowChange::kDamping).count : 0) +
+           (frequency_drifts ? ColumnsOf(SlowChange::kFrequency).count : 0);
+  }
+  Eigen::Index FlameChanges() const {
+    return delay_follows_amplitude ? ColumnsOf(SlowChange::kDelay).count : 0;
+  }
+  bool HasChanges() const { return AcousticChanges() + FlameChanges() > 0; }
+  Eigen::Index Acoustics() const { return AcousticChange() + AcousticChanges(); }
   // With the background's ratio.
   Eigen::Index NoiseParameters() const;
   bool HasSpread() const { return delay_spread != DelaySpread::kNone; }
@@ -90,7 +105,8 @@ struct PointStructure {
   // Those of the flame's first line and of the first source of noise, and how many parameters there
   // are, given the number of the flame's coefficients.
   Eigen::Index FlameLine(Eigen::Index flame) const { return Flame() + flame; }
-  Eigen::Index Noise(Eigen::Index flame) const { return FlameLine(flame) + FlameLines(); }
+  Eigen::Index FlameChange(Eigen::Index flame) const { return FlameLine(flame) + FlameLines(); }
+  Eigen::Index Noise(Eigen::Index flame) const { return FlameChange(flame) + FlameChanges(); }
   Eigen::Index Parameters(Eigen::Index flame) const { return Noise(flame) + NoiseParameters(); }
 
  private:
@@ -117,6 +133,15 @@ struct LoopPoint {
   double background_ratio = 0.0;       // noise_sources.h
   Eigen::VectorXcd acoustic_lines;     // d_h, from h = 1 on
   Eigen::VectorXcd flame_lines;        // e_h
+  // k and r, of all signals.
+  Eigen::Vector<double, kSlowColumns> changes = Eigen::Vector<double, kSlowColumns>::Zero();
+
+  auto Change(SlowChange change) {
+    return changes.segment(ColumnsOf(change).first, ColumnsOf(change).count);
+  }
+  auto Change(SlowChange change) const {
+    return changes.segment(ColumnsOf(change).first, ColumnsOf(change).count);
+  }
 };
 
 LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,

@@ -4,6 +4,7 @@
 
 #include "estimation/record_fit/loop/line_shapes.h"
 #include "estimation/record_fit/loop/mode_slopes.h"
+#include "estimation/record_fit/loop/slow_parts.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 #include "model/numerics/complex_products.h"
 
@@ -36,7 +37,7 @@ Eigen::VectorXcd AnswerOfAcoustics(const RecordSpectra& record, const LoopPoint&
     mode.a = mode.g;
     mode.b = mode.h;
   }
-  return Transfer(point, record.edge_s).cwiseProduct(record.heat_release) +
+  return Transfer(point, record.edge_s).cwiseProduct(HeatReleaseOfAcoustics(record, point)) +
          Transfer(ends, record.edge_s);
 }
 
@@ -66,6 +67,15 @@ Eigen::MatrixXcd PressureColumns(const PointStructure& structure, const LoopPoin
   return out;
 }
 
+void SetSlowColumns(const RecordSpectra& record, const PointStructure& structure,
+                    const LoopPoint& point, Eigen::MatrixXcd* of_pressure) {
+  const Eigen::VectorXcd r = Transfer(point, record.edge_s);
+  Eigen::Index next = structure.AcousticChange();
+  for (const Eigen::Index column : AcousticColumnsOf(structure)) {
+    of_pressure->col(next++) = -r.cwiseProduct(record.slow.signals.col(column));
+  }
+}
+
 }  // namespace
 
 LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point) {
@@ -77,6 +87,7 @@ LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point) {
     out.line_factors = LineFactors(record.s, point.acoustic_lines)
                            .cwiseProduct(LineFactors(record.s, point.flame_lines));
   }
+  if (!point.changes.isZero(0.0)) out.slow = SlowFeedback(record, point);
   return out;
 }
 
@@ -86,7 +97,7 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   out.acoustic = Tapered(record.pressure -
                          AnswerOfAcoustics(record, point)
                              .cwiseProduct(LineFactors(record.edge_s, point.acoustic_lines)));
-  out.flame = Tapered(record.heat_release -
+  out.flame = Tapered(HeatReleaseOfFlame(record, point) -
                       point.path.At(record.edge_s)
                           .cwiseProduct(record.flame * point.flame)
                           .cwiseProduct(LineFactors(record.edge_s, point.flame_lines)));
@@ -139,17 +150,18 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   LoopDerivatives out;
   out.r = TransferColumns(structure, point, record.s);
   Eigen::MatrixXcd of_pressure =
-      PressureColumns(structure, point, record.edge_s, record.heat_release);
+      PressureColumns(structure, point, record.edge_s, HeatReleaseOfAcoustics(record, point));
+  if (structure.HasChanges()) SetSlowColumns(record, structure, point, &of_pressure);
   if (structure.acoustic_lines > 0) {
     of_pressure = LineFactors(record.edge_s, point.acoustic_lines).asDiagonal() * of_pressure;
-    of_pressure.rightCols(structure.AcousticLines()) =
+    of_pressure.middleCols(structure.AcousticLine(), structure.AcousticLines()) =
         LineShapes(record.edge_s, structure.acoustic_lines)
             .Columns(AnswerOfAcoustics(record, point));
   }
   out.acoustic = -TaperedColumns(of_pressure);
   const Eigen::Index flame = point.flame.size();
   const Eigen::Index delays = structure.Delays();
-  const Eigen::Index of_flame = delays + flame + structure.FlameLines();
+  const Eigen::Index of_flame = delays + flame + structure.FlameLines() + structure.FlameChanges();
   out.f.setZero(record.bins(), of_flame);
   const double slope = record.slopes.dot(point.flame);
   for (Eigen::Index k = 0; k < delays; ++k) {
@@ -165,8 +177,12 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
         -TaperedColumns(answer.cwiseProduct(path.edge_by[static_cast<std::size_t>(k)]));
   }
   out.flame.middleCols(delays, flame) = -TaperedColumns(delayed);
-  out.flame.rightCols(structure.FlameLines()) = -TaperedColumns(
+  out.flame.middleCols(delays + flame, structure.FlameLines()) = -TaperedColumns(
       LineShapes(record.edge_s, structure.flame_lines).Columns(answer.cwiseQuotient(factors)));
+  if (structure.delay_follows_amplitude) {
+    out.flame.rightCols(structure.FlameChanges()) =
+        TaperedColumns(record.slow.signals.rightCols(structure.FlameChanges()));
+  }
   for (const NoiseTerm& term : structure.noise) {
     out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));
   }

@@ -11,7 +11,8 @@
 
 namespace howl {
 
-// R, F and the lines' factors on the record's bins, without the rest of the residuals.
+// R, F, the lines' factors and the slow changes' part on the record's bins, without the rest of the
+// residuals.
 LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point);
 LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
                           const LoopPoint& point);

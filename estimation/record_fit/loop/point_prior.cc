@@ -28,6 +28,11 @@ constexpr double kLogRho = 0.8;
 constexpr double kSecondShare = 1.0;
 // Where a search begins: its size is estimated (parameter_law.h).
 constexpr double kLineError = 0.3;
+// Where R is 1 at the cycle, as in these units it about is, k is what damping gains over what it
+// is, or what a frequency moves by over the damping; r is in radians of the cycle. Lags whose sum
+// comes near another memory have coefficients a few times as large, of both signs.
+constexpr double kAcousticChange = 2.0;
+constexpr double kFlameChange = 0.5;
 constexpr double kLevel = 3.0;  // of ln S_j, about the signal's mean
 constexpr double kShape = 1.5;  // of its higher coefficients
 // Amplifiers are set so that p and q fill their ranges alike.
@@ -106,6 +111,7 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
   add(structure.Residues(), 0.0, kResidue);
   add(structure.Transients(), 0.0, kHeld * record.OneSample());
   add(structure.AcousticLines(), 0.0, kLineError);
+  add(structure.AcousticChanges(), 0.0, kAcousticChange);
   add(1, std::log(kMeanTau), kLogTau);
   if (structure.HasSpread()) add(1, kMeanLogRho, kLogRho);
   if (structure.second_path) {
@@ -115,6 +121,7 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
   out.deviation.segment(next, flame) = record.scale.flame_deviation;
   next += flame;
   add(structure.FlameLines(), 0.0, kLineError);
+  add(structure.FlameChanges(), 0.0, kFlameChange);
   for (const NoiseTerm& term : structure.noise) {
     add(1, MeanLogPower(IsOfPressure(term.source) ? record.pressure : record.heat_release), kLevel);
     add(term.coefficients - 1, 0.0, kShape);

@@ -22,12 +22,20 @@ C LineFactor(const LoopResiduals& at, Eigen::Index bin) {
   return at.line_factors.size() > 0 ? at.line_factors[bin] : 1.0;
 }
 
+C SlowPart(const LoopResiduals& at, Eigen::Index bin) {
+  return at.slow.size() > 0 ? at.slow[bin] : 0.0;
+}
+
+// What the acoustics are fed back, as D has it.
+C FeedbackOf(const LoopResiduals& at, Eigen::Index bin) {
+  return Times(at.f[bin], LineFactor(at, bin)) - SlowPart(at, bin);
+}
+
 // The sum of 2 w ln |D| over the band.
 double Within(const RecordSpectra& record, const LoopResiduals& at) {
   LogOfProduct squares;
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
-    const C loop = Times(Times(at.r[i], at.f[i]), LineFactor(at, i));
-    squares.Multiply(std::norm(1.0 - loop), record.share[i]);
+    squares.Multiply(std::norm(1.0 - Times(at.r[i], FeedbackOf(at, i))), record.share[i]);
   }
   return squares.Sum();
 }
@@ -62,15 +70,16 @@ double AddBandWeights(const RecordSpectra& record, const LoopResiduals& at, doub
                       WhittleWeights* weights) {
   const double of_beside = WeightOfFirst(beside, Within(record, at));
   weights->line_factors.resize(at.line_factors.size());
+  weights->slow.resize(at.slow.size());
   for (Eigen::Index i = 0; i < record.bins(); ++i) {
-    const C factor = LineFactor(at, i);
-    const C loop = Times(at.r[i], at.f[i]);
+    const C feedback = FeedbackOf(at, i);
     const C over =
-        -2.0 * (1.0 - of_beside) * record.share[i] * Reciprocal(1.0 - Times(loop, factor));
-    const C by_transfers = Times(over, factor);
-    weights->r[i] += Times(by_transfers, at.f[i]);
-    weights->f[i] += Times(by_transfers, at.r[i]);
-    if (at.line_factors.size() > 0) weights->line_factors[i] = Times(over, loop);
+        -2.0 * (1.0 - of_beside) * record.share[i] * Reciprocal(1.0 - Times(at.r[i], feedback));
+    const C by_feedback = Times(over, at.r[i]);
+    weights->r[i] += Times(over, feedback);
+    weights->f[i] += Times(by_feedback, LineFactor(at, i));
+    if (at.line_factors.size() > 0) weights->line_factors[i] = Times(by_feedback, at.f[i]);
+    if (at.slow.size() > 0) weights->slow[i] = -by_feedback;
   }
   return of_beside;
 }

@@ -10,8 +10,9 @@
 // D_tau being the path of flame_path.h and phi_0 the flame's mean slope. Where the cuts err at the
 // cycle's lines (loop_point.h) the residuals are of U times the lines' factors, and so is D in the
 // band: large errors reach far beside their lines, and nats that they do not earn would be the
-// reward of a loop that no residual shows. The likelihood has the
-// bins of a band alone, and of those the Jacobian is what the others leave:
+// reward of a loop that no residual shows. Slow changes take off F what small signals near the
+// cycle meet of them. The likelihood has the bins of a band alone, and of those the Jacobian is
+// what the others leave:
 //
 //   ln |det| = -w sum over f beyond the band of 2 ln |D(f)|
 //

@@ -35,6 +35,11 @@ class Middle {
   Eigen::Index bins() const { return edges_ - 1; }
   double bin_hz(const RecordSpectra& record) const { return record.bin_hz * bins_of_part_; }
 
+  Eigen::MatrixXcd ColumnsOf(const Eigen::MatrixXcd& edges) const {
+    Eigen::MatrixXcd out(edges_, edges.cols());
+    for (Eigen::Index k = 0; k < edges.cols(); ++k) out.col(k) = Of(edges.col(k));
+    return out;
+  }
   Eigen::VectorXcd Of(const Eigen::Ref<const Eigen::VectorXcd>& edges) const {
     Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(whole_ / 2 + 1);
     spectrum.segment(first_whole_, edges.size()) = edges;
@@ -50,14 +55,21 @@ class Middle {
   Eigen::Index edges_ = 0;
 };
 
+Eigen::Index InstantsOfMiddle(const RecordSpectra& record) {
+  const double cycles = record.scale.cycle_hz / record.bin_hz;
+  return SmoothLength(static_cast<Eigen::Index>(std::max(kCycles / cycles, kShare) *
+                                                static_cast<double>(record.Instants())));
+}
+
 }  // namespace
+
+Eigen::MatrixXcd ColumnsOfMiddle(const RecordSpectra& record, const Eigen::MatrixXcd& edges) {
+  return Middle(record, InstantsOfMiddle(record)).ColumnsOf(edges);
+}
 
 void SetMiddle(RecordSpectra* of) {
   const RecordSpectra& record = *of;
-  const auto whole = static_cast<double>(record.Instants());
-  const double cycles = record.scale.cycle_hz / record.bin_hz;
-  const Eigen::Index instants =
-      SmoothLength(static_cast<Eigen::Index>(std::max(kCycles / cycles, kShare) * whole));
+  const Eigen::Index instants = InstantsOfMiddle(record);
   of->middle = nullptr;
   if (2 * instants > record.Instants()) return;
   const Middle middle(record, instants);
@@ -69,10 +81,7 @@ void SetMiddle(RecordSpectra* of) {
   out.bin_hz = middle.bin_hz(record);
   out.pressure = middle.Of(record.pressure);
   out.heat_release = middle.Of(record.heat_release);
-  out.flame.resize(middle.bins() + 1, record.flame.cols());
-  for (Eigen::Index k = 0; k < record.flame.cols(); ++k) {
-    out.flame.col(k) = middle.Of(record.flame.col(k));
-  }
+  out.flame = middle.ColumnsOf(record.flame);
   const double bin = out.bin_hz / out.scale.cycle_hz;
   const auto first = static_cast<double>(middle.first());
   const auto bins = static_cast<double>(middle.bins());

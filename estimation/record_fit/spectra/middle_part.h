@@ -18,6 +18,9 @@ namespace howl {
 // more.
 void SetMiddle(RecordSpectra* record);
 
+// Of spectra on the edges of the record's bins, a column each, those of its middle, which it has.
+Eigen::MatrixXcd ColumnsOfMiddle(const RecordSpectra& record, const Eigen::MatrixXcd& edges);
+
 // The record itself where it has none.
 inline const RecordSpectra& MiddleOf(const RecordSpectra& record) {
   return record.middle ? *record.middle : record;

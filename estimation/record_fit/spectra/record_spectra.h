@@ -34,6 +34,7 @@
 
 #include "estimation/analysis/spectra/record.h"
 #include "estimation/record_fit/spectra/flame_functions.h"
+#include "estimation/record_fit/spectra/slow_changes.h"
 #include "model/numerics/smooth_length.h"
 
 namespace howl {
@@ -100,6 +101,7 @@ struct RecordSpectra {
   Eigen::VectorXd share;        // what each bin counts for
   // That were taken out of the record: noise that came in behind them was divided by them.
   TransferFunction pressure_instrument, heat_release_instrument;
+  SlowSignals slow;  // where they have been set
   // A part that is enough to compare starts (middle_part.h); of a short record none.
   std::shared_ptr<const RecordSpectra> middle;
 

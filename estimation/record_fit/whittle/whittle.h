@@ -40,6 +40,8 @@ struct LoopResiduals {
   // By how much R F is larger where the cuts err at the cycle's lines; empty: by nothing. The
   // Jacobian's alone (return_difference.h).
   Eigen::VectorXcd line_factors;
+  // How much slow changes take off F there (slow_changes.h); empty: nothing. The same one's alone.
+  Eigen::VectorXcd slow;
 };
 
 // Derivatives by the parameters, one column each. The acoustics' parameters move R and E_A; those

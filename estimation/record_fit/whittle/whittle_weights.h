@@ -17,7 +17,7 @@ namespace howl {
 
 struct WhittleWeights {
   Eigen::VectorXcd r, f, acoustic, flame;
-  Eigen::VectorXcd line_factors;
+  Eigen::VectorXcd line_factors, slow;
   Eigen::MatrixXd log_spectra;
   double ratio = 0.0;
 };

@@ -4,7 +4,9 @@
 //   p = sum_k (a_k x_k' + b_k omega_k x_k),   x_k'' + 2 xi_k omega_k x_k' + omega_k^2 x_k = q
 //   q(t) = Phi(p'(t - tau)) + n(t),   Phi(v) = -slope range tanh(v / range)
 //
-// In the middle of the record tau is changed by `drift`, about the stated one.
+// In the middle of the record tau is changed by `drift`, about the stated one. Dampings grow with
+// the square of the cycle's amplitude, as 2 p^2 through a lag tells it, tau with the amplitude; all
+// frequencies move during the record.
 // Where a share of p' comes later, Phi is of (1 - share) p'(t - tau) + share p'(t - tau - later);
 // where its delays are spread normally, of what it is in the mean over them, by the five values of
 // Gauss and Hermite, exact as far as the ninth moment; where the flame lags, what Phi makes of it
@@ -36,13 +38,17 @@ struct ModalLoop {
   };
   std::vector<Mode> modes;
   double tau_s = 0.0;
-  double share = 0.0;     // of the second path, before the curve
-  double later_s = 0.0;   // which comes later by this
-  double spread_s = 0.0;  // of what drives the curve: deviation of its delays
-  double lag_hz = 0.0;    // of the flame's answer; 0: none
-  double tone = 0.0;      // amplitude in p of an oscillation from outside, which the flame answers
-  double tone_hz = 0.0;   // to as to all of p
-  double drift = 0.0;     // of tau: so much longer in the record's second half, of tau
+  double share = 0.0;      // of the second path, before the curve
+  double later_s = 0.0;    // which comes later by this
+  double spread_s = 0.0;   // of what drives the curve: deviation of its delays
+  double lag_hz = 0.0;     // of the flame's answer; 0: none
+  double tone = 0.0;       // amplitude in p of an oscillation from outside, which the flame answers
+  double tone_hz = 0.0;    // to as to all of p
+  double drift = 0.0;      // of tau: so much longer in the record's second half, of tau
+  double memory_s = 0.01;  // of the lag
+  double damping_per_square = 0.0;   // added to xi
+  double delay_per_amplitude = 0.0;  // added to tau, s
+  double frequency_span = 0.0;       // of omega, from the record's start to its end
   double slope = 0.0;
   double range = 1000.0;
   double noise = 0.1;          // of q at saturation, root mean square
@@ -151,7 +157,7 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
           {kShares[i], static_cast<std::size_t>(std::lround((kNodes[i] - kNodes[0]) * step))});
     }
   }
-  std::vector<double> past(std::max(early, late) + parts.back().later + 1, 0.0);
+  std::vector<double> past(2 * std::max(early, late) + parts.back().later + 1, 0.0);
   std::size_t newest = 0;
   const double share = 1.0 - std::exp(-2.0 * std::numbers::pi * loop.noise_hz * h);
   // The low-pass of fourth order passes 5/16 of the power of one of first order.
@@ -166,12 +172,19 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
   const auto settle = static_cast<std::size_t>(loop.sampling_hz) * ModalLoop::kSteps;
   const auto steps = static_cast<std::size_t>(duration_s * loop.sampling_hz) * ModalLoop::kSteps;
   double q = 0.0;
+  double square = 0.0;
   for (std::size_t i = 0; i < settle + steps; ++i) {
+    const double added = loop.damping_per_square * square;
+    const double place =
+        i < settle ? -0.5 : static_cast<double>(i - settle) / static_cast<double>(steps) - 0.5;
+    const double moved = 1.0 + loop.frequency_span * place;  // of omega
+    const auto damping = [&](const State& m) { return (m.xi + added) * moved; };
     double p = 0.0;
     double rate = 0.0;
     for (const State& m : states) {
       p += m.a * m.rate + m.b * m.w * m.x;
-      rate += m.a * (q - 2.0 * m.xi * m.w * m.rate - m.w * m.w * m.x) + m.b * m.w * m.rate;
+      rate += m.a * (q - 2.0 * damping(m) * m.w * m.rate - moved * moved * m.w * m.w * m.x) +
+              m.b * m.w * m.rate;
     }
     if (loop.tone != 0.0) {
       const double tone_rad_s = 2.0 * std::numbers::pi * loop.tone_hz;
@@ -179,6 +192,7 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
       p += loop.tone * std::cos(turn);
       rate -= loop.tone * tone_rad_s * std::sin(turn);
     }
+    square += h / loop.memory_s * (2.0 * p * p - square);
     if (i >= settle && (i - settle) % ModalLoop::kSteps == 0) {
       out.pressure.push_back(p);
       out.heat_release.push_back(q);
@@ -187,7 +201,9 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
     newest = (newest + 1) % past.size();
     double drawn = drive * random.Normal();
     for (double& stage : lowpass) drawn = stage += share * (drawn - stage);
-    const std::size_t delay = i < settle + steps / 2 ? early : late;
+    const std::size_t delay =
+        (i < settle + steps / 2 ? early : late) +
+        static_cast<std::size_t>(std::lround(loop.delay_per_amplitude * std::sqrt(square) / h));
     const auto before = [&](std::size_t age) {
       return past[(newest + past.size() - 1 - age) % past.size()];
     };
@@ -200,6 +216,7 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
       const double x = m.e00 * m.x + m.e01 * m.rate + m.input0 * mean;
       m.rate = m.e10 * m.x + m.e11 * m.rate + m.input1 * mean;
       m.x = x;
+      m.rate -= h * m.w * (2.0 * (damping(m) - m.xi) * m.rate + (moved * moved - 1.0) * m.w * m.x);
     }
     q = next;
   }

@@ -9,6 +9,7 @@
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/return_difference.h"
+#include "estimation/record_fit/loop/slow_signals.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 
@@ -27,8 +28,9 @@ class KeptParts : public testing::TestWithParam<std::tuple<DelaySpread, bool>> {
 
 TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
   const ModalLoop loop = DuctOfModes(2);
-  const RecordSpectra record =
+  RecordSpectra record =
       MakeRecordSpectra(SimulateModalLoop(loop, 0.5, 1), 203.0, FlameInput::kPressureRate);
+  SetSlowSignals(nullptr, {}, &record);
   for (const int further : {-1, 0, 1}) {
     const bool tied = further >= 0;
     PointStructure structure = FreeStructure(tied ? 2 + further : 2);
@@ -39,6 +41,8 @@ TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
     if (tied) structure.ratio = 2.2;
     structure.own_damping = !tied;
     structure.complex_residues = !tied;
+    structure.damping_follows_amplitude = further != 0;
+    structure.frequency_drifts = structure.delay_follows_amplitude = further != 1;
     structure.noise.push_back({LoopNoise::kDuct, 2});
     structure.noise.push_back({LoopNoise::kBackground, 2});
     const PointPrior prior = PriorOf(structure, record);

@@ -10,6 +10,7 @@
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/point_likelihood.h"
+#include "estimation/record_fit/loop/slow_signals.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 
@@ -42,14 +43,24 @@ PointStructure ErringStructure(DelaySpread spread, bool second_path = false) {
   return structure;
 }
 
+PointStructure ChangingStructure(PointStructure structure) {
+  structure.damping_follows_amplitude = true;
+  structure.frequency_drifts = true;
+  structure.delay_follows_amplitude = true;
+  return structure;
+}
+
 TEST(Whittle, GradientIsThatOfTheLikelihood) {
   const ModalLoop loop = DuctOfModes(2);
   const Record record = SimulateModalLoop(loop, 0.5, 1);
-  const RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
+  RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
+  SetSlowSignals(nullptr, {}, &spectra);
   for (PointStructure structure :
        {FreeStructure(2), TiedStructure(), TiedBesideAnother(), ErringStructure(DelaySpread::kNone),
         ErringStructure(DelaySpread::kNormal), ErringStructure(DelaySpread::kGamma),
-        ErringStructure(DelaySpread::kNone, true), ErringStructure(DelaySpread::kNormal, true)}) {
+        ErringStructure(DelaySpread::kNone, true), ErringStructure(DelaySpread::kNormal, true),
+        ChangingStructure(FreeStructure(2)),
+        ChangingStructure(ErringStructure(DelaySpread::kGamma))}) {
     structure.noise.push_back({LoopNoise::kDuct, 2});
     structure.noise.push_back({LoopNoise::kBackground, 2});
     structure.noise.push_back({LoopNoise::kPressureHum, 2, 50.0});
@@ -62,6 +73,9 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
       point.acoustic_lines[h] = C(0.1, -0.2);
     }
     for (Eigen::Index h = 0; h < point.flame_lines.size(); ++h) point.flame_lines[h] = C(-0.3, 0.1);
+    if (structure.HasChanges()) {
+      point.changes = Eigen::Vector<double, kSlowColumns>::LinSpaced(-0.2, 0.3);
+    }
     const Eigen::VectorXd at = ToParameters(structure, point);
     const Eigen::VectorXd gradient = PointLikelihood(spectra, structure).Gradient(at);
     // Without the determinant, by the matrices of derivatives that an information needs.

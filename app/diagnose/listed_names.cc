@@ -1,4 +1,4 @@
-#include "app/diagnose/withheld.h"
+#include "app/diagnose/listed_names.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,14 +9,15 @@
 
 namespace howl {
 
-std::vector<std::string> WithheldOf(const Options& options, const std::vector<std::string>& known,
-                                    const std::string& none_of_them) {
+std::vector<std::string> ListedNames(const Options& options, const std::string& option,
+                                     const std::vector<std::string>& known,
+                                     const std::string& none_of_them) {
   std::vector<std::string> out;
-  std::istringstream list(options.Text("--without").value_or(""));
+  std::istringstream list(options.Text(option).value_or(""));
   for (std::string id; std::getline(list, id, ',');) {
     if (std::ranges::find(known, id) == known.end()) {
       const std::optional<std::string> nearest = NearestKey(id, known);
-      throw UsageError("--without: " + id + " is " + none_of_them +
+      throw UsageError(option + ": " + id + " is " + none_of_them +
                        (nearest ? ", did you mean " + *nearest + "?" : ""));
     }
     out.push_back(id);

@@ -1,0 +1,169 @@
+#include "estimation/record_fit/loop/slow_signals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "estimation/record_fit/loop/modal_parts.h"
+#include "estimation/record_fit/spectra/middle_part.h"
+#include "estimation/record_fit/spectra/unitary_transform.h"
+
+namespace howl {
+namespace {
+
+using C = std::complex<double>;
+
+// About the cycle, over its frequency: what the amplitude is taken from.
+constexpr double kReach = 0.5;
+// And as far as the cycle's lines rule both signals.
+constexpr double kLineReach = 0.1;
+
+bool IsNearCycle(C s, double reach) { return std::abs(s.imag() - 1.0) < reach; }
+
+constexpr std::array kMemories = {1.0, 2.5, 6.0};  // of the lags, in cycles
+
+C LagAt(C s, double memory_cycles) {
+  return 1.0 / (1.0 + 2.0 * std::numbers::pi * memory_cycles * s);
+}
+
+// Signals at the record's instants (record_spectra.h), from spectra on the edges of its bins.
+class Instants {
+ public:
+  explicit Instants(const RecordSpectra& record)
+      : record_(record),
+        count_(record.Instants()),
+        scale_(std::sqrt(static_cast<double>(count_) * record.bin_hz / record.sampling_hz)) {}
+
+  template <typename Response>
+  Eigen::VectorXd SignalOf(const Eigen::VectorXcd& edges, const Response& response) const {
+    Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(count_ / 2 + 1);
+    for (Eigen::Index i = 0; i < edges.size(); ++i) {
+      spectrum[record_.below.size() + i] = scale_ * edges[i] * C(response(record_.edge_s[i]));
+    }
+    return UnitarySignal(std::move(spectrum), count_);
+  }
+  Eigen::VectorXcd SpectrumOf(const Eigen::VectorXd& signal) const {
+    return UnitarySpectrum(signal).segment(record_.below.size(), record_.edge_s.size()) / scale_;
+  }
+  Eigen::VectorXd Time(const DriftRange& drift) const {
+    return Eigen::VectorXd::LinSpaced(count_, drift.from, drift.to);
+  }
+  // A^2.
+  Eigen::VectorXd SquaredAmplitude() const {
+    const auto near = [](C turn) {
+      return [turn](C s) { return IsNearCycle(s, kReach) ? turn : 0.0; };
+    };
+    return SignalOf(record_.pressure, near(1.0)).cwiseAbs2() +
+           SignalOf(record_.pressure, near({0.0, -1.0})).cwiseAbs2();
+  }
+  // m of an amplitude, or of its square.
+  Eigen::VectorXd LaggedAboutMean(const Eigen::VectorXd& of, double memory_cycles) const {
+    Eigen::VectorXcd spectrum = UnitarySpectrum(of / of.mean());
+    spectrum[0] = 0.0;
+    const double bin = record_.bin_hz / record_.scale.cycle_hz;
+    for (Eigen::Index k = 1; k < spectrum.size(); ++k) {
+      spectrum[k] *= LagAt(C(0.0, bin * static_cast<double>(k)), memory_cycles);
+    }
+    return UnitarySignal(std::move(spectrum), count_);
+  }
+
+ private:
+  const RecordSpectra& record_;
+  Eigen::Index count_;
+  double scale_;
+};
+
+C RatioAtCycle(const RecordSpectra& record) {
+  C product = 0.0;
+  double square = 0.0;
+  for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
+    if (!IsNearCycle(record.edge_s[i], kLineReach)) continue;
+    product += record.heat_release[i] * std::conj(record.pressure[i]);
+    square += std::norm(record.pressure[i]);
+  }
+  return square > 0.0 ? product / square : 0.0;
+}
+
+// `rate`: a_1 x_1' over p, and `ratio` q over p, at the cycle.
+Eigen::MatrixXcd OverPressure(const Eigen::VectorXcd& s, C rate, C ratio) {
+  Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(s.size(), kSlowColumns);
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (!IsNearCycle(s[i], kReach)) continue;
+    for (std::size_t j = 0; j < kMemories.size(); ++j) {
+      const auto column = static_cast<Eigen::Index>(j);
+      const C lag = LagAt(s[i] - C(0.0, 1.0), kMemories[j]);
+      out(i, ColumnsOf(SlowChange::kDamping).first + column) = lag * rate;
+      out(i, ColumnsOf(SlowChange::kDelay).first + column) = 0.5 * lag * s[i] * ratio;
+    }
+  }
+  return out;
+}
+
+// q without the flame's noise, as far as it is known.
+Eigen::VectorXcd GivenOut(const RecordSpectra& record, const LoopPoint* fitted) {
+  if (fitted && fitted->flame.size() == record.flame.cols()) {
+    return fitted->path.At(record.edge_s).cwiseProduct(record.flame * fitted->flame);
+  }
+  Eigen::VectorXcd out = record.heat_release;
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const double x = record.edge_s[i].imag();
+    if (std::abs(x - std::max(std::round(x), 1.0)) > kLineReach) out[i] = 0.0;
+  }
+  return out;
+}
+
+C RateOverPressure(const LoopMode& mode) {
+  const C s(0.0, 1.0);
+  return std::hypot(mode.a, mode.b) * s / (mode.a * s + mode.b * mode.omega);
+}
+
+}  // namespace
+
+void SetSlowSignals(const LoopPoint* fitted, const DriftRange& drift, RecordSpectra* record) {
+  const std::vector<LoopMode> modes = fitted ? fitted->modes : std::vector<LoopMode>();
+  const Instants instants(*record);
+  Eigen::MatrixXcd& signals = record->slow.signals;
+  signals.setZero(record->edge_s.size(), kSlowColumns);
+  const auto product = [&](const Eigen::VectorXd& m, const Eigen::VectorXd& signal) {
+    return instants.SpectrumOf(m.cwiseProduct(signal));
+  };
+  const auto plain = [](C) { return 1.0; };
+  const auto rate = [](C s) { return s; };
+  const Eigen::VectorXd square = instants.SquaredAmplitude();
+  const Eigen::VectorXd amplitude = square.cwiseSqrt();
+  std::vector<Eigen::VectorXd> of_square;
+  for (const double memory : kMemories) {
+    of_square.push_back(instants.LaggedAboutMean(square, memory));
+  }
+  for (const ModalPart& part : PartsOf(*record, modes)) {
+    const Eigen::VectorXd x_rate = instants.SignalOf(part.x, rate);
+    Eigen::Index column = ColumnsOf(SlowChange::kDamping).first;
+    for (const Eigen::VectorXd& m : of_square) {
+      signals.col(column++) += part.omega * part.share.cwiseProduct(product(m, x_rate));
+    }
+    const Eigen::VectorXd turned = instants.SignalOf(part.x, plain) + part.lean * x_rate;
+    signals.col(ColumnsOf(SlowChange::kFrequency).first) +=
+        part.omega * part.omega * part.share.cwiseProduct(product(instants.Time(drift), turned));
+  }
+  const Eigen::VectorXd heat_release_rate = instants.SignalOf(GivenOut(*record, fitted), rate);
+  Eigen::Index column = ColumnsOf(SlowChange::kDelay).first;
+  for (const double memory : kMemories) {
+    signals.col(column++) = product(instants.LaggedAboutMean(amplitude, memory), heat_release_rate);
+  }
+  const C ratio = RatioAtCycle(*record);
+  const C of_mode = modes.empty() ? 1.0 : RateOverPressure(ModeOfCycle(modes));
+  record->slow.of_pressure = OverPressure(record->s, of_mode, ratio);
+  if (!record->middle) return;
+  RecordSpectra middle = *record->middle;
+  middle.slow.signals = ColumnsOfMiddle(*record, record->slow.signals);
+  middle.slow.of_pressure = OverPressure(middle.s, of_mode, ratio);
+  record->middle = std::make_shared<const RecordSpectra>(std::move(middle));
+}
+
+}  // namespace howl

@@ -1,0 +1,54 @@
+// Parameters of a loop that change slowly within a record, in proportion to a known signal m:
+//
+//   damping     xi + sum_j xi_j m_j,     m_j = L_j (A^2 / mean A^2 - 1)
+//   frequency   omega (1 + w m),         m = t / T - 1/2
+//   delay       tau + sum_j tau_j m_j,   m_j = L_j (A / mean A - 1)
+//
+// A is the amplitude of p about its cycle, L_j lags of first order, of 1, 2.5 and 6 cycles. Their
+// sums come near any memory with which a loop follows its amplitude, of several lags too, from none
+// to some ten cycles. How near matters: with 1 and 6 alone, beside two lags of 2, what is missed of
+// a strong effect passes for a source in the duct (2 200 nats of 15 500).
+//
+// Of a mode, x'' + 2 xi omega x' + omega^2 x = q and p = a x' + b omega x, and of what a flame
+// gives out, q(t - tau), such changes are those of the heat release:
+//
+//   R (Q - sum_j k_j Z_j),   Z: m x' or m x (slow_signals.h),   k a = 2 xi_j omega or 2 w omega^2
+//   Q + sum_j r_j Y_j,       Y: m dq/dt, to first order,        r_j = tau_j
+//
+// in the place of Q in cut A, and in the place of Q in cut B. A follows p, so that small signals
+// near the cycle meet another loop than the mean one: on average over the cycle's phase, with L_j
+// at the distance from the cycle,
+//
+//   Z_j = L_j P,   Y_j = 1/2 L_j s (Q_1 / P_1) P        (Q_1 / P_1: at the cycle)
+//
+// is what they add to the return difference (return_difference.h).
+#ifndef HOWL_ESTIMATION_RECORD_FIT_SPECTRA_SLOW_CHANGES_H_
+#define HOWL_ESTIMATION_RECORD_FIT_SPECTRA_SLOW_CHANGES_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace howl {
+
+enum class SlowChange : std::uint8_t { kDamping, kFrequency, kDelay };
+
+// Of the signals m, those of one change.
+struct SlowColumns {
+  Eigen::Index first;
+  Eigen::Index count;
+};
+constexpr SlowColumns ColumnsOf(SlowChange change) {
+  if (change == SlowChange::kDamping) return {0, 3};
+  return change == SlowChange::kFrequency ? SlowColumns{3, 1} : SlowColumns{4, 3};
+}
+inline constexpr Eigen::Index kSlowColumns = 7;
+
+// A column each, in the order of SlowChange.
+struct SlowSignals {
+  Eigen::MatrixXcd signals;      // Z and Y on the edges of the record's bins
+  Eigen::MatrixXcd of_pressure;  // over P, on its bins
+};
+
+}  // namespace howl
+
+#endif  // HOWL_ESTIMATION_RECORD_FIT_SPECTRA_SLOW_CHANGES_H_
