@@ -98,6 +98,8 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     }
     entry.experiments_better = Better(found.best, found.without[i]);
     entry.equals = step.equals;
+    // Jumps at random times have the same spectrum.
+    if (step.item.id == "parametric_noise") entry.equals.emplace_back("intermittency");
     entry.parameters = LoopItemParameters(records, found.best, step.item, mode, options);
     if (step.item.kind == LoopItemKind::kMode) ++mode;
     out.entries.push_back(std::move(entry));

@@ -16,6 +16,7 @@
 namespace howl {
 namespace {
 
+constexpr double kBetweenMemories = 2.0;  // of a flame's gain (loop_item.cc): half way
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // Of hum or a tone, which are no noise but oscillations: what is expected of it, given the record
@@ -81,6 +82,14 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
       if (HasLines(item.noise.source)) {
         const double hz = item.noise.line_hz;
         out.push_back({"hz", hz, hz, hz, "Hz"});
+      }
+      if (item.noise.source == LoopNoise::kFlameGain) {
+        add("correlation_s", "s", [&](const RecordSpectra& record, const LoopPoint&) {
+          return item.noise.memory_cycles / record.scale.cycle_hz;
+        });
+        // As far as the next one that is tried.
+        out.back().low /= kBetweenMemories;
+        out.back().high *= kBetweenMemories;
       }
       break;
     case LoopItemKind::kNoiseShape:

@@ -110,7 +110,8 @@ void AddNoiseTo(ModalRig* rig, const RecordSpectra& record, const PointStructure
       case LoopNoise::kPressureHum:
       case LoopNoise::kHeatReleaseHum:
       case LoopNoise::kTone:
-        LOG(FATAL) << "no loop that a config states has hum or tones";
+      case LoopNoise::kFlameGain:
+        LOG(FATAL) << "no loop that a config states has hum, tones or a gain that fluctuates";
     }
   }
 }

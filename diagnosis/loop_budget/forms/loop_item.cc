@@ -1,12 +1,17 @@
 #include "diagnosis/loop_budget/forms/loop_item.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnosis/loop_budget/forms/shared_effect.h"
 
 namespace howl {
 namespace {
+
+// Of a flame's gain, in cycles. Of a peak half way between two of them either has a fifth of the
+// power in the wrong place; a memory of a tenth of a record is a drift.
+constexpr std::array kGainMemories = {1.0, 4.0, 16.0};
 
 std::vector<LoopItem> MakeItems() {
   std::vector<LoopItem> out = {
@@ -61,6 +66,11 @@ std::vector<LoopItem> MakeItems() {
   out.push_back({.id = "flame_line_errors",
                  .kind = LoopItemKind::kLineErrors,
                  .lines = &PointStructure::flame_lines});
+  for (const double memory_cycles : kGainMemories) {
+    out.push_back({.id = "parametric_noise",
+                   .kind = LoopItemKind::kNoise,
+                   .noise = {LoopNoise::kFlameGain, 1, 0.0, memory_cycles}});
+  }
   for (const EffectPointer& effect : SharedEffects()) {
     out.push_back(
         {.id = std::string(effect->id()), .kind = LoopItemKind::kSharedEffect, .effect = effect});
@@ -87,6 +97,9 @@ std::string KeyOf(const LoopItem& item) {
   if (IsHum(item.noise.source)) {
     return item.id + "_" + std::string(LoopNoiseName(item.noise.source)) + "_" +
            std::to_string(std::lround(item.noise.line_hz));
+  }
+  if (item.noise.source == LoopNoise::kFlameGain) {
+    return item.id + std::to_string(std::lround(item.noise.memory_cycles));
   }
   return item.id + (item.effect ? item.effect->form().value : "");
 }

@@ -6,6 +6,7 @@
 //   mains_hum                        lines at multiples of 50 or 60 Hz in one of the channels, or
 //                                    the one of them at which p stands out (tone.h)
 //   external_tone                    another source drives the duct at one frequency (tone.h)
+//   parametric_noise                 the flame's gain fluctuates (noise_shape.h)
 //   noise_shape                      spectra of sources have twice as many coefficients: peaks half
 //                                    an octave wide
 //   mode_detuning                    the modes' frequencies are free of the base's ratio

@@ -98,6 +98,7 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, const FlamePath& path) c
         c[0] = QuietLevel(left.flame.cwiseAbs2());
         break;
       case LoopNoise::kBackground:
+      case LoopNoise::kFlameGain:
         c[0] = QuietLevel(left.flame.cwiseAbs2()) - kBelowSensors;
         break;
       case LoopNoise::kPressureHum:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace howl {
 namespace {
@@ -26,6 +27,28 @@ Eigen::VectorXd Lines(const NoiseTerm& term, const RecordSpectra& record) {
   return out;
 }
 
+Eigen::VectorXd BesideCycle(const NoiseTerm& term, const RecordSpectra& record) {
+  const double width = 1.0 / (2.0 * std::numbers::pi * term.memory_cycles);
+  const Eigen::VectorXd x = record.s.imag();
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
+  for (double line = 1.0; line < x[x.size() - 1]; line += 1.0) {
+    double power = 0.0;
+    for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
+      if (std::abs(record.edge_s[i].imag() - line) < kBesideCycle) {
+        power += std::norm(record.heat_release[i]);
+      }
+    }
+    out.array() += power * width / (width * width + (x.array() - line).square());
+  }
+  return out / out.mean();
+}
+
+Eigen::VectorXd WithoutInstruments(const NoiseTerm& term, const RecordSpectra& record) {
+  if (HasLines(term.source)) return Lines(term, record);
+  if (term.source == LoopNoise::kFlameGain) return BesideCycle(term, record);
+  return Eigen::VectorXd::Ones(record.bins());
+}
+
 // Of the instrument before the place where it comes in.
 TransferFunction InstrumentBefore(LoopNoise source, const RecordSpectra& record) {
   switch (source) {
@@ -39,6 +62,7 @@ TransferFunction InstrumentBefore(LoopNoise source, const RecordSpectra& record)
     case LoopNoise::kDuct:
     case LoopNoise::kBackground:
     case LoopNoise::kTone:
+    case LoopNoise::kFlameGain:
       break;
   }
   return {};
@@ -47,8 +71,7 @@ TransferFunction InstrumentBefore(LoopNoise source, const RecordSpectra& record)
 }  // namespace
 
 Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
-  Eigen::VectorXd out =
-      HasLines(term.source) ? Lines(term, record) : Eigen::VectorXd::Ones(record.bins()).eval();
+  Eigen::VectorXd out = WithoutInstruments(term, record);
   if (const TransferFunction instrument = InstrumentBefore(term.source, record)) {
     for (Eigen::Index i = 0; i < record.bins(); ++i) out[i] /= std::norm(instrument(record.s[i]));
   }

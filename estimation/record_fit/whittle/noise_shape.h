@@ -5,8 +5,14 @@
 //
 // or for a tone over n = 1 alone: the bound of a line's power under a sine taper (Thomson 1982;
 // Riedel & Sidorenko 1995). Multiples next to one of the cycle's lines tell nothing of hum, and are
-// left out. Noise and hum that come in behind an instrument which was taken out of the record have
-// 1 / |H|^2 of it as well. Of all other sources w is one.
+// left out.
+// A gain that fluctuates about its mean, and forgets exponentially, moves what each of the cycle's
+// lines Q_h holds to its sides (as does one that jumps between two values at random times):
+//
+//   w(f) = sum over h of |Q_h|^2 g / (g^2 + (f - h f_c)^2),   g = f_c / (2 pi memory),
+//
+// with 1 as its mean over the band. Noise and hum that come in behind an instrument which was taken
+// out of the record have 1 / |H|^2 of it as well. Of all other sources w is one.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
 

@@ -22,6 +22,8 @@ std::string_view LoopNoiseName(LoopNoise source) {
       return "q_hum";
     case LoopNoise::kTone:
       return "tone";
+    case LoopNoise::kFlameGain:
+      return "flame_gain";
   }
   return "";
 }

@@ -8,6 +8,8 @@
 //   hum of p, of q   as their sensors, at multiples of the mains' frequency alone (noise_shape.h),
 //               or with one coefficient at one frequency
 //   tone        as the duct's, at one frequency alone
+//   gain        as combustion's, beside the cycle's lines (noise_shape.h): the flame's gain
+//               fluctuates
 //
 //   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
 //
@@ -32,17 +34,19 @@ enum class LoopNoise : std::uint8_t {
   kBackground,
   kPressureHum,
   kHeatReleaseHum,
-  kTone
+  kTone,
+  kFlameGain
 };
 
-inline constexpr std::size_t kMostNoiseTerms = 8;  // one of each
+inline constexpr std::size_t kMostNoiseTerms = 9;  // one of each
 
 std::string_view LoopNoiseName(LoopNoise source);
 
 struct NoiseTerm {
   LoopNoise source = LoopNoise::kCombustion;
   Eigen::Index coefficients = 1;
-  double line_hz = 0.0;  // of hum the first of its lines, of a tone its frequency
+  double line_hz = 0.0;        // of hum the first of its lines, of a tone its frequency
+  double memory_cycles = 0.0;  // of a gain: how long it stays what it is
 };
 
 inline bool IsHum(LoopNoise source) {
@@ -69,6 +73,7 @@ inline NoiseDirection DirectionOf(LoopNoise source, std::complex<double> r, std:
                                   double background_ratio) {
   switch (source) {
     case LoopNoise::kCombustion:
+    case LoopNoise::kFlameGain:
       return {0.0, 1.0};
     case LoopNoise::kPressureSensor:
     case LoopNoise::kPressureHum:
@@ -93,6 +98,7 @@ struct NoiseTurn {
 inline NoiseTurn TurnOf(LoopNoise source, double background_ratio) {
   switch (source) {
     case LoopNoise::kCombustion:
+    case LoopNoise::kFlameGain:
       return {};
     case LoopNoise::kPressureSensor:
     case LoopNoise::kPressureHum:

@@ -45,7 +45,9 @@ const BudgetEntry& OnlyEntry(const LoopDiagnosis& found) {
 }
 
 TEST(SlowChanges, AreNotFoundWhereThereAreNone) {
-  const LoopDiagnosis found = DiagnoseLoops(Ducts({}), DuctsForm(), Among(Offered()));
+  std::vector<std::string> offered = Offered();
+  offered.push_back("parametric_noise");
+  const LoopDiagnosis found = DiagnoseLoops(Ducts({}), DuctsForm(), Among(offered));
   EXPECT_EQ(found.diagnosis.kind, VerdictKind::kNone) << found.diagnosis.effect;
 }
 
@@ -87,6 +89,24 @@ TEST(SlowChanges, OfTheDelayAreFound) {
   const double relative =
       kAdded_s * std::sqrt(MeanSquaredAmplitude(records)) / amplitude / DuctOfModes(2).tau_s;
   EXPECT_NEAR(entry.parameters[0].value, relative, 0.25 * relative);
+}
+
+TEST(SlowChanges, OfTheFlamesGainAreFound) {
+  constexpr double kGain = 0.2;
+  const std::vector<LoopRecord> records = Ducts([](ModalLoop* loop) { loop->gain_rms = kGain; });
+  std::vector<std::string> offered = Offered();
+  offered.push_back("parametric_noise");
+  const LoopDiagnosis found = DiagnoseLoops(records, DuctsForm(), Among(offered));
+  const BudgetEntry& entry = OnlyEntry(found);
+  EXPECT_EQ(entry.item, "parametric_noise");
+  // Whose spectrum is the same.
+  EXPECT_EQ(entry.equals, std::vector<std::string>{"intermittency"});
+  ASSERT_EQ(entry.parameters.size(), 2u);
+  // The cycle's amplitude follows the gain: a part of what it does passes for the flame's curve.
+  EXPECT_LT(entry.parameters[0].value, 1.05 * kGain);
+  EXPECT_GT(entry.parameters[0].value, 0.7 * kGain);
+  EXPECT_LT(entry.parameters[1].low, 0.02);
+  EXPECT_GT(entry.parameters[1].high, 0.02);
 }
 
 }  // namespace

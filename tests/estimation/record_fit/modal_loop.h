@@ -6,7 +6,7 @@
 //
 // In the middle of the record tau is changed by `drift`, about the stated one. Dampings grow with
 // the square of the cycle's amplitude, as 2 p^2 through a lag tells it, tau with the amplitude; all
-// frequencies move during the record.
+// frequencies move during the record. The flame's gain may fluctuate about its mean.
 // Where a share of p' comes later, Phi is of (1 - share) p'(t - tau) + share p'(t - tau - later);
 // where its delays are spread normally, of what it is in the mean over them, by the five values of
 // Gauss and Hermite, exact as far as the ninth moment; where the flame lags, what Phi makes of it
@@ -49,6 +49,8 @@ struct ModalLoop {
   double damping_per_square = 0.0;   // added to xi
   double delay_per_amplitude = 0.0;  // added to tau, s
   double frequency_span = 0.0;       // of omega, from the record's start to its end
+  double gain_rms = 0.0;             // of the flame's answer, relative: it fluctuates
+  double gain_memory_s = 0.02;
   double slope = 0.0;
   double range = 1000.0;
   double noise = 0.1;          // of q at saturation, root mean square
@@ -173,6 +175,7 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
   const auto steps = static_cast<std::size_t>(duration_s * loop.sampling_hz) * ModalLoop::kSteps;
   double q = 0.0;
   double square = 0.0;
+  double gain = 0.0;
   for (std::size_t i = 0; i < settle + steps; ++i) {
     const double added = loop.damping_per_square * square;
     const double place =
@@ -210,7 +213,11 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
     double v = 0.0;
     for (const Part& part : parts) v += part.share * before(delay - sooner + part.later);
     burning += lag * (-loop.slope * loop.range * std::tanh(v / loop.range) - burning);
-    const double next = burning + drawn;
+    if (loop.gain_rms > 0.0) {
+      const double keep = std::exp(-h / loop.gain_memory_s);
+      gain = keep * gain + std::sqrt(1.0 - keep * keep) * loop.gain_rms * random.Normal();
+    }
+    const double next = (1.0 + gain) * burning + drawn;
     const double mean = 0.5 * (q + next);
     for (State& m : states) {
       const double x = m.e00 * m.x + m.e01 * m.rate + m.input0 * mean;

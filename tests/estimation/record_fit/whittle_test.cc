@@ -65,6 +65,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
     structure.noise.push_back({LoopNoise::kBackground, 2});
     structure.noise.push_back({LoopNoise::kPressureHum, 2, 50.0});
     structure.noise.push_back({LoopNoise::kHeatReleaseHum, 2, 60.0});
+    structure.noise.push_back({LoopNoise::kFlameGain, 1, 0.0, 4.0});
     const PointPrior prior = PriorOf(structure, spectra);
     const LoopPoint start =
         ToPoint(structure, spectra.flame.cols(), StartsOf(spectra, structure, prior, 4, 1).back());
