@@ -1,6 +1,7 @@
 #include "app/text/loop_diagnosis_text.h"
 
 #include <string>
+#include <vector>
 
 #include "app/text/budget_text.h"
 #include "app/text/text_table.h"
@@ -31,6 +32,12 @@ std::string LinesText(const std::string& cut, const LinesLeft& lines, std::size_
          " points; of " + Significant(100.0 * lines.size, 2) + " % of what the loop foretells\n";
 }
 
+std::string Listed(const std::vector<std::string>& items) {
+  std::string out;
+  for (const std::string& item : items) out += (out.empty() ? "" : ",") + item;
+  return out;
+}
+
 }  // namespace
 
 std::string LoopDiagnosisText(const LoopDiagnosis& found) {
@@ -40,6 +47,7 @@ std::string LoopDiagnosisText(const LoopDiagnosis& found) {
   out += LinesText("p from q", found.acoustics, budget.experiments);
   out += LinesText("q from p", found.flame, budget.experiments);
   out += Wrapped("next: " + found.diagnosis.advice, 2) + "\n";
+  if (!found.items.empty()) out += "to go on from there: --with " + Listed(found.items) + "\n";
   return out;
 }
 

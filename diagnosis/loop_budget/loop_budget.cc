@@ -199,6 +199,8 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   Diagnosis& diagnosis = out.diagnosis;
   diagnosis.budget = BudgetOf(records, found, options);
   diagnosis.budget->seen_in_samples = seen;
+  out.items = options.given;
+  for (const BudgetEntry& entry : diagnosis.budget->entries) out.items.push_back(entry.item);
   diagnosis.where = diagnosis.budget->left;
   diagnosis.gap_before = diagnosis.budget->gap_before;
   diagnosis.gap_after = diagnosis.budget->gap_left;

@@ -29,6 +29,8 @@ struct LoopDiagnosis {
   Diagnosis diagnosis;  // with its budget; candidates and map are empty
   LoopForm base;
   LoopForm best;
+  // That it began with and that were added, with which another diagnosis may begin.
+  std::vector<std::string> items;
   LinesLeft acoustics;
   LinesLeft flame;
 };

@@ -43,6 +43,7 @@ Json LoopDiagnosisJson(const LoopDiagnosis& found) {
   }
   json["base"] = FormJson(found.base);
   json["best"] = FormJson(found.best);
+  json["items"] = found.items;
   json["line_errors"] = {{"p_from_q", LinesJson(found.acoustics)},
                          {"q_from_p", LinesJson(found.flame)}};
   return json;

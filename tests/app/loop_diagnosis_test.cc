@@ -39,12 +39,13 @@ TEST_F(LoopDiagnosis, SaysWhatTheConfigsLoopLacks) {
                "--without p_sensor_noise,q_sensor_noise,duct_noise,background_noise,acoustic_mode,"
                "complex_residues,delay_dispersion,gamma_delays");
   ASSERT_EQ(run.status, 0) << run.err << run.out;
-  EXPECT_THAT(run.out, HasSubstr("flame_input_pressure_rate"));
+  EXPECT_THAT(run.out, HasSubstr("to go on from there: --with flame_input_pressure_rate\n"));
   const Json json = Json::parse(ReadFile(folder_.path() / "out/diagnosis.json"));
   EXPECT_EQ(json["schema"], "howl.diagnosis/1");
   ASSERT_EQ(json["budget"].size(), 1u);
   EXPECT_EQ(json["budget"][0]["item"], "flame_input_pressure_rate");
   EXPECT_GT(json["budget"][0]["lost_without"]["nats"].get<double>(), 20.0);
+  EXPECT_EQ(json["items"], Json{"flame_input_pressure_rate"});
   EXPECT_EQ(json["base"]["flame_input"], "velocity");
   EXPECT_EQ(json["best"]["flame_input"], "pressure_rate");
   // About one mode's cycle both inputs are one but for the delay: harmonics alone tell them apart.
@@ -64,7 +65,10 @@ TEST_F(LoopDiagnosis, RefusesWhatItDoesNotTake) {
   };
   refuses(loop, "--plan", "--plan: the config's model states a loop");
   refuses(loop, "--bootstrap 19", "--bootstrap: the config's model states a loop");
-  refuses(loop, "--without duct_nois", "did you mean duct_noise?");
+  refuses(loop, "--without duct_nois",
+          "--without: duct_nois is nothing that a loop of records may");
+  refuses(loop, "--with duct_nois", "did you mean duct_noise?");
+  refuses("{modes: 1}", "--with duct_noise", "--with begins a budget of records");
   refuses("{modes: auto}", "", "is auto, expected a number");
   refuses("{modes: 1, flame_input: auto}", "", "is auto, expected one of them");
 }
