@@ -20,9 +20,9 @@ namespace {
 using C = std::complex<double>;
 
 // About the cycle, over its frequency: what the amplitude is taken from.
-constexpr double kReach = 0.5;
+constexpr double kNearCycle = 0.5;
 // And as far as the cycle's lines rule both signals.
-constexpr double kLineReach = 0.1;
+constexpr double kNearLine = 0.1;
 
 bool IsNearCycle(C s, double reach) { return std::abs(s.imag() - 1.0) < reach; }
 
@@ -57,7 +57,7 @@ class Instants {
   // A^2.
   Eigen::VectorXd SquaredAmplitude() const {
     const auto near = [](C turn) {
-      return [turn](C s) { return IsNearCycle(s, kReach) ? turn : 0.0; };
+      return [turn](C s) { return IsNearCycle(s, kNearCycle) ? turn : 0.0; };
     };
     return SignalOf(record_.pressure, near(1.0)).cwiseAbs2() +
            SignalOf(record_.pressure, near({0.0, -1.0})).cwiseAbs2();
@@ -83,7 +83,7 @@ C RatioAtCycle(const RecordSpectra& record) {
   C product = 0.0;
   double square = 0.0;
   for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
-    if (!IsNearCycle(record.edge_s[i], kLineReach)) continue;
+    if (!IsNearCycle(record.edge_s[i], kNearLine)) continue;
     product += record.heat_release[i] * std::conj(record.pressure[i]);
     square += std::norm(record.pressure[i]);
   }
@@ -94,7 +94,7 @@ C RatioAtCycle(const RecordSpectra& record) {
 Eigen::MatrixXcd OverPressure(const Eigen::VectorXcd& s, C rate, C ratio) {
   Eigen::MatrixXcd out = Eigen::MatrixXcd::Zero(s.size(), kSlowColumns);
   for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (!IsNearCycle(s[i], kReach)) continue;
+    if (!IsNearCycle(s[i], kNearCycle)) continue;
     for (std::size_t j = 0; j < kMemories.size(); ++j) {
       const auto column = static_cast<Eigen::Index>(j);
       const C lag = LagAt(s[i] - C(0.0, 1.0), kMemories[j]);
@@ -113,7 +113,7 @@ Eigen::VectorXcd GivenOut(const RecordSpectra& record, const LoopPoint* fitted) 
   Eigen::VectorXcd out = record.heat_release;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
     const double x = record.edge_s[i].imag();
-    if (std::abs(x - std::max(std::round(x), 1.0)) > kLineReach) out[i] = 0.0;
+    if (std::abs(x - std::max(std::round(x), 1.0)) > kNearLine) out[i] = 0.0;
   }
   return out;
 }
