@@ -10,7 +10,7 @@
 
 #include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
-#include "estimation/record_fit/loop/modal_parts.h"
+#include "estimation/record_fit/slow/modal_parts.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 
 namespace howl {

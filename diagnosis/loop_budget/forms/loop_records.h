@@ -11,7 +11,7 @@
 #include "diagnosis/loop_budget/forms/loop_form.h"
 #include "estimation/joint_records/loop_record.h"
 #include "estimation/joint_records/records_fit.h"
-#include "estimation/record_fit/loop/slow_signals.h"
+#include "estimation/record_fit/slow/slow_signals.h"
 
 namespace howl {
 

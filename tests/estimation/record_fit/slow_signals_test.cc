@@ -1,7 +1,7 @@
 // Bias and coverage of slow changes, as fits of simulated records tell them. The amplitude of a
 // cycle moves little: from 2 s the delay's dependence is told to a half, and too small by a
 // quarter.
-#include "estimation/record_fit/loop/slow_signals.h"
+#include "estimation/record_fit/slow/slow_signals.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/point_likelihood.h"
-#include "estimation/record_fit/loop/slow_signals.h"
+#include "estimation/record_fit/slow/slow_signals.h"
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 

@@ -1,4 +1,4 @@
-#include "estimation/record_fit/loop/modal_parts.h"
+#include "estimation/record_fit/slow/modal_parts.h"
 
 #include <algorithm>
 #include <cmath>

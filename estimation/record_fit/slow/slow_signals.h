@@ -12,8 +12,8 @@
 // would have noise move with the delay, which it does not: half of an effect would be missed.
 // Before a loop was fitted p is one mode's, and of recorded q the parts near the cycle's lines are
 // taken.
-#ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_SLOW_SIGNALS_H_
-#define HOWL_ESTIMATION_RECORD_FIT_LOOP_SLOW_SIGNALS_H_
+#ifndef HOWL_ESTIMATION_RECORD_FIT_SLOW_SLOW_SIGNALS_H_
+#define HOWL_ESTIMATION_RECORD_FIT_SLOW_SLOW_SIGNALS_H_
 
 #include "estimation/record_fit/loop/loop_point.h"
 #include "estimation/record_fit/spectra/record_spectra.h"
@@ -32,4 +32,4 @@ void SetSlowSignals(const LoopPoint* fitted, const DriftRange& drift, RecordSpec
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_RECORD_FIT_LOOP_SLOW_SIGNALS_H_
+#endif  // HOWL_ESTIMATION_RECORD_FIT_SLOW_SLOW_SIGNALS_H_

@@ -1,4 +1,4 @@
-#include "estimation/record_fit/loop/slow_signals.h"
+#include "estimation/record_fit/slow/slow_signals.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "estimation/record_fit/loop/modal_parts.h"
+#include "estimation/record_fit/slow/modal_parts.h"
 #include "estimation/record_fit/spectra/middle_part.h"
 #include "estimation/record_fit/spectra/unitary_transform.h"
 

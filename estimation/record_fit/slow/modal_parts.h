@@ -3,8 +3,8 @@
 //   P_i = R_i / R P,   X_i = P_i / (a_i s + b_i omega_i)
 //
 // and near zeros of R no more than the modes' sizes allow.
-#ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_MODAL_PARTS_H_
-#define HOWL_ESTIMATION_RECORD_FIT_LOOP_MODAL_PARTS_H_
+#ifndef HOWL_ESTIMATION_RECORD_FIT_SLOW_MODAL_PARTS_H_
+#define HOWL_ESTIMATION_RECORD_FIT_SLOW_MODAL_PARTS_H_
 
 #include <Eigen/Core>
 #include <vector>
@@ -30,4 +30,4 @@ std::vector<ModalPart> PartsOf(const RecordSpectra& record, const std::vector<Lo
 
 }  // namespace howl
 
-#endif  // HOWL_ESTIMATION_RECORD_FIT_LOOP_MODAL_PARTS_H_
+#endif  // HOWL_ESTIMATION_RECORD_FIT_SLOW_MODAL_PARTS_H_
