@@ -120,11 +120,7 @@ std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
 
 std::vector<LoopItem> SharedItemsOf(const LoopForm& model) {
   std::vector<LoopItem> out;
-  for (const SharedEffect& each : model.effects) {
-    out.push_back({.id = std::string(each.effect->id()),
-                   .kind = LoopItemKind::kSharedEffect,
-                   .effect = each.effect});
-  }
+  for (const SharedEffect& each : model.effects) out.push_back(SharedItem(each.effect));
   return out;
 }
 

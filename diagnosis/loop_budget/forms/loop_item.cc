@@ -72,13 +72,16 @@ std::vector<LoopItem> MakeItems() {
                    .noise = {LoopNoise::kFlameGain, 1, 0.0, memory_cycles}});
   }
   for (const EffectPointer& effect : SharedEffects()) {
-    out.push_back(
-        {.id = std::string(effect->id()), .kind = LoopItemKind::kSharedEffect, .effect = effect});
+    out.push_back(SharedItem(effect));
   }
   return out;
 }
 
 }  // namespace
+
+LoopItem SharedItem(const EffectPointer& effect) {
+  return {.id = std::string(effect->id()), .kind = LoopItemKind::kSharedEffect, .effect = effect};
+}
 
 const std::vector<LoopItem>& AllLoopItems() {
   static const std::vector<LoopItem> kItems = MakeItems();

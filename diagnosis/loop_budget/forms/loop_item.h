@@ -80,6 +80,8 @@ std::vector<std::string> LoopItemIds();
 // In keys of finished units (fit_units.h): forms of one effect are different items.
 std::string KeyOf(const LoopItem& item);
 
+LoopItem SharedItem(const EffectPointer& effect);
+
 // Forms of a shared effect are items of their own.
 const std::vector<LoopItem>& AllLoopItems();
 

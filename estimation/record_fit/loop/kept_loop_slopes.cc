@@ -115,12 +115,17 @@ void KeptLoop::SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* ou
     return (weights.slow.transpose() * record_.slow.of_pressure.col(column)).value().real();
   };
   BeforeTaper(weights.acoustic, &edge_weights_);
+  weighted_.resize(edge_weights_.size());
+  if (structure_.AcousticChanges() > 0) {
+    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
+      weighted_[i] = Times(Times(edge_weights_[i], acoustic_factors_[i]), EdgeTransfer(i));
+    }
+  }
   Eigen::Index next = structure_.AcousticChange();
   for (const Eigen::Index column : AcousticColumnsOf(structure_)) {
     double sum = 0.0;
-    for (Eigen::Index i = 0; i < edge_weights_.size(); ++i) {
-      const C weight = Times(edge_weights_[i], acoustic_factors_[i]);
-      sum -= Times(Times(weight, EdgeTransfer(i)), record_.slow.signals(i, column)).real();
+    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
+      sum -= Times(weighted_[i], record_.slow.signals(i, column)).real();
     }
     (*out)[next++] = sum + of_feedback(column);
   }
