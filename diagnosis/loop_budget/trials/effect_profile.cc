@@ -25,7 +25,12 @@ constexpr std::size_t kScanned = 24;
 constexpr std::size_t kMostFollowed = 2;
 constexpr double kLongestBegin = 0.5;  // of the first parameter's range
 constexpr int kMostHalvings = 5;
-constexpr double kLongestStep = 0.03;  // of the search's range, so that fits follow
+// The first step, of the search's range, so that fits follow; where one gained at least half of
+// what was foretold the next may be twice as long (Conn, Gould & Toint 2000, chapter 6).
+constexpr double kFirstStep = 0.03;
+constexpr double kAsForetold = 0.5;
+// Nats over the range squared, below which a profile is flat: no step is to be foretold from it.
+constexpr double kFlat = 1e-6;
 // Of the same: ten times as long differences see the third derivative, a tenth as long ones the
 // last digits of sums over thousands of bins.
 constexpr double kDifference = 1e-5;
@@ -232,8 +237,9 @@ std::vector<EffectPoint> EffectProfile::BeginFromNull(const EffectPoint& null) {
   }
   std::ranges::stable_sort(best, std::ranges::greater(), &Beside::gain);
   best.resize(std::min(best.size(), kMostFollowed));
-  std::vector<EffectPoint> out = {null};
+  std::vector<EffectPoint> out;
   for (const Beside& each : best) out.push_back(At(each.u, each.starts));
+  if (out.empty()) out.push_back(null);
   return out;
 }
 
@@ -259,6 +265,7 @@ EffectProfile::Slopes EffectProfile::SlopesOfPoint(const EffectPoint& point, std
   const double here = fit.log_posterior + records_.LogJacobianOfWhole(FormAt(point.u), e);
   Slopes out{Eigen::VectorXd(count), Eigen::MatrixXd(count, count), {}};
   Eigen::MatrixXd turns(fit.parameters.size(), count);
+  Eigen::VectorXd uphill;
   std::vector<double> both(static_cast<std::size_t>(count));  // values on both sides
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::VectorXd step = steps[i] * Eigen::VectorXd::Unit(steps.size(), i);
@@ -266,6 +273,7 @@ EffectProfile::Slopes EffectProfile::SlopesOfPoint(const EffectPoint& point, std
     const Beside above = beside(point.u + step, true);
     out.slope[i] = (above.value - below.value) / (2.0 * steps[i]);
     turns.col(i) = (above.gradient - below.gradient) / (2.0 * steps[i]);
+    uphill = 0.5 * (above.gradient + below.gradient);
     both[static_cast<std::size_t>(i)] = above.value + below.value;
     out.curvature(i, i) = (above.value - 2.0 * here + below.value) / (steps[i] * steps[i]);
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -279,6 +287,7 @@ EffectProfile::Slopes EffectProfile::SlopesOfPoint(const EffectPoint& point, std
     }
   }
   out.by = SolveSymmetric(fit.information, turns);
+  out.slope += out.by.transpose() * uphill;
   out.curvature += turns.transpose() * out.by;
   return out;
 }
@@ -292,21 +301,20 @@ std::vector<EffectProfile::Slopes> EffectProfile::SlopesAt(const EffectPoint& po
 }
 
 Eigen::VectorXd EffectProfile::StepFrom(const Eigen::VectorXd& u, const Eigen::VectorXd& slope,
-                                        const Eigen::MatrixXd& information) const {
+                                        const Eigen::MatrixXd& information,
+                                        double longest_step) const {
   // A parameter at its range's end that would leave it stays, and the others go without it.
-  Eigen::VectorXd free = Eigen::VectorXd::Ones(u.size());
+  Eigen::VectorXd free = span_;
   Eigen::VectorXd step = Eigen::VectorXd::Zero(u.size());
   for (Eigen::Index round = 0; round <= u.size(); ++round) {
-    Eigen::MatrixXd of_free = free.asDiagonal() * information * free.asDiagonal();
-    of_free.diagonal() += Eigen::VectorXd::Ones(u.size()) - free;
-    const Eigen::LLT<Eigen::MatrixXd> root(of_free);
-    const Eigen::VectorXd along = free.cwiseProduct(slope);
-    step = root.info() == Eigen::Success
-               ? root.solve(along).eval()
-               : along.cwiseProduct(span_.cwiseAbs2()) *
-                     (kLongestStep / along.cwiseProduct(span_).cwiseAbs().maxCoeff());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> in_spans(free.asDiagonal() * information *
+                                                                  free.asDiagonal());
+    const Eigen::VectorXd along =
+        in_spans.eigenvectors().transpose() * free.cwiseProduct(slope).eval();
+    const Eigen::VectorXd size = in_spans.eigenvalues().cwiseAbs().cwiseMax(kFlat);
+    step = free.cwiseProduct(in_spans.eigenvectors() * along.cwiseQuotient(size));
     const double longest = step.cwiseQuotient(span_).cwiseAbs().maxCoeff();
-    step *= std::min(1.0, kLongestStep / longest);
+    step *= std::min(1.0, longest_step / longest);
     bool leaves = false;
     for (Eigen::Index i = 0; i < u.size(); ++i) {
       const bool out = (u[i] <= low_[i] && step[i] < 0.0) || (u[i] >= high_[i] && step[i] > 0.0);
@@ -320,6 +328,7 @@ Eigen::VectorXd EffectProfile::StepFrom(const Eigen::VectorXd& u, const Eigen::V
 
 ProfileMaximum EffectProfile::From(EffectPoint best, double least) {
   ProfileMaximum out{std::move(best), Eigen::MatrixXd::Zero(span_.size(), span_.size())};
+  double longest = kFirstStep;
   for (int i = 0; i < kMostSteps; ++i) {
     const std::vector<Slopes> slopes = SlopesAt(out.at, span_.size());
     Eigen::VectorXd slope = Eigen::VectorXd::Zero(span_.size());
@@ -335,14 +344,18 @@ ProfileMaximum EffectProfile::From(EffectPoint best, double least) {
       const double gain = 0.5 * slope.dot(root.solve(slope));
       if (gain < PointFitOptions{}.converged || out.at.log_evidence + gain < least) break;
     }
-    Eigen::VectorXd step = StepFrom(out.at.u, slope, information);
+    Eigen::VectorXd step = StepFrom(out.at.u, slope, information, longest);
     if (!(step.cwiseAbs().maxCoeff() > 0.0)) break;
     const Eigen::VectorXd from = out.at.u;
     for (int halved = 0; out.at.u == from && halved < kMostHalvings; ++halved, step *= 0.5) {
       std::vector<Eigen::VectorXd> starts = ParametersOf(out.at.fits);
       for (std::size_t e = 0; e < starts.size(); ++e) starts[e] += slopes[e].by * step;
       EffectPoint next = At(from + step, starts);
-      if (next.log_posterior > out.at.log_posterior) out.at = std::move(next);
+      const double gain = next.log_posterior - out.at.log_posterior;
+      const double length = step.cwiseQuotient(span_).cwiseAbs().maxCoeff();
+      const bool as_foretold = gain > kAsForetold * step.dot(slope - 0.5 * information * step);
+      longest = as_foretold ? std::max(longest, 2.0 * length) : length;
+      if (gain > 0.0) out.at = std::move(next);
     }
     if (out.at.u == from) break;
   }

@@ -64,8 +64,8 @@ class EffectProfile {
   // The best of the values that a search begins with, the null among them: of the first parameter
   // outwards from its null, each from where its neighbour's fits came to, by the records' middles;
   // at its maximum. Where there are two parameters, and the first has a finite null, where the
-  // second has no effect: the null, and Newton's steps of the first from there, with the values of
-  // the second from which they gain more than from those beside them.
+  // second has no effect: Newton's steps of the first from there, with the values of the second
+  // from which they gain more than from those beside them, or the null where none gains.
   std::vector<EffectPoint> Begin(const std::vector<Eigen::VectorXd>& at_null);
   // The maximum of the log posterior next to `best`, by Newton's steps, or as far as their top has
   // the evidence `least`.
@@ -74,7 +74,10 @@ class EffectProfile {
  private:
   // Of a point's log posterior v by u, all else, x, moving along `by` to stay most likely:
   //
-  //   d/du = v_u,   d^2/du^2 = v_uu + v_ux H^-1 v_xu,   dx/du = H^-1 v_xu,   H = -v_xx
+  //   d/du = v_u + v_x dx/du,   d^2/du^2 = v_uu + v_ux H^-1 v_xu,   dx/du = H^-1 v_xu,   H = -v_xx
+  //
+  // A fit ends a little below its maximum, where v_x is not zero yet, and x may move much with u:
+  // without the second term the slope would be off by more than the profile's own.
   struct Slopes {
     Eigen::VectorXd slope;
     Eigen::MatrixXd curvature;
@@ -86,9 +89,10 @@ class EffectProfile {
   // A record which the effect makes less likely than none does may be at a lesser maximum: it
   // begins again from where it stands without.
   void AgainFromNull(const std::vector<Eigen::VectorXd>& at_null, EffectPoint* point);
-  // Newton's step within the range; where the profile is not convex up the slope.
+  // Newton's step within the range, at most so long in it; where the profile is not convex up the
+  // slope, as far as a curvature of the other sign had it (Dauphin et al. 2014).
   Eigen::VectorXd StepFrom(const Eigen::VectorXd& u, const Eigen::VectorXd& slope,
-                           const Eigen::MatrixXd& information) const;
+                           const Eigen::MatrixXd& information, double longest_step) const;
   Slopes SlopesOfPoint(const EffectPoint& point, std::size_t e, Eigen::Index count) const;
 
   const LoopRecords& records_;
