@@ -142,6 +142,10 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
           return 0.5 * std::hypot(of_cycle.a, of_cycle.b) *
                  point.Change(SlowChange::kFrequency).sum() / std::pow(of_cycle.omega, 2);
         });
+      } else if (item.change == &PointStructure::gain_follows_amplitude) {
+        add("slope", "", [](const RecordSpectra&, const LoopPoint& point) {
+          return point.Change(SlowChange::kGain).sum();
+        });
       } else {
         add("rel_at_cycle", "", [](const RecordSpectra&, const LoopPoint& point) {
           const double at_cycle = point.Change(SlowChange::kDelay).sum();

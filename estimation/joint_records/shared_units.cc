@@ -53,6 +53,7 @@ SharedUnits::SharedUnits(const PointStructure& structure, const RecordSpectra& r
   set_unit(structure.damping_follows_amplitude, SlowChange::kDamping, heat_release / pressure);
   set_unit(structure.frequency_drifts, SlowChange::kFrequency, cycle * heat_release / pressure);
   set_unit(structure.delay_follows_amplitude, SlowChange::kDelay, 1.0 / cycle);
+  set_unit(structure.gain_follows_amplitude, SlowChange::kGain, 1.0);
 }
 
 Eigen::VectorXd SharedUnits::ToCommon(const Eigen::VectorXd& parameters) const {

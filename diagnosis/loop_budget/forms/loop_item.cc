@@ -57,6 +57,9 @@ std::vector<LoopItem> MakeItems() {
   out.push_back({.id = "amplitude_dependent_delay",
                  .kind = LoopItemKind::kSlowChange,
                  .change = &PointStructure::delay_follows_amplitude});
+  out.push_back({.id = "amplitude_dependent_gain",
+                 .kind = LoopItemKind::kSlowChange,
+                 .change = &PointStructure::gain_follows_amplitude});
   out.push_back({.id = "slow_drift",
                  .kind = LoopItemKind::kSlowChange,
                  .change = &PointStructure::frequency_drifts});

@@ -21,9 +21,10 @@
 //   ID of the catalogue              an instrument, or a filter of the flame, with parameters
 //                                    that all points share (shared_effect.h); a second path and a
 //                                    spread before the flame's curve are among them
-//   nonlinear_damping, amplitude_dependent_delay, slow_drift
-//                                    damping and delay follow the cycle's amplitude, frequencies
-//                                    drift within the record (slow_changes.h)
+//   nonlinear_damping, amplitude_dependent_delay, amplitude_dependent_gain, slow_drift
+//                                    damping, delay and the flame's gain follow the cycle's
+//                                    amplitude with a memory, frequencies drift within the record
+//                                    (slow_changes.h)
 //   acoustic_line_errors, flame_line_errors
 //                                    free errors at the cycle's lines (loop_point.h): no cause, but
 //                                    what stands in its place where none is known

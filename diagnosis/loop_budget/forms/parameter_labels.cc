@@ -39,6 +39,7 @@ std::vector<std::string> ParameterLabels(const PointStructure& structure, Eigen:
   add("e_real", structure.flame_lines);
   add("e_imaginary", structure.flame_lines);
   if (structure.delay_follows_amplitude) add("moving_delay", ColumnsOf(SlowChange::kDelay).count);
+  if (structure.gain_follows_amplitude) add("moving_gain", ColumnsOf(SlowChange::kGain).count);
   for (const NoiseTerm& term : structure.noise) {
     add(std::string(LoopNoiseName(term.source)), term.coefficients);
   }

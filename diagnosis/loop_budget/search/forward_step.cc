@@ -109,13 +109,13 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
   return std::nullopt;
 }
 
-std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from,
-                                            const std::vector<LoopStep>& steps) {
+std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from, const std::vector<LoopStep>& steps,
+                                            const std::string& prefix) {
   std::vector<LoopItem> items = LoopItems(from.model, base_);
   std::erase_if(items, [&](const LoopItem& item) {
     return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
   });
-  const std::string key = "step/" + std::to_string(steps.size()) + "/";
+  const std::string key = prefix + "step/" + std::to_string(steps.size()) + "/";
   const double standing = StandingEvidence(records_, from, key, options_);
   std::vector<LoopTrial> trials;
   std::vector<std::string> fitted;

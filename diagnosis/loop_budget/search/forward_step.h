@@ -33,8 +33,9 @@ class ForwardSearch {
   ForwardSearch(const LoopRecords& records, const LoopForm& base, const LoopBudgetOptions& options)
       : records_(records), base_(base), options_(options) {}
 
-  // No value where nothing pays any more.
-  std::optional<LoopStep> Next(const LoopFit& from, const std::vector<LoopStep>& steps);
+  // No value where nothing pays any more. Units are kept under `prefix`.
+  std::optional<LoopStep> Next(const LoopFit& from, const std::vector<LoopStep>& steps,
+                               const std::string& prefix);
 
  private:
   std::vector<LoopTrial> Try(const LoopFit& from, double standing,

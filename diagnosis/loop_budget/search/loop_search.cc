@@ -16,6 +16,8 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kMostItems = 24;
+// Forward and backward; each comes in and goes by the same odds, and could go to and fro.
+constexpr int kMostPasses = 3;
 
 class Search {
  public:
@@ -29,7 +31,8 @@ class Search {
  private:
   LoopFit FitBase();
   LoopFit Driven(const LoopFit& fit, const std::string& key);
-  void Forward(LoopFound* out);
+  // Whether anything came.
+  bool Forward(const std::string& prefix, LoopFound* out);
   void Backward(const std::string& prefix, LoopStanding* out);
   void Exchange(LoopStanding* out);
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
@@ -67,18 +70,21 @@ LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const
                      MaximumTaken::kNext, key, options_);
 }
 
-void Search::Forward(LoopFound* out) {
+bool Search::Forward(const std::string& prefix, LoopFound* out) {
   ForwardSearch forward(records_, base_, options_);
+  const std::size_t before = out->steps.size();
   while (out->steps.size() < kMostItems) {
-    std::optional<LoopStep> next = forward.Next(out->best, out->steps);
+    std::optional<LoopStep> next = forward.Next(out->best, out->steps, prefix);
     if (!next) break;
-    next->after = Driven(next->after, "step/" + std::to_string(out->steps.size()) + "/");
+    next->after = Driven(next->after, prefix + "step/" + std::to_string(out->steps.size()) + "/");
     out->best = next->after;
     out->steps.push_back(std::move(*next));
   }
+  if (out->steps.size() == before) return false;
   for (const LoopItem& item : SharedItemsOf(out->best.model)) {
-    out->best = Refined(records_, std::move(out->best), item, "best/", options_);
+    out->best = Refined(records_, std::move(out->best), item, prefix + "best/", options_);
   }
+  return true;
 }
 
 // What pays least goes first, as long as something does not pay what it had to when it came. A fit
@@ -133,8 +139,14 @@ LoopFound Search::Run() {
   LoopFound out;
   out.base = FitBase();
   out.best = out.base;
-  Forward(&out);
-  Backward("", &out);
+  std::string prefix;
+  for (int pass = 1; Forward(prefix, &out); ++pass) {
+    const std::size_t before = out.steps.size();
+    Backward(prefix, &out);
+    // What has gone may have kept others out.
+    if (out.steps.size() == before || pass == kMostPasses) break;
+    prefix = "again/" + std::to_string(pass) + "/";
+  }
   Exchange(&out);
   out.with_acoustic_lines = WithLines(out.best, &PointStructure::acoustic_lines, "acoustic_lines/");
   out.with_flame_lines = WithLines(out.best, &PointStructure::flame_lines, "flame_lines/");

@@ -1,5 +1,5 @@
-// The search for a budget of records: forward, one item at a time, then backward, then with items
-// in the places of others (loop_exchange.h).
+// The search for a budget of records: forward, one item at a time, then backward, and again where
+// anything went; then with items in the places of others (loop_exchange.h).
 //
 // The score of a model is the density of each operating point's record by the law that the other
 // points give, summed (records_fit.h); of one point alone its evidence. An item comes in where it

@@ -53,6 +53,20 @@ bool HasATone(const LoopRecords& records, const LoopTrial& trial) {
   return 2 * points > records.size();
 }
 
+// Whether a gain that follows the amplitude grows with it. Where the gain fluctuates by itself the
+// amplitude follows it, and the later gain seems to grow with what the amplitude was: what
+// saturates falls.
+bool GainGrows(const LoopRecords& records, const LoopTrial& trial) {
+  double sum = 0.0;
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    sum += ToPoint(trial.model.structure, records.FlameTerms(trial.model.flame_input, e),
+                   trial.starts[0][e])
+               .Change(SlowChange::kGain)
+               .sum();
+  }
+  return sum > 0.0;
+}
+
 }  // namespace
 
 PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
@@ -115,9 +129,10 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     trial.starts[0][i % records.size()] = fits[i].parameters;
   }
   for (LoopTrial& trial : out) {
-    if (trial.item.kind == LoopItemKind::kMode && HasATone(records, trial)) {
-      trial.gain = -std::numeric_limits<double>::infinity();
-    }
+    const bool tone = trial.item.kind == LoopItemKind::kMode && HasATone(records, trial);
+    const bool grows =
+        trial.item.change == &PointStructure::gain_follows_amplitude && GainGrows(records, trial);
+    if (tone || grows) trial.gain = -std::numeric_limits<double>::infinity();
   }
   return out;
 }

@@ -122,7 +122,7 @@ void KeptLoop::SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* ou
     }
   }
   Eigen::Index next = structure_.AcousticChange();
-  for (const Eigen::Index column : AcousticColumnsOf(structure_)) {
+  for (const Eigen::Index column : structure_.AcousticColumns()) {
     double sum = 0.0;
     for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
       sum -= Times(weighted_[i], record_.slow.signals(i, column)).real();
@@ -132,8 +132,7 @@ void KeptLoop::SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* ou
   // What is added to q weighs as an answer does, with the other sign.
   BeforeTaper(weights.flame, &edge_weights_);
   next = structure_.FlameChange(record_.flame.cols());
-  for (Eigen::Index i = 0; i < structure_.FlameChanges(); ++i) {
-    const Eigen::Index column = ColumnsOf(SlowChange::kDelay).first + i;
+  for (const Eigen::Index column : structure_.FlameColumns()) {
     const double sum =
         (edge_weights_.transpose() * record_.slow.signals.col(column)).value().real();
     (*out)[next++] = of_feedback(column) - sum;

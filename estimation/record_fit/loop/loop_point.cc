@@ -19,7 +19,40 @@ Eigen::VectorXcd ComplexOf(const Eigen::VectorXd& parts) {
   return out;
 }
 
+template <typename Changes>
+Eigen::Index Count(const PointStructure& structure, const Changes& changes) {
+  Eigen::Index sum = 0;
+  for (const SlowChangeOfStructure& each : changes) {
+    if (structure.*each.has) sum += ColumnsOf(each.change).count;
+  }
+  return sum;
+}
+
+template <typename Changes>
+std::vector<Eigen::Index> Columns(const PointStructure& structure, const Changes& changes) {
+  std::vector<Eigen::Index> out;
+  for (const SlowChangeOfStructure& each : changes) {
+    const SlowColumns columns = ColumnsOf(each.change);
+    for (Eigen::Index i = 0; structure.*each.has && i < columns.count; ++i) {
+      out.push_back(columns.first + i);
+    }
+  }
+  return out;
+}
+
 }  // namespace
+
+std::vector<Eigen::Index> PointStructure::AcousticColumns() const {
+  return Columns(*this, kAcousticChanges);
+}
+
+std::vector<Eigen::Index> PointStructure::FlameColumns() const {
+  return Columns(*this, kFlameChanges);
+}
+
+Eigen::Index PointStructure::AcousticChanges() const { return Count(*this, kAcousticChanges); }
+
+Eigen::Index PointStructure::FlameChanges() const { return Count(*this, kFlameChanges); }
 
 Eigen::Index PointStructure::NoiseParameters() const {
   Eigen::Index sum = HasBackground(noise) ? 1 : 0;
@@ -46,13 +79,14 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
   out.acoustic_lines =
       ComplexOf(parameters.segment(structure.AcousticLine(), structure.AcousticLines()));
   Eigen::Index next = structure.AcousticChange();
-  const auto take_change = [&](bool has, SlowChange change) {
-    if (!has) return;
-    out.Change(change) = parameters.segment(next, ColumnsOf(change).count);
-    next += ColumnsOf(change).count;
+  const auto take_changes = [&](const auto& changes) {
+    for (const SlowChangeOfStructure& each : changes) {
+      if (!(structure.*each.has)) continue;
+      out.Change(each.change) = parameters.segment(next, ColumnsOf(each.change).count);
+      next += ColumnsOf(each.change).count;
+    }
   };
-  take_change(structure.damping_follows_amplitude, SlowChange::kDamping);
-  take_change(structure.frequency_drifts, SlowChange::kFrequency);
+  take_changes(kAcousticChanges);
   out.path = {structure.delay_spread, std::exp(parameters[next++])};
   if (structure.HasSpread()) out.path.rho = std::exp(parameters[next++]);
   if (structure.second_path) {
@@ -63,7 +97,7 @@ LoopPoint ToPoint(const PointStructure& structure, Eigen::Index flame,
   next += flame;
   out.flame_lines = ComplexOf(parameters.segment(next, structure.FlameLines()));
   next += structure.FlameLines();
-  take_change(structure.delay_follows_amplitude, SlowChange::kDelay);
+  take_changes(kFlameChanges);
   for (const NoiseTerm& term : structure.noise) {
     out.noise.emplace_back(parameters.segment(next, term.coefficients));
     next += term.coefficients;
@@ -85,6 +119,11 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
     add(all.real());
     add(all.imag());
   };
+  const auto add_changes = [&](const auto& changes) {
+    for (const SlowChangeOfStructure& each : changes) {
+      if (structure.*each.has) add(point.Change(each.change));
+    }
+  };
   const auto mode = [&](Eigen::Index k) { return point.modes[static_cast<std::size_t>(k)]; };
   // Of modes that are tied, those of the first.
   for (Eigen::Index k = structure.modes - 1; k >= 0; --k) {
@@ -99,8 +138,7 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).g;
   for (Eigen::Index k = 0; k < structure.modes; ++k) out[next++] = mode(k).h;
   add_lines(point.acoustic_lines, structure.AcousticLines());
-  if (structure.damping_follows_amplitude) add(point.Change(SlowChange::kDamping));
-  if (structure.frequency_drifts) add(point.Change(SlowChange::kFrequency));
+  add_changes(kAcousticChanges);
   out[next++] = std::log(point.path.tau);
   if (structure.HasSpread()) out[next++] = std::log(point.path.rho);
   if (structure.second_path) {
@@ -109,7 +147,7 @@ Eigen::VectorXd ToParameters(const PointStructure& structure, const LoopPoint& p
   }
   add(point.flame);
   add_lines(point.flame_lines, structure.FlameLines());
-  if (structure.delay_follows_amplitude) add(point.Change(SlowChange::kDelay));
+  add_changes(kFlameChanges);
   for (const Eigen::VectorXd& source : point.noise) add(source);
   if (HasBackground(structure.noise)) out[next] = point.background_ratio;
   return out;

@@ -23,7 +23,8 @@
 // It is an error of the mean alone: R and F, which small signals see, and with them the noise's
 // directions, are without it; the Jacobian is of the residuals, and has it (return_difference.h).
 //
-// Damping, frequencies and delay may change within the record (slow_changes.h): k and r.
+// Damping, frequencies, delay and the flame's gain may change within the record (slow_changes.h):
+// k and r.
 //
 // All parameters are one vector: of the modes ln omega, ln xi, a, where residues are complex b, g
 // and h (omega_1 alone where the ratio is given, xi_1 alone where damping is shared, and those of
@@ -34,6 +35,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <optional>
 #include <vector>
@@ -65,6 +67,7 @@ struct PointStructure {
   bool damping_follows_amplitude = false;
   bool frequency_drifts = false;
   bool delay_follows_amplitude = false;
+  bool gain_follows_amplitude = false;
 
   // As many as may be tied to one another.
   Eigen::Index FirstModes() const { return modes - further_modes; }
@@ -84,13 +87,11 @@ struct PointStructure {
   // The index of the first of them.
   Eigen::Index AcousticLine() const { return Transfer() + Transients(); }
   Eigen::Index AcousticChange() const { return AcousticLine() + AcousticLines(); }
-  Eigen::Index AcousticChanges() const {
-    return (damping_follows_amplitude ? ColumnsOf(SlowChange::kDamping).count : 0) +
-           (frequency_drifts ? ColumnsOf(SlowChange::kFrequency).count : 0);
-  }
-  Eigen::Index FlameChanges() const {
-    return delay_follows_amplitude ? ColumnsOf(SlowChange::kDelay).count : 0;
-  }
+  // Of the signals of slow changes, those of cut A and of cut B in the order of their parameters.
+  std::vector<Eigen::Index> AcousticColumns() const;
+  std::vector<Eigen::Index> FlameColumns() const;
+  Eigen::Index AcousticChanges() const;
+  Eigen::Index FlameChanges() const;
   bool HasChanges() const { return AcousticChanges() + FlameChanges() > 0; }
   Eigen::Index Acoustics() const { return AcousticChange() + AcousticChanges(); }
   // With the background's ratio.
@@ -114,6 +115,18 @@ struct PointStructure {
     return std::max<Eigen::Index>(k - FirstModes() + 1, 0);
   }
 };
+
+struct SlowChangeOfStructure {
+  SlowChange change;
+  bool PointStructure::*has;
+};
+// Of cut A and of cut B, in the order of their parameters.
+inline constexpr std::array<SlowChangeOfStructure, 2> kAcousticChanges = {
+    {{SlowChange::kDamping, &PointStructure::damping_follows_amplitude},
+     {SlowChange::kFrequency, &PointStructure::frequency_drifts}}};
+inline constexpr std::array<SlowChangeOfStructure, 2> kFlameChanges = {
+    {{SlowChange::kDelay, &PointStructure::delay_follows_amplitude},
+     {SlowChange::kGain, &PointStructure::gain_follows_amplitude}}};
 
 // One mode, without units.
 struct LoopMode {

@@ -71,7 +71,7 @@ void SetSlowColumns(const RecordSpectra& record, const PointStructure& structure
                     const LoopPoint& point, Eigen::MatrixXcd* of_pressure) {
   const Eigen::VectorXcd r = Transfer(point, record.edge_s);
   Eigen::Index next = structure.AcousticChange();
-  for (const Eigen::Index column : AcousticColumnsOf(structure)) {
+  for (const Eigen::Index column : structure.AcousticColumns()) {
     of_pressure->col(next++) = -r.cwiseProduct(record.slow.signals.col(column));
   }
 }
@@ -179,9 +179,9 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   out.flame.middleCols(delays, flame) = -TaperedColumns(delayed);
   out.flame.middleCols(delays + flame, structure.FlameLines()) = -TaperedColumns(
       LineShapes(record.edge_s, structure.flame_lines).Columns(answer.cwiseQuotient(factors)));
-  if (structure.delay_follows_amplitude) {
-    out.flame.rightCols(structure.FlameChanges()) =
-        TaperedColumns(record.slow.signals.rightCols(structure.FlameChanges()));
+  Eigen::Index next = of_flame - structure.FlameChanges();
+  for (const Eigen::Index column : structure.FlameColumns()) {
+    out.flame.col(next++) = TaperedColumns(record.slow.signals.col(column));
   }
   for (const NoiseTerm& term : structure.noise) {
     out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));

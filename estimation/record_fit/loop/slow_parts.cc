@@ -3,23 +3,11 @@
 namespace howl {
 namespace {
 
-void AddColumns(SlowChange change, std::vector<Eigen::Index>* out) {
-  const SlowColumns columns = ColumnsOf(change);
-  for (Eigen::Index i = 0; i < columns.count; ++i) out->push_back(columns.first + i);
-}
-
 // The first columns belong to cut A, the others to cut B.
 constexpr Eigen::Index kOfAcoustics = ColumnsOf(SlowChange::kDelay).first;
 constexpr Eigen::Index kOfFlame = kSlowColumns - kOfAcoustics;
 
 }  // namespace
-
-std::vector<Eigen::Index> AcousticColumnsOf(const PointStructure& structure) {
-  std::vector<Eigen::Index> out;
-  if (structure.damping_follows_amplitude) AddColumns(SlowChange::kDamping, &out);
-  if (structure.frequency_drifts) AddColumns(SlowChange::kFrequency, &out);
-  return out;
-}
 
 Eigen::VectorXcd HeatReleaseOfAcoustics(const RecordSpectra& record, const LoopPoint& point) {
   const auto k = point.changes.head<kOfAcoustics>();

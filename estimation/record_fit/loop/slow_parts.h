@@ -3,14 +3,10 @@
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_SLOW_PARTS_H_
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "estimation/record_fit/loop/loop_point.h"
 
 namespace howl {
-
-// The signals of cut A that the structure has, in the order of their parameters.
-std::vector<Eigen::Index> AcousticColumnsOf(const PointStructure& structure);
 
 // Q in cut A and in cut B, on the edges of the record's bins.
 Eigen::VectorXcd HeatReleaseOfAcoustics(const RecordSpectra& record, const LoopPoint& point);

@@ -100,6 +100,7 @@ Eigen::MatrixXcd OverPressure(const Eigen::VectorXcd& s, C rate, C ratio) {
       const C lag = LagAt(s[i] - C(0.0, 1.0), kMemories[j]);
       out(i, ColumnsOf(SlowChange::kDamping).first + column) = lag * rate;
       out(i, ColumnsOf(SlowChange::kDelay).first + column) = 0.5 * lag * s[i] * ratio;
+      out(i, ColumnsOf(SlowChange::kGain).first + column) = -0.5 * lag * ratio;
     }
   }
   return out;
@@ -151,10 +152,14 @@ void SetSlowSignals(const LoopPoint* fitted, const DriftRange& drift, RecordSpec
     signals.col(ColumnsOf(SlowChange::kFrequency).first) +=
         part.omega * part.omega * part.share.cwiseProduct(product(instants.Time(drift), turned));
   }
-  const Eigen::VectorXd heat_release_rate = instants.SignalOf(GivenOut(*record, fitted), rate);
-  Eigen::Index column = ColumnsOf(SlowChange::kDelay).first;
-  for (const double memory : kMemories) {
-    signals.col(column++) = product(instants.LaggedAboutMean(amplitude, memory), heat_release_rate);
+  const Eigen::VectorXcd given_out = GivenOut(*record, fitted);
+  const Eigen::VectorXd heat_release = instants.SignalOf(given_out, plain);
+  const Eigen::VectorXd heat_release_rate = instants.SignalOf(given_out, rate);
+  for (std::size_t j = 0; j < kMemories.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    const Eigen::VectorXd m = instants.LaggedAboutMean(amplitude, kMemories[j]);
+    signals.col(ColumnsOf(SlowChange::kDelay).first + column) = product(m, heat_release_rate);
+    signals.col(ColumnsOf(SlowChange::kGain).first + column) = -product(m, heat_release);
   }
   const C ratio = RatioAtCycle(*record);
   const C of_mode = modes.empty() ? 1.0 : RateOverPressure(ModeOfCycle(modes));

@@ -3,6 +3,7 @@
 //   damping     xi + sum_j xi_j m_j,     m_j = L_j (A^2 / mean A^2 - 1)
 //   frequency   omega (1 + w m),         m = t / T - 1/2
 //   delay       tau + sum_j tau_j m_j,   m_j = L_j (A / mean A - 1)
+//   gain        1 + sum_j g_j m_j        of the flame's answer, with the same m_j
 //
 // A is the amplitude of p about its cycle, L_j lags of first order, of 1, 2.5 and 6 cycles. Their
 // sums come near any memory with which a loop follows its amplitude, of several lags too, from none
@@ -14,14 +15,17 @@
 //
 //   R (Q - sum_j k_j Z_j),   Z: m x' or m x (slow_signals.h),   k a = 2 xi_j omega or 2 w omega^2
 //   Q + sum_j r_j Y_j,       Y: m dq/dt, to first order,        r_j = tau_j
+//                            or -m q,                           r_j = g_j
 //
 // in the place of Q in cut A, and in the place of Q in cut B. A follows p, so that small signals
 // near the cycle meet another loop than the mean one: on average over the cycle's phase, with L_j
 // at the distance from the cycle,
 //
-//   Z_j = L_j P,   Y_j = 1/2 L_j s (Q_1 / P_1) P        (Q_1 / P_1: at the cycle)
+//   Z_j = L_j P,   Y_j = 1/2 L_j s (Q_1 / P_1) P   or   -1/2 L_j (Q_1 / P_1) P
 //
-// is what they add to the return difference (return_difference.h).
+// with Q_1 / P_1 at the cycle, is what they add to the return difference (return_difference.h). A
+// gain that follows at once is the flame's curve; one that lags meets slow changes of the amplitude
+// only.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_SPECTRA_SLOW_CHANGES_H_
 #define HOWL_ESTIMATION_RECORD_FIT_SPECTRA_SLOW_CHANGES_H_
 
@@ -30,7 +34,7 @@
 
 namespace howl {
 
-enum class SlowChange : std::uint8_t { kDamping, kFrequency, kDelay };
+enum class SlowChange : std::uint8_t { kDamping, kFrequency, kDelay, kGain };
 
 // Of the signals m, those of one change.
 struct SlowColumns {
@@ -38,10 +42,19 @@ struct SlowColumns {
   Eigen::Index count;
 };
 constexpr SlowColumns ColumnsOf(SlowChange change) {
-  if (change == SlowChange::kDamping) return {0, 3};
-  return change == SlowChange::kFrequency ? SlowColumns{3, 1} : SlowColumns{4, 3};
+  switch (change) {
+    case SlowChange::kDamping:
+      return {0, 3};
+    case SlowChange::kFrequency:
+      return {3, 1};
+    case SlowChange::kDelay:
+      return {4, 3};
+    case SlowChange::kGain:
+      break;
+  }
+  return {7, 3};
 }
-inline constexpr Eigen::Index kSlowColumns = 7;
+inline constexpr Eigen::Index kSlowColumns = 10;
 
 // A column each, in the order of SlowChange.
 struct SlowSignals {

@@ -33,10 +33,11 @@ bool Contains(const PointStructure& rich, const PointStructure& poor) {
   if (poor.second_path && !rich.second_path) return false;
   if (rich.acoustic_lines < poor.acoustic_lines || rich.flame_lines < poor.flame_lines)
     return false;
-  for (const auto change :
-       {&PointStructure::damping_follows_amplitude, &PointStructure::frequency_drifts,
-        &PointStructure::delay_follows_amplitude}) {
-    if (poor.*change && !(rich.*change)) return false;
+  const auto lacks = [&](const SlowChangeOfStructure& each) {
+    return poor.*each.has && !(rich.*each.has);
+  };
+  if (std::ranges::any_of(kAcousticChanges, lacks) || std::ranges::any_of(kFlameChanges, lacks)) {
+    return false;
   }
   return std::ranges::all_of(poor.noise, [&](const NoiseTerm& term) {
     const NoiseTerm* of_rich = TermOf(rich, term.source);

@@ -48,6 +48,7 @@ struct ModalLoop {
   double memory_s = 0.01;  // of the lag
   double damping_per_square = 0.0;   // added to xi
   double delay_per_amplitude = 0.0;  // added to tau, s
+  double gain_per_amplitude = 0.0;   // of the flame's answer, added to one
   double frequency_span = 0.0;       // of omega, from the record's start to its end
   double gain_rms = 0.0;             // of the flame's answer, relative: it fluctuates
   double gain_memory_s = 0.02;
@@ -217,7 +218,8 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
       const double keep = std::exp(-h / loop.gain_memory_s);
       gain = keep * gain + std::sqrt(1.0 - keep * keep) * loop.gain_rms * random.Normal();
     }
-    const double next = (1.0 + gain) * burning + drawn;
+    const double follows = 1.0 + loop.gain_per_amplitude * std::sqrt(square);
+    const double next = (1.0 + gain) * follows * burning + drawn;
     const double mean = 0.5 * (q + next);
     for (State& m : states) {
       const double x = m.e00 * m.x + m.e01 * m.rate + m.input0 * mean;

@@ -43,6 +43,7 @@ TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
     structure.complex_residues = !tied;
     structure.damping_follows_amplitude = further != 0;
     structure.frequency_drifts = structure.delay_follows_amplitude = further != 1;
+    structure.gain_follows_amplitude = further != -1;
     structure.noise.push_back({LoopNoise::kDuct, 2});
     structure.noise.push_back({LoopNoise::kBackground, 2});
     const PointPrior prior = PriorOf(structure, record);

@@ -53,6 +53,12 @@ const std::vector<Change>& Changes() {
        [](double square, ModalLoop* loop) { loop->delay_per_amplitude = 2e-4 / std::sqrt(square); },
        [](const ModalLoop& loop, double square, const LoopPoint&, const RecordScale& scale) {
          return loop.delay_per_amplitude * std::sqrt(square) * scale.AngularFrequency();
+       }},
+      {"Gain", SlowChange::kGain, &PointStructure::gain_follows_amplitude, 2.0,
+       [](double square, ModalLoop* loop) { loop->gain_per_amplitude = -0.2 / std::sqrt(square); },
+       [](const ModalLoop& loop, double square, const LoopPoint&, const RecordScale&) {
+         const double at_cycle = loop.gain_per_amplitude * std::sqrt(square);
+         return at_cycle / (1.0 + at_cycle);
        }}};
   return kChanges;
 }
@@ -84,8 +90,8 @@ TEST_P(SlowSignals, AreToldWithoutBiasAndWithTheirErrors) {
         FitPoint(spectra, structure, PriorOf(structure, spectra),
                  InRicherStructure(spectra, plain, before.parameters, structure, {}));
     const LoopPoint point = ToPoint(structure, flame, fit.parameters);
-    const Eigen::Index first = change.change == SlowChange::kDelay ? structure.FlameChange(flame)
-                                                                   : structure.AcousticChange();
+    const Eigen::Index first =
+        structure.FlameChanges() > 0 ? structure.FlameChange(flame) : structure.AcousticChange();
     const Eigen::Index count = ColumnsOf(change.change).count;
     const double deviation = std::sqrt(fit.Covariance().block(first, first, count, count).sum());
     const double truth = change.truth(loop, SquaredAmplitude(record),

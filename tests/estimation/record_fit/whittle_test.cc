@@ -47,6 +47,7 @@ PointStructure ChangingStructure(PointStructure structure) {
   structure.damping_follows_amplitude = true;
   structure.frequency_drifts = true;
   structure.delay_follows_amplitude = true;
+  structure.gain_follows_amplitude = true;
   return structure;
 }
 
