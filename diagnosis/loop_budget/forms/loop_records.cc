@@ -61,11 +61,11 @@ RecordSpectra LoopRecords::Prepared(RecordSpectra record, const LoopForm& form, 
   record = RecordBeside(std::move(record), form.effects);
   if (!form.structure.HasChanges()) return record;
   if (fitted_.empty()) {
-    SetSlowSignals(nullptr, drift, &record);
+    SetSlowSignals(form.structure, nullptr, drift, &record);
   } else {
     LoopPoint fitted = fitted_[e];
     if (form.flame_input != fitted_input_) fitted.flame.resize(0);
-    SetSlowSignals(&fitted, drift, &record);
+    SetSlowSignals(form.structure, &fitted, drift, &record);
   }
   return record;
 }

@@ -122,21 +122,21 @@ void KeptLoop::SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* ou
     }
   }
   Eigen::Index next = structure_.AcousticChange();
-  for (const Eigen::Index column : structure_.AcousticColumns()) {
+  ForEachColumn(structure_, kAcousticChanges, [&](Eigen::Index column) {
     double sum = 0.0;
     for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
       sum -= Times(weighted_[i], record_.slow.signals(i, column)).real();
     }
     (*out)[next++] = sum + of_feedback(column);
-  }
+  });
   // What is added to q weighs as an answer does, with the other sign.
   BeforeTaper(weights.flame, &edge_weights_);
   next = structure_.FlameChange(record_.flame.cols());
-  for (const Eigen::Index column : structure_.FlameColumns()) {
+  ForEachColumn(structure_, kFlameChanges, [&](Eigen::Index column) {
     const double sum =
         (edge_weights_.transpose() * record_.slow.signals.col(column)).value().real();
     (*out)[next++] = of_feedback(column) - sum;
-  }
+  });
 }
 
 void KeptLoop::SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out) {

@@ -22,33 +22,11 @@ Eigen::VectorXcd ComplexOf(const Eigen::VectorXd& parts) {
 template <typename Changes>
 Eigen::Index Count(const PointStructure& structure, const Changes& changes) {
   Eigen::Index sum = 0;
-  for (const SlowChangeOfStructure& each : changes) {
-    if (structure.*each.has) sum += ColumnsOf(each.change).count;
-  }
+  ForEachColumn(structure, changes, [&](Eigen::Index) { ++sum; });
   return sum;
 }
 
-template <typename Changes>
-std::vector<Eigen::Index> Columns(const PointStructure& structure, const Changes& changes) {
-  std::vector<Eigen::Index> out;
-  for (const SlowChangeOfStructure& each : changes) {
-    const SlowColumns columns = ColumnsOf(each.change);
-    for (Eigen::Index i = 0; structure.*each.has && i < columns.count; ++i) {
-      out.push_back(columns.first + i);
-    }
-  }
-  return out;
-}
-
 }  // namespace
-
-std::vector<Eigen::Index> PointStructure::AcousticColumns() const {
-  return Columns(*this, kAcousticChanges);
-}
-
-std::vector<Eigen::Index> PointStructure::FlameColumns() const {
-  return Columns(*this, kFlameChanges);
-}
 
 Eigen::Index PointStructure::AcousticChanges() const { return Count(*this, kAcousticChanges); }
 

@@ -87,9 +87,6 @@ struct PointStructure {
   // The index of the first of them.
   Eigen::Index AcousticLine() const { return Transfer() + Transients(); }
   Eigen::Index AcousticChange() const { return AcousticLine() + AcousticLines(); }
-  // Of the signals of slow changes, those of cut A and of cut B in the order of their parameters.
-  std::vector<Eigen::Index> AcousticColumns() const;
-  std::vector<Eigen::Index> FlameColumns() const;
   Eigen::Index AcousticChanges() const;
   Eigen::Index FlameChanges() const;
   bool HasChanges() const { return AcousticChanges() + FlameChanges() > 0; }
@@ -127,6 +124,16 @@ inline constexpr std::array<SlowChangeOfStructure, 2> kAcousticChanges = {
 inline constexpr std::array<SlowChangeOfStructure, 2> kFlameChanges = {
     {{SlowChange::kDelay, &PointStructure::delay_follows_amplitude},
      {SlowChange::kGain, &PointStructure::gain_follows_amplitude}}};
+
+// For each signal of the changes that the structure has, its column in SlowSignals.
+template <typename Changes, typename Do>
+void ForEachColumn(const PointStructure& structure, const Changes& changes, const Do& apply) {
+  for (const SlowChangeOfStructure& each : changes) {
+    if (!(structure.*each.has)) continue;
+    const SlowColumns columns = ColumnsOf(each.change);
+    for (Eigen::Index i = 0; i < columns.count; ++i) apply(columns.first + i);
+  }
+}
 
 // One mode, without units.
 struct LoopMode {

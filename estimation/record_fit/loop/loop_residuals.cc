@@ -71,9 +71,9 @@ void SetSlowColumns(const RecordSpectra& record, const PointStructure& structure
                     const LoopPoint& point, Eigen::MatrixXcd* of_pressure) {
   const Eigen::VectorXcd r = Transfer(point, record.edge_s);
   Eigen::Index next = structure.AcousticChange();
-  for (const Eigen::Index column : structure.AcousticColumns()) {
+  ForEachColumn(structure, kAcousticChanges, [&](Eigen::Index column) {
     of_pressure->col(next++) = -r.cwiseProduct(record.slow.signals.col(column));
-  }
+  });
 }
 
 }  // namespace
@@ -180,9 +180,9 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   out.flame.middleCols(delays + flame, structure.FlameLines()) = -TaperedColumns(
       LineShapes(record.edge_s, structure.flame_lines).Columns(answer.cwiseQuotient(factors)));
   Eigen::Index next = of_flame - structure.FlameChanges();
-  for (const Eigen::Index column : structure.FlameColumns()) {
+  ForEachColumn(structure, kFlameChanges, [&](Eigen::Index column) {
     out.flame.col(next++) = TaperedColumns(record.slow.signals.col(column));
-  }
+  });
   for (const NoiseTerm& term : structure.noise) {
     out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));
   }

@@ -26,6 +26,9 @@ constexpr double kNearLine = 0.1;
 
 bool IsNearCycle(C s, double reach) { return std::abs(s.imag() - 1.0) < reach; }
 
+constexpr auto kPlain = [](C) { return 1.0; };
+constexpr auto kRate = [](C s) { return s; };
+
 constexpr std::array kMemories = {1.0, 2.5, 6.0};  // of the lags, in cycles
 
 C LagAt(C s, double memory_cycles) {
@@ -124,43 +127,61 @@ C RateOverPressure(const LoopMode& mode) {
   return std::hypot(mode.a, mode.b) * s / (mode.a * s + mode.b * mode.omega);
 }
 
-}  // namespace
-
-void SetSlowSignals(const LoopPoint* fitted, const DriftRange& drift, RecordSpectra* record) {
-  const std::vector<LoopMode> modes = fitted ? fitted->modes : std::vector<LoopMode>();
+void SetAcousticSignals(const PointStructure& structure, const std::vector<LoopMode>& modes,
+                        const DriftRange& drift, RecordSpectra* record) {
+  if (structure.AcousticChanges() == 0) return;
   const Instants instants(*record);
   Eigen::MatrixXcd& signals = record->slow.signals;
-  signals.setZero(record->edge_s.size(), kSlowColumns);
-  const auto product = [&](const Eigen::VectorXd& m, const Eigen::VectorXd& signal) {
-    return instants.SpectrumOf(m.cwiseProduct(signal));
-  };
-  const auto plain = [](C) { return 1.0; };
-  const auto rate = [](C s) { return s; };
-  const Eigen::VectorXd square = instants.SquaredAmplitude();
-  const Eigen::VectorXd amplitude = square.cwiseSqrt();
   std::vector<Eigen::VectorXd> of_square;
-  for (const double memory : kMemories) {
-    of_square.push_back(instants.LaggedAboutMean(square, memory));
+  if (structure.damping_follows_amplitude) {
+    const Eigen::VectorXd square = instants.SquaredAmplitude();
+    for (const double memory : kMemories) {
+      of_square.push_back(instants.LaggedAboutMean(square, memory));
+    }
   }
   for (const ModalPart& part : PartsOf(*record, modes)) {
-    const Eigen::VectorXd x_rate = instants.SignalOf(part.x, rate);
+    const auto add = [&](Eigen::Index column, double by, const Eigen::VectorXd& product) {
+      signals.col(column) += by * part.share.cwiseProduct(instants.SpectrumOf(product));
+    };
+    const Eigen::VectorXd x_rate = instants.SignalOf(part.x, kRate);
     Eigen::Index column = ColumnsOf(SlowChange::kDamping).first;
-    for (const Eigen::VectorXd& m : of_square) {
-      signals.col(column++) += part.omega * part.share.cwiseProduct(product(m, x_rate));
-    }
-    const Eigen::VectorXd turned = instants.SignalOf(part.x, plain) + part.lean * x_rate;
-    signals.col(ColumnsOf(SlowChange::kFrequency).first) +=
-        part.omega * part.omega * part.share.cwiseProduct(product(instants.Time(drift), turned));
+    for (const Eigen::VectorXd& m : of_square) add(column++, part.omega, m.cwiseProduct(x_rate));
+    if (!structure.frequency_drifts) continue;
+    const Eigen::VectorXd turned = instants.SignalOf(part.x, kPlain) + part.lean * x_rate;
+    add(ColumnsOf(SlowChange::kFrequency).first, part.omega * part.omega,
+        instants.Time(drift).cwiseProduct(turned));
   }
+}
+
+void SetFlameSignals(const PointStructure& structure, const LoopPoint* fitted,
+                     RecordSpectra* record) {
+  if (structure.FlameChanges() == 0) return;
+  const Instants instants(*record);
+  const Eigen::VectorXd amplitude = instants.SquaredAmplitude().cwiseSqrt();
   const Eigen::VectorXcd given_out = GivenOut(*record, fitted);
-  const Eigen::VectorXd heat_release = instants.SignalOf(given_out, plain);
-  const Eigen::VectorXd heat_release_rate = instants.SignalOf(given_out, rate);
+  const Eigen::VectorXd heat_release = instants.SignalOf(given_out, kPlain);
+  const Eigen::VectorXd heat_release_rate = instants.SignalOf(given_out, kRate);
   for (std::size_t j = 0; j < kMemories.size(); ++j) {
-    const auto column = static_cast<Eigen::Index>(j);
     const Eigen::VectorXd m = instants.LaggedAboutMean(amplitude, kMemories[j]);
-    signals.col(ColumnsOf(SlowChange::kDelay).first + column) = product(m, heat_release_rate);
-    signals.col(ColumnsOf(SlowChange::kGain).first + column) = -product(m, heat_release);
+    const auto set = [&](SlowChange change, const Eigen::VectorXd& product) {
+      record->slow.signals.col(ColumnsOf(change).first + static_cast<Eigen::Index>(j)) =
+          instants.SpectrumOf(product);
+    };
+    if (structure.delay_follows_amplitude) {
+      set(SlowChange::kDelay, m.cwiseProduct(heat_release_rate));
+    }
+    if (structure.gain_follows_amplitude) set(SlowChange::kGain, -m.cwiseProduct(heat_release));
   }
+}
+
+}  // namespace
+
+void SetSlowSignals(const PointStructure& structure, const LoopPoint* fitted,
+                    const DriftRange& drift, RecordSpectra* record) {
+  const std::vector<LoopMode> modes = fitted ? fitted->modes : std::vector<LoopMode>();
+  record->slow.signals.setZero(record->edge_s.size(), kSlowColumns);
+  SetAcousticSignals(structure, modes, drift, record);
+  SetFlameSignals(structure, fitted, record);
   const C ratio = RatioAtCycle(*record);
   const C of_mode = modes.empty() ? 1.0 : RateOverPressure(ModeOfCycle(modes));
   record->slow.of_pressure = OverPressure(record->s, of_mode, ratio);

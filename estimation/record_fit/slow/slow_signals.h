@@ -27,9 +27,10 @@ struct DriftRange {
   double to = 0.5;
 };
 
-// Sets them, of the record's middle as well. fitted: the loop, or none; one whose flame is not of
-// the record's functions says what modes hold alone.
-void SetSlowSignals(const LoopPoint* fitted, const DriftRange& drift, RecordSpectra* record);
+// Sets those of the changes that the structure has, of the record's middle as well. fitted: the
+// loop, or none; one whose flame is not of the record's functions says what modes hold alone.
+void SetSlowSignals(const PointStructure& structure, const LoopPoint* fitted,
+                    const DriftRange& drift, RecordSpectra* record);
 
 }  // namespace howl
 

@@ -30,7 +30,6 @@ TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
   const ModalLoop loop = DuctOfModes(2);
   RecordSpectra record =
       MakeRecordSpectra(SimulateModalLoop(loop, 0.5, 1), 203.0, FlameInput::kPressureRate);
-  SetSlowSignals(nullptr, {}, &record);
   for (const int further : {-1, 0, 1}) {
     const bool tied = further >= 0;
     PointStructure structure = FreeStructure(tied ? 2 + further : 2);
@@ -46,6 +45,7 @@ TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
     structure.gain_follows_amplitude = further != -1;
     structure.noise.push_back({LoopNoise::kDuct, 2});
     structure.noise.push_back({LoopNoise::kBackground, 2});
+    SetSlowSignals(structure, nullptr, {}, &record);
     const PointPrior prior = PriorOf(structure, record);
     Eigen::VectorXd parameters = StartsOf(record, structure, prior, 4, 1).back();
     const Eigen::Index errors = structure.AcousticLines();

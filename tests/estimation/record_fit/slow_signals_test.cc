@@ -83,9 +83,9 @@ TEST_P(SlowSignals, AreToldWithoutBiasAndWithTheirErrors) {
                                      StartsOf(spectra, plain, PriorOf(plain, spectra), 4, 1));
     const Eigen::Index flame = spectra.flame.cols();
     const LoopPoint found = ToPoint(plain, flame, before.parameters);
-    SetSlowSignals(&found, {}, &spectra);
     PointStructure structure = plain;
     structure.*change.flag = true;
+    SetSlowSignals(structure, &found, {}, &spectra);
     const PointFit fit =
         FitPoint(spectra, structure, PriorOf(structure, spectra),
                  InRicherStructure(spectra, plain, before.parameters, structure, {}));

@@ -55,7 +55,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
   const ModalLoop loop = DuctOfModes(2);
   const Record record = SimulateModalLoop(loop, 0.5, 1);
   RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
-  SetSlowSignals(nullptr, {}, &spectra);
+  SetSlowSignals(ChangingStructure({}), nullptr, {}, &spectra);
   for (PointStructure structure :
        {FreeStructure(2), TiedStructure(), TiedBesideAnother(), ErringStructure(DelaySpread::kNone),
         ErringStructure(DelaySpread::kNormal), ErringStructure(DelaySpread::kGamma),
