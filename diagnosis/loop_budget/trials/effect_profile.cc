@@ -31,7 +31,7 @@ constexpr double kFirstStep = 0.03;
 constexpr double kAsForetold = 0.5;
 // Nats over the range squared, below which a profile is flat: no step is to be foretold from it.
 constexpr double kFlat = 1e-6;
-// Of the same: ten times as long differences see the third derivative, a tenth as long ones the
+// Of the range: ten times as long differences see the third derivative, a tenth as long ones the
 // last digits of sums over thousands of bins.
 constexpr double kDifference = 1e-5;
 

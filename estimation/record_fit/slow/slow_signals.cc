@@ -128,13 +128,12 @@ C RateOverPressure(const LoopMode& mode) {
 }
 
 void SetAcousticSignals(const PointStructure& structure, const std::vector<LoopMode>& modes,
-                        const DriftRange& drift, RecordSpectra* record) {
+                        const DriftRange& drift, const Instants& instants,
+                        const Eigen::VectorXd& square, RecordSpectra* record) {
   if (structure.AcousticChanges() == 0) return;
-  const Instants instants(*record);
   Eigen::MatrixXcd& signals = record->slow.signals;
   std::vector<Eigen::VectorXd> of_square;
   if (structure.damping_follows_amplitude) {
-    const Eigen::VectorXd square = instants.SquaredAmplitude();
     for (const double memory : kMemories) {
       of_square.push_back(instants.LaggedAboutMean(square, memory));
     }
@@ -154,10 +153,10 @@ void SetAcousticSignals(const PointStructure& structure, const std::vector<LoopM
 }
 
 void SetFlameSignals(const PointStructure& structure, const LoopPoint* fitted,
+                     const Instants& instants, const Eigen::VectorXd& square,
                      RecordSpectra* record) {
   if (structure.FlameChanges() == 0) return;
-  const Instants instants(*record);
-  const Eigen::VectorXd amplitude = instants.SquaredAmplitude().cwiseSqrt();
+  const Eigen::VectorXd amplitude = square.cwiseSqrt();
   const Eigen::VectorXcd given_out = GivenOut(*record, fitted);
   const Eigen::VectorXd heat_release = instants.SignalOf(given_out, kPlain);
   const Eigen::VectorXd heat_release_rate = instants.SignalOf(given_out, kRate);
@@ -180,8 +179,11 @@ void SetSlowSignals(const PointStructure& structure, const LoopPoint* fitted,
                     const DriftRange& drift, RecordSpectra* record) {
   const std::vector<LoopMode> modes = fitted ? fitted->modes : std::vector<LoopMode>();
   record->slow.signals.setZero(record->edge_s.size(), kSlowColumns);
-  SetAcousticSignals(structure, modes, drift, record);
-  SetFlameSignals(structure, fitted, record);
+  const Instants instants(*record);
+  const bool follow = structure.damping_follows_amplitude || structure.FlameChanges() > 0;
+  const Eigen::VectorXd square = follow ? instants.SquaredAmplitude() : Eigen::VectorXd();
+  SetAcousticSignals(structure, modes, drift, instants, square, record);
+  SetFlameSignals(structure, fitted, instants, square, record);
   const C ratio = RatioAtCycle(*record);
   const C of_mode = modes.empty() ? 1.0 : RateOverPressure(ModeOfCycle(modes));
   record->slow.of_pressure = OverPressure(record->s, of_mode, ratio);

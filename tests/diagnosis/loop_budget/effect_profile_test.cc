@@ -19,7 +19,7 @@ constexpr double kLeak = 0.1;
 // Of each point's maximum: as near as its arithmetic allows.
 constexpr PointFitOptions kExact{.iterations = 400, .converged = 1e-9};
 
-// A leak moves acoustics and flame with it, a hundred times as much as the records leave open.
+// A leak moves acoustics and flame with it, far more than the records leave open.
 std::vector<LoopRecord> LeakingDucts() {
   return DuctsAt({1.2, 1.5, 1.8}, [](Record* record) {
     const double leak =
