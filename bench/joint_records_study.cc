@@ -24,6 +24,7 @@
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
 #include "bench/record_structures.h"
+#include "bench/rig_loop_records.h"
 #include "bench/seconds.h"
 #include "diagnosis/held_out/common_ceiling.h"
 #include "diagnosis/held_out/octave_gaps.h"

@@ -2,7 +2,7 @@
 #ifndef HOWL_BENCH_LOOP_BASE_H_
 #define HOWL_BENCH_LOOP_BASE_H_
 
-#include "diagnosis/budget_of_rig.h"
+#include "diagnosis/loop_budget/forms/loop_form.h"
 #include "estimation/joint_records/record_loop_spec.h"
 #include "io/config/reading/config_reading.h"
 
@@ -10,7 +10,7 @@ namespace howl {
 
 // The loop of the config's model, or the paper's where it states no other.
 inline LoopForm LoopBaseOf(const Config& config) {
-  return config.record_loop ? LeastForm(*config.record_loop) : PapersForm(2);
+  return config.record_loop ? LeastForm(*config.record_loop) : PapersForm();
 }
 
 }  // namespace howl

@@ -11,6 +11,7 @@
 
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
+#include "bench/rig_loop_records.h"
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/kept_memory.h"
 

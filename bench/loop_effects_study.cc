@@ -20,6 +20,7 @@
 #include "bench/known_effects.h"
 #include "bench/load_rig.h"
 #include "bench/loop_base.h"
+#include "bench/rig_loop_records.h"
 #include "bench/seconds.h"
 #include "diagnosis/loop_budget/forms/shared_effect.h"
 #include "diagnosis/loop_budget/loop_budget.h"

@@ -14,6 +14,7 @@
 #include "bench/budget_row.h"
 #include "bench/loop_base.h"
 #include "bench/measured_rig.h"
+#include "bench/rig_loop_records.h"
 #include "bench/seconds.h"
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/kept_memory.h"
@@ -48,7 +49,7 @@ void PrintCase(const std::filesystem::path& folder) {
   const nlohmann::json truth = nlohmann::json::parse(file);
   const MeasuredRig rig = ReadCase(folder);
   const double begun = Seconds();
-  const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(rig), PapersForm(2), {});
+  const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(rig), PapersForm(), {});
   std::printf("%s %-24s %s | %s ", folder.filename().c_str(),
               truth["effect"].get<std::string>().c_str(), truth["effect_parameters"].dump().c_str(),
               found.diagnosis.kind == VerdictKind::kUnknown ? "unknown" : "");

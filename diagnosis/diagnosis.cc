@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "diagnosis/budget_of_rig.h"
 #include "diagnosis/search/choose_modes.h"
 #include "diagnosis/search/search.h"
 
@@ -29,13 +28,6 @@ Diagnosis Diagnose(const std::vector<DiagnosisExperiment>& experiments,
     out.own_delays_gain = own_delays_gain;
   }
   out.second_mode_gain = second_mode_gain;
-  // A reference has the rig's own gap already. What is repaired are samples, and a transfer
-  // function fitted to them would speak of the repair.
-  const bool wanted = options.find_budget && options.reference.empty() && out.repaired.empty();
-  if (wanted && !out.stopped && out.kind == VerdictKind::kUnknown) {
-    out.budget = BudgetOfRig(experiments, out.model.modes, options);
-    out.stopped = !out.budget;
-  }
   return out;
 }
 

@@ -50,18 +50,18 @@ const std::map<std::string, std::map<std::string, Setter>>& Numbers() {
       {"external_tone", {{"rel", &Behaviour::tone}, {"hz", &Behaviour::tone_hz}}},
       {"x_entropy_wave",
        {{"rel", &Behaviour::entropy_share}, {"delay_s", &Behaviour::entropy_delay_s}}},
-      {"x_mode_damping", {{"factor", &Behaviour::second_mode_damping}}},
+      {"own_damping", {{"factor", &Behaviour::second_mode_damping}}},
       {"x_flame_resonance",
        {{"gain", &Behaviour::flame_peak_gain}, {"ratio", &Behaviour::flame_peak_ratio}}},
       {"x_flame_play", {{"rel", &Behaviour::flame_play}}},
       {"x_delay_wander", {{"rel_rms", &Behaviour::delay_wander}}},
-      {"x_duct_noise", {{"rel", &Behaviour::duct_noise}}},
+      {"duct_noise", {{"rel", &Behaviour::duct_noise}}},
       {"x_swept_source",
        {{"rel", &Behaviour::sweep},
         {"low_hz", &Behaviour::sweep_low_hz},
         {"high_hz", &Behaviour::sweep_high_hz}}},
       {"x_p_highpass", {{"cutoff_hz", &Behaviour::p_highpass_hz}}},
-      {"x_p_dropouts", {{"per_s", &Behaviour::p_dropouts_per_s}}},
+      {"p_dropouts", {{"per_s", &Behaviour::p_dropouts_per_s}}},
       {"x_q_highpass", {{"cutoff_hz", &Behaviour::q_highpass_hz}}},
       {"x_q_compression", {{"rel", &Behaviour::q_compression}}},
       {"x_point_wander", {{"rel_rms", &Behaviour::point_wander}}},
@@ -94,14 +94,14 @@ const std::vector<EffectInfo>& Effects() {
       {"second_delay_path", "delay", true, "share", 0.07, 0.2, 0.34},
       {"external_tone", "source", true, "rel", 0.015, 0.08, 0.2},
       {"x_entropy_wave", "acoustics", false, "rel", 0.06, 0.16, 0.3},
-      {"x_mode_damping", "acoustics", false, "factor", 1.2, 1.6, 2.5},
+      {"own_damping", "acoustics", true, "factor", 1.2, 1.6, 2.5},
       {"x_flame_resonance", "flame", false, "gain", 0.1, 0.3, 0.8},
       {"x_flame_play", "flame", false, "rel", 0.03, 0.065, 0.13},
       {"x_delay_wander", "delay", false, "rel_rms", 0.006, 0.016, 0.04},
-      {"x_duct_noise", "source", false, "rel", 0.15, 0.4, 1.2},
+      {"duct_noise", "source", true, "rel", 0.15, 0.4, 1.2},
       {"x_swept_source", "source", false, "rel", 0.03, 0.09, 0.24},
       {"x_p_highpass", "p_instrument", false, "cutoff_hz", 6, 22, 80},
-      {"x_p_dropouts", "p_instrument", false, "per_s", 2, 6, 20},
+      {"p_dropouts", "p_instrument", true, "per_s", 2, 6, 20},
       {"x_q_highpass", "q_instrument", false, "cutoff_hz", 15, 60, 150},
       {"x_q_compression", "q_instrument", false, "rel", 0.05, 0.14, 0.35},
       {"x_point_wander", "operating_point", false, "rel_rms", 0.015, 0.04, 0.1},
@@ -163,7 +163,7 @@ Parameters DrawEffect(const EffectInfo& effect, double severity, const DrawScale
     out["correlation_s"] = random.Uniform(0.03, 0.08);
   } else if (id == "x_entropy_wave") {
     out["delay_s"] = scales.tau_s * random.Uniform(2.2, 4.0);
-  } else if (id == "x_mode_damping") {
+  } else if (id == "own_damping") {
     if (random.Uniform() < 0.5) out["factor"] = 1.0 / scattered;
   } else if (id == "x_flame_resonance") {
     out["ratio"] = random.Uniform(1.8, 3.6);

@@ -18,12 +18,7 @@ std::string WhatDiagnoseCanDo(const Config& config, const ProblemInput& input) {
   }
   const std::size_t records = MakeDiagnosisExperiments(config, input.records).size();
   std::string text = std::to_string(records) + (records == 1 ? " record" : " records") +
-                     " cut at p and q; modes: " +
-                     (StatesModes(config) ? std::to_string(config.model.modes) : "chosen by them") +
-                     "; tau_s: ";
-  text += !StatesDelays(config)       ? "chosen by them"
-          : BaseOf(config).own_delays ? "one an experiment"
-                                      : "one for all experiments";
+                     " of p and q; modes: " + std::to_string(ModesOfLoop(config));
   if (records == 1) text += "; what varies from one operating point to the next cannot be told";
   return text;
 }

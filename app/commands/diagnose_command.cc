@@ -1,9 +1,12 @@
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/command_line/command.h"
@@ -15,28 +18,21 @@
 #include "app/diagnose/planned_records.h"
 #include "app/files/digest.h"
 #include "app/input/diagnose_input.h"
+#include "app/input/record_input.h"
 #include "app/jobs/shard.h"
 #include "app/jobs/unit_store.h"
 #include "app/process/interruption.h"
 #include "app/process/progress_line.h"
 #include "app/text/diagnose_text.h"
+#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/loop_budget/forms/loop_item.h"
+#include "diagnosis/loop_budget/sample_facts.h"
 #include "io/config/reading/config_reading.h"
 #include "io/results/diagnosis_json.h"
 #include "io/whole_file.h"
-#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {
-
-// "a,b" from --without: of the search for one cause, and of the budget.
-std::vector<std::string> Withheld(const Options& options) {
-  std::vector<std::string> known = LoopItemIds();
-  for (const EffectPointer& effect : Catalogue()) known.emplace_back(effect->id());
-  return ListedNames(options, "--without", known,
-                     "no effect of the catalogue and no item of a budget");
-}
 
 // The least number of replicates, with which one in twenty can be resolved.
 std::size_t Replicates(const Options& options) {
@@ -75,15 +71,41 @@ void Adopt(const Options& options, const Units& units) {
   WriteWholeFile(StatePath(options), StoreText(DiagnoseStateHeader(InputsOf(options)), units));
 }
 
+// What the budget of several causes does not take: another simulator in the model's place,
+// replicates, a plan, and effects that the config declares.
+bool LooksForOneCause(const Config& config, const Options& options) {
+  const bool asked =
+      std::ranges::any_of(std::array{"--one-cause", "--reference", "--bootstrap", "--plan"},
+                          [&](const char* option) { return options.Has(option); });
+  return asked || !config.effects.empty();
+}
+
+// Whether clipping or few levels have changed the samples, so that no likelihood of a loop holds
+// for them, and the search for one cause can make that good.
+bool RepairComesFirst(const Config& config, const Options& options) {
+  std::vector<DiagnosisExperiment> experiments;
+  std::vector<LoopRecord> records;
+  for (NamedRecord& each : LoadRecords(config)) {
+    if (each.record.heat_release.empty()) return false;
+    records.push_back({each.name, each.phi, 0.0, each.record});
+    experiments.push_back({each.name, each.phi, std::move(each.record)});
+  }
+  return CanBeRepaired(SampleFactsOf(records, Withheld(options))) && !FindCutObstacle(experiments);
+}
+
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   if (config.record_loop) return RunLoopDiagnosis(config, options);
+  const std::optional<Shard> shard = ShardOfReplicates(options);
+  if (HasRecords(config) && !LooksForOneCause(config, options) &&
+      (options.Has("--with") || !RepairComesFirst(config, options))) {
+    return RunLoopDiagnosis(config, options);
+  }
   if (options.Has("--with")) {
     throw UsageError(
-        "--with begins a budget of records with these items, expected a config whose model states "
-        "a loop that records alone show");
+        "--with begins a budget of records with these items, expected records, and a search for "
+        "more than one cause");
   }
-  const std::optional<Shard> shard = ShardOfReplicates(options);
   if (options.Has("--plan")) return RunPlan(config, options, Withheld(options));
   if (!HasRecords(config)) return RunTable(config, options);
   const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
@@ -93,7 +115,6 @@ int Run(const Options& options) {
   how.choose_delays = !StatesDelays(config);
   how.threads = options.threads;
   how.withheld = Withheld(options);
-  how.find_budget = !options.Has("--no-budget");
   how.seed = options.seed;
   how.bootstrap = Replicates(options);
   for (const EffectDeclaration& declaration : config.effects) {
@@ -106,10 +127,6 @@ int Run(const Options& options) {
     };
     how.bootstrap_progress = [](std::size_t done, std::size_t total) {
       static ProgressLine line("replicates of the bootstrap", false);
-      line.Show(done, total);
-    };
-    how.budget_progress = [](std::size_t done, std::size_t total) {
-      static ProgressLine line("items of a step of the budget", false);
       line.Show(done, total);
     };
   }
@@ -157,14 +174,14 @@ Command DiagnoseCommand() {
   return {
       "diagnose",
       "say where and why the model falls short of the rig, and by how much",
-      "Cuts the loop at its two measured signals (acoustics driven by measured q; delay and\n"
-      "flame driven by measured p), refits the model together with each effect of the\n"
-      "catalogue, and scores on operating points left out. Needs records with p and q; a table\n"
-      "with non-harmonic lines bounds the lag of the q sensor alone.\n"
-      "Writes diagnosis.json: the verdict (an effect, none, or unknown), those that the data\n"
-      "cannot tell from it, the place, the gap before and after, and every candidate; where it is\n"
-      "unknown, a budget of several causes. Effects of your own stand in the config under "
-      "`effects`. With --plan it writes plan.json instead.",
+      "Fits the loop to all records together and adds, one after the other, the effects and\n"
+      "sources of noise without which the records are foretold worse, scored on operating points\n"
+      "left out. Needs records with p and q; a table with non-harmonic lines bounds the lag of\n"
+      "the q sensor alone.\n"
+      "Writes diagnosis.json: the verdict (an effect, several, none, or unknown), those that the\n"
+      "data cannot tell from it, the place, the gap before and after, and the budget: what each\n"
+      "is worth, and what is left. Effects of your own stand in the config under `effects`. With\n"
+      "--plan it writes plan.json instead.",
       {{"--reference", "SIM.yaml",
         "records of another simulator, or of the rig at another time, in the model's place: which "
         "effect turns them into the config's?"},
@@ -174,13 +191,15 @@ Command DiagnoseCommand() {
        {"--plan", "",
         "diagnose nothing: which effects these records (or records simulated from a table's fit) "
         "can tell apart, from which size on, and which measurement separates the rest"},
-       {"--no-budget", "",
-        "where the verdict is unknown, do not account for the gap by several causes, which takes "
-        "longer than the search for one"},
-       {"--without", "EFFECTS", "leave these effects (a,b,...) out of the catalogue"},
+       {"--one-cause", "",
+        "search the catalogue for the one effect that explains most, by the two cuts of the loop: "
+        "as with --reference, --bootstrap, --plan, and where the config declares effects"},
+       {"--without", "EFFECTS", "leave these effects, or items of the budget (a,b,...), out"},
        {"--with", "ITEMS",
-        "begin the budget of a loop that records alone show with these items (a,b,...), as an "
-        "earlier diagnosis named them"},
+        "begin the budget with these items (a,b,...), as an earlier diagnosis named them"},
+       {"--most-items", "N",
+        "end a budget after N items: more than two make the verdict unknown in any case, and a rig "
+        "that lacks many takes minutes for each further one (default: 6; at most 24)"},
        ShardOption()},
       Run,
       true,

@@ -1,11 +1,15 @@
 #include "app/diagnose/listed_names.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
 #include "app/command_line/command.h"
+#include "diagnosis/loop_budget/forms/loop_item.h"
+#include "diagnosis/loop_budget/sample_facts.h"
 #include "io/config/schema/nearest_key.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 
@@ -23,6 +27,14 @@ std::vector<std::string> ListedNames(const Options& options, const std::string& 
     out.push_back(id);
   }
   return out;
+}
+
+std::vector<std::string> Withheld(const Options& options) {
+  std::vector<std::string> known = LoopItemIds();
+  for (const EffectPointer& effect : Catalogue()) known.emplace_back(effect->id());
+  std::ranges::copy(SampleFactIds(), std::back_inserter(known));
+  return ListedNames(options, "--without", known,
+                     "no effect of the catalogue and no item of a budget");
 }
 
 }  // namespace howl

@@ -15,6 +15,9 @@ std::vector<std::string> ListedNames(const Options& options, const std::string& 
                                      const std::vector<std::string>& known,
                                      const std::string& none_of_them);
 
+// --without a,b: of the catalogue, of the items of a budget, and of what samples show.
+std::vector<std::string> Withheld(const Options& options);
+
 }  // namespace howl
 
 #endif  // HOWL_APP_DIAGNOSE_LISTED_NAMES_H_

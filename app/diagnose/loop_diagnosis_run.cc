@@ -2,20 +2,18 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "app/command_line/command.h"
 #include "app/diagnose/listed_names.h"
+#include "app/input/diagnose_input.h"
 #include "app/input/fit_state.h"
 #include "app/input/usable_records.h"
 #include "app/process/progress_line.h"
 #include "app/text/loop_diagnosis_text.h"
 #include "diagnosis/loop_budget/loop_budget.h"
-#include "diagnosis/loop_budget/sample_facts.h"
 #include "estimation/joint_records/record_loop_spec.h"
 #include "io/results/loop_diagnosis_json.h"
 #include "io/user_error.h"
@@ -24,9 +22,9 @@
 namespace howl {
 namespace {
 
-// Options that another base takes alone.
+// Options of the search for one cause, which takes the paper's loop alone.
 void RefuseOthers(const Options& options) {
-  for (const char* option : {"--reference", "--bootstrap", "--plan", "--shard"}) {
+  for (const char* option : {"--one-cause", "--reference", "--bootstrap", "--plan", "--shard"}) {
     if (!options.Has(option)) continue;
     throw UsageError(std::string(option) +
                      ": the config's model states a loop that is fitted to records, expected the "
@@ -34,22 +32,24 @@ void RefuseOthers(const Options& options) {
   }
 }
 
+// Unless asked for more: a rig that lacks many items takes minutes for each further one, and more
+// than two make the verdict unknown in any case.
+constexpr int kFirstItems = 6;
+
 constexpr char kNoItem[] = "nothing that a loop of records may lack";
 
 std::string Choices(const Options& options) {
   const std::string with = options.Text("--with").value_or("");
-  return options.Text("--without").value_or("") + (with.empty() ? "" : " with " + with);
-}
-
-// What `--without` may name.
-std::vector<std::string> Known() {
-  std::vector<std::string> out = LoopItemIds();
-  std::ranges::copy(SampleFactIds(), std::back_inserter(out));
-  return out;
+  const std::string most = options.Text("--most-items").value_or("");
+  return options.Text("--without").value_or("") + (with.empty() ? "" : " with " + with) +
+         (most.empty() ? "" : " most " + most);
 }
 
 // The config's loop, of which nothing is to be chosen.
-LoopForm BaseOf(const Config& config) {
+LoopForm LoopBaseOf(const Config& config) {
+  if (!config.record_loop) {
+    return PapersForm(ModesOfLoop(config), config.model.harmonic_ratio);
+  }
   const RecordLoopSpec& spec = *config.record_loop;
   const auto refuse = [&](const char* key, const char* expected) {
     throw UserError(config.source.string(), config.tree.Find("model")->value.line, key, expected);
@@ -66,11 +66,14 @@ LoopForm BaseOf(const Config& config) {
 }  // namespace
 
 int RunLoopDiagnosis(const Config& config, const Options& options) {
-  RefuseOthers(options);
+  if (config.record_loop) RefuseOthers(options);
   LoopBudgetOptions how;
-  how.withheld = ListedNames(options, "--without", Known(), kNoItem);
+  how.withheld = Withheld(options);
   how.given = ListedNames(options, "--with", LoopItemIds(), kNoItem);
-  const LoopForm base = BaseOf(config);
+  how.most_items = static_cast<std::size_t>(
+      options.Count("--most-items", 1, static_cast<int>(kMostItems)).value_or(kFirstItems));
+  how.one_delay = !config.record_loop && !(StatesDelays(config) && BaseOf(config).own_delays);
+  const LoopForm base = LoopBaseOf(config);
   const std::vector<LoopRecord> records = LoopRecordsOf(LoadUsableRecords(config, options));
   FitState state(config, options, "diagnosis.state", Choices(options));
   if (!options.quiet) state.SayWhereItStands();

@@ -1,5 +1,4 @@
-// howl diagnose where the config's model is a loop that records alone can show
-// (Config::record_loop).
+// howl diagnose of records: what the config's loop, or the paper's, lacks (loop_budget.h).
 #ifndef HOWL_APP_DIAGNOSE_LOOP_DIAGNOSIS_RUN_H_
 #define HOWL_APP_DIAGNOSE_LOOP_DIAGNOSIS_RUN_H_
 

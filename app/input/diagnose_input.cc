@@ -69,6 +69,8 @@ bool States(const Config& config, std::initializer_list<const char*> path) {
 
 bool StatesModes(const Config& config) { return States(config, {"model", "modes"}); }
 
+int ModesOfLoop(const Config& config) { return StatesModes(config) ? config.model.modes : 2; }
+
 bool StatesDelays(const Config& config) { return States(config, {"parameters", "tau_s", "scope"}); }
 
 void CheckReference(const Config& config, const Config& reference,

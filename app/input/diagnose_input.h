@@ -26,6 +26,10 @@ BaseModel BaseOf(const Config& config);
 bool StatesModes(const Config& config);
 bool StatesDelays(const Config& config);
 
+// Of the paper's loop as a budget begins with it: the config's, or two, of which the second comes
+// to nothing on a rig with one.
+int ModesOfLoop(const Config& config);
+
 // Operating points are found by name or parameter, and interpolated in between.
 void CheckReference(const Config& config, const Config& reference,
                     const std::vector<DiagnosisExperiment>& rig,

@@ -34,6 +34,7 @@ std::vector<OtherDelay> KeptOtherDelays(FitState& state, const std::string& key,
 }  // namespace
 
 RecordSolution SolveRecords(const Config& config, const Options& options, SolvedFor what) {
+  RequireRecords(config);
   std::vector<UsableRecord> usable = LoadUsableRecords(config, options);
   RecordSolution out;
   for (const UsableRecord& record : usable) {

@@ -1,5 +1,6 @@
 #include "app/input/usable_records.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -11,40 +12,35 @@
 namespace howl {
 namespace {
 
-void RequireRecords(const Config& config) {
-  for (const ExperimentConfig& each : config.experiments) {
-    if (each.record) continue;
-    throw UserError(config.source.string(), each.line, "experiments",
-                    each.experiment.name +
-                        " has no record, expected one of p and q: the config's model states a loop "
-                        "that is fitted to records");
-  }
-}
-
 // The cycle's frequency, or that of the strongest peak where there is no cycle.
 double CycleOf(const Analysis& analysis) {
   const Characteristics& c = analysis.characteristics;
   return c.state == CycleState::kNoLimitCycle ? c.peak.frequency_hz : c.frequency_hz.value;
 }
 
+// A rate in kHz that was meant in Hz would else be fitted as it stands.
+constexpr double kLeastSampling_hz = 100.0;
 // Some 300 bins in the band, five for each parameter of a loop of eight modes, and a band that
 // reaches beyond the second harmonic.
 constexpr double kFewestCycles = 50.0;
 constexpr double kFewestSamplesPerCycle = 6.0;
 
-void RequireUsable(const Config& config, std::size_t index, const NamedRecord& record,
-                   double cycle_hz) {
+void RequireUsable(const Config& config, const NamedRecord& record, double cycle_hz) {
   const auto fail = [&](const std::string& what) {
-    throw UserError(config.source.string(), config.experiments[index].line, "experiments",
-                    record.name + what);
+    const auto of = std::ranges::find_if(config.experiments, [&](const ExperimentConfig& each) {
+      return each.experiment.name == record.name;
+    });
+    throw UserError(config.source.string(), of->line, "experiments", record.name + what);
   };
   if (record.record.heat_release.empty()) {
-    fail(
-        " has no heat release, expected p and q: the config's model states a loop that is fitted "
-        "to both");
+    fail(" has no heat release, expected p and q: the loop is fitted to both");
   }
   if (!(cycle_hz > 0.0)) fail(" shows no peak of p, expected one at which its loop resonates");
   const Record& samples = record.record;
+  if (samples.sampling_hz < kLeastSampling_hz) {
+    fail(" is sampled at " + Significant(samples.sampling_hz, 3) + " Hz, expected at least " +
+         Significant(kLeastSampling_hz, 3) + " Hz");
+  }
   const double cycles =
       cycle_hz * static_cast<double>(samples.pressure.size()) / samples.sampling_hz;
   if (cycles < kFewestCycles) {
@@ -60,14 +56,27 @@ void RequireUsable(const Config& config, std::size_t index, const NamedRecord& r
 
 }  // namespace
 
+void RequireRecords(const Config& config) {
+  for (const ExperimentConfig& each : config.experiments) {
+    if (each.record) continue;
+    throw UserError(config.source.string(), each.line, "experiments",
+                    each.experiment.name +
+                        " has no record, expected one of p and q: the config's model states a loop "
+                        "that is fitted to records");
+  }
+}
+
 std::vector<UsableRecord> LoadUsableRecords(const Config& config, const Options& options) {
-  RequireRecords(config);
   std::vector<NamedRecord> records = LoadRecords(config);
+  if (records.empty()) {
+    throw UserError(config.source.string(), config.experiments.front().line, "experiments",
+                    "no experiment has a record, expected at least one of p and q");
+  }
   const AnalysisSet set = AnalyseRecords(records, MakeAnalysisOptions(config, options));
   std::vector<UsableRecord> out;
   for (std::size_t e = 0; e < records.size(); ++e) {
     const double cycle_hz = CycleOf(set.analyses[e]);
-    RequireUsable(config, e, records[e], cycle_hz);
+    RequireUsable(config, records[e], cycle_hz);
     const Characteristics& c = set.analyses[e].characteristics;
     out.push_back({std::move(records[e]), cycle_hz,
                    c.state == CycleState::kNoLimitCycle ? 0.0 : c.p_amplitude});

@@ -22,8 +22,12 @@ struct UsableRecord {
   double cycle_amplitude = 0.0;
 };
 
-// Throws UserError where an experiment has no record of both signals that is long enough.
+// Of the experiments that have one. Throws UserError where one is not of both signals, or not long
+// enough, and where there is none.
 std::vector<UsableRecord> LoadUsableRecords(const Config& config, const Options& options);
+
+// Throws UserError where an experiment has no record.
+void RequireRecords(const Config& config);
 
 std::vector<LoopRecord> LoopRecordsOf(std::vector<UsableRecord> records);
 

@@ -76,22 +76,25 @@ std::string WaterfallText(const Budget& budget) {
 std::string DoubtfulText(const Budget& budget) {
   std::vector<std::string> items;
   for (const BudgetEntry& entry : budget.entries) {
-    if (!(std::ranges::min(entry.lost_on_halves) > 0.0)) items.push_back(entry.item);
+    if (std::ranges::min(entry.lost_on_halves) <= 0.0) items.push_back(entry.item);
   }
   if (items.empty()) return "";
   return "doubtful, as one half of the records is foretold no better with it: " +
          CommaSeparated(items) + "\n";
 }
 
+std::string SizeText(const SampleFact& fact) {
+  if (fact.effect == "quantisation") return Fixed(fact.value, 0) + " levels";
+  if (fact.effect.ends_with("dropouts")) return "up to " + Fixed(fact.value, 0) + " samples long";
+  return Significant(100.0 * fact.value, 2) + " % at the ends of the range";
+}
+
 std::string SeenText(const Budget& budget) {
   std::string out;
   for (const SampleFact& fact : budget.seen_in_samples) {
-    const bool levels = fact.effect == "quantisation";
-    out += "seen in the samples: " + fact.effect + ", " +
-           (levels ? Fixed(fact.value, 0) + " levels"
-                   : Significant(100.0 * fact.value, 2) + " % at the ends of the range") +
-           ", in " + std::to_string(fact.experiments) + " of " +
-           std::to_string(budget.experiments) + " records\n";
+    out += "seen in the samples: " + fact.effect + ", " + SizeText(fact) + ", in " +
+           std::to_string(fact.experiments) + " of " + std::to_string(budget.experiments) +
+           " records\n";
   }
   return out;
 }
@@ -113,7 +116,7 @@ std::string BudgetText(const Budget& budget) {
   std::string out = SeenText(budget);
   out += budget.entries.empty()
              ? "gap, left out: " + Fixed(budget.gap_left, 3) + "\n"
-             : "budget, left out: several causes take the gap from " + Fixed(budget.gap_before, 3) +
+             : "budget, left out: what is named takes the gap from " + Fixed(budget.gap_before, 3) +
                    " to " + Fixed(budget.gap_left, 3) + "\n" + WaterfallText(budget) +
                    DoubtfulText(budget);
   for (const Place& place : budget.left) {

@@ -134,10 +134,6 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
   std::printf("%s", table.Text().c_str());
   std::printf("%s", BoundText(diagnosis).c_str());
   std::printf("%s", MovedText(diagnosis).c_str());
-  if (diagnosis.budget) {
-    std::printf("%s", BudgetText(*diagnosis.budget).c_str());
-    std::printf("the loop with all of these: %s\n", diagnosis.budget->best_model.c_str());
-  }
   std::printf("next: %s\n", diagnosis.advice.c_str());
 }
 

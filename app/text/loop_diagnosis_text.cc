@@ -22,14 +22,49 @@ std::string VerdictText(const LoopDiagnosis& found) {
     case VerdictKind::kUnknown:
       break;
   }
-  return "verdict: unknown; the best loop still errs at the cycle's lines (probability " +
+  return "verdict: unknown; " + found.unknown_because + " (probability " +
          Fixed(diagnosis.probability_unknown, 2) + ")";
+}
+
+std::string AlikeText(const Diagnosis& diagnosis) {
+  std::string out;
+  for (const std::string& other : diagnosis.indistinguishable) {
+    out += "  the data cannot tell it from " + other + "\n";
+  }
+  return out;
+}
+
+// Of what is named; what is left has lines of its own.
+std::string WhereText(const Diagnosis& diagnosis) {
+  std::string out;
+  if (diagnosis.kind != VerdictKind::kEffect) return out;
+  for (const Place& place : diagnosis.where) {
+    out += "where: " + std::string(LoopBlockName(place.block)) + ", " + Fixed(place.low_hz, 0) +
+           " to " + Fixed(place.high_hz, 0) + " Hz, " + std::to_string(place.experiments.size()) +
+           " experiments (share " + Fixed(place.share, 2) + ")\n";
+  }
+  return out;
 }
 
 std::string LinesText(const std::string& cut, const LinesLeft& lines, std::size_t points) {
   return "free errors of " + cut + " at the cycle's lines: " + Fixed(lines.nats, 1) + " nats, on " +
          std::to_string(lines.experiments_better) + " of " + std::to_string(points) +
          " points; of " + Significant(100.0 * lines.size, 2) + " % of what the loop foretells\n";
+}
+
+// What else would gain alone.
+std::string AloneText(const Diagnosis& diagnosis) {
+  constexpr std::size_t kShown = 5;
+  std::string out;
+  std::size_t shown = 0;
+  for (const Candidate& candidate : diagnosis.candidates) {
+    // What is named together is no item.
+    const bool several = candidate.effect.find('+') != std::string::npos;
+    if (several || candidate.probability > 0.0 || shown == kShown) continue;
+    out += (out.empty() ? "" : ", ") + candidate.effect + " " + Fixed(candidate.gain, 0);
+    ++shown;
+  }
+  return out.empty() ? "" : Wrapped("alone, at each point by itself, nats: " + out, 2) + "\n";
 }
 
 std::string Listed(const std::vector<std::string>& items) {
@@ -42,8 +77,10 @@ std::string Listed(const std::vector<std::string>& items) {
 
 std::string LoopDiagnosisText(const LoopDiagnosis& found) {
   const Budget& budget = *found.diagnosis.budget;
-  std::string out = Wrapped(VerdictText(found), 2) + "\n";
+  std::string out = Wrapped(VerdictText(found), 2) + "\n" + AlikeText(found.diagnosis) +
+                    WhereText(found.diagnosis);
   out += BudgetText(budget);
+  out += AloneText(found.diagnosis);
   out += LinesText("p from q", found.acoustics, budget.experiments);
   out += LinesText("q from p", found.flame, budget.experiments);
   out += Wrapped("next: " + found.diagnosis.advice, 2) + "\n";

@@ -22,6 +22,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
+// Of more than two causes the verdict is unknown, and what stands beside them is not scored: two
+// more may come in, and go again, on the way.
+constexpr const char* kMostItemsOfCase = "4";
+
 double UnixSeconds() {
   using std::chrono::duration;
   return duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -113,7 +117,7 @@ void RunDiagnoses(const TrialFolder& folder, int threads, const Progress& progre
     const auto start = Clock::now();
     const ChildResult result = RunChild(
         {ThisProgram().string(), "diagnose", (folder.CaseFolder(name) / "config.yaml").string(),
-         "--out", out.string(), "--threads", "1", "--quiet", "--no-budget"},
+         "--out", out.string(), "--threads", "1", "--quiet", "--most-items", kMostItemsOfCase},
         "");
     // A terminal's Ctrl-C reaches the child as well, and may end it before this program notices.
     if (result.status < 0) std::this_thread::sleep_for(std::chrono::milliseconds(200));

@@ -3,8 +3,9 @@
 #include <memory>
 
 #include "bench/limits/measured.h"
+#include "bench/rig_loop_records.h"
 #include "bench/simulated_rig.h"
-#include "diagnosis/budget_of_rig.h"
+#include "diagnosis/loop_budget/forms/loop_form.h"
 #include "estimation/record_fit/loop/point_likelihood.h"
 #include "estimation/record_fit/loop/point_prior.h"
 #include "estimation/record_fit/starts/point_starts.h"
@@ -14,7 +15,7 @@ namespace {
 
 struct State {
   RecordSpectra record;
-  PointStructure structure = PapersForm(2).structure;
+  PointStructure structure = PapersForm().structure;
   std::vector<Eigen::VectorXd> starts;
 };
 

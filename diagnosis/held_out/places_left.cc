@@ -60,6 +60,29 @@ Run ShortestRun(const std::vector<double>& of_bands) {
 
 }  // namespace
 
+HeldOutScore Beside(HeldOutScore score, const HeldOutScore& other) {
+  for (std::size_t e = 0; e < score.errors.size(); ++e) {
+    for (std::size_t half = 0; half < 2; ++half) {
+      std::vector<BandErrors>& bands = score.errors[e][half];
+      for (std::size_t i = 0; i < bands.size(); ++i) {
+        bands[i].ceiling = other.errors[e][half][i].error;
+      }
+    }
+  }
+  return score;
+}
+
+Place Everywhere(const std::vector<std::string>& names, const HeldOutScore& score) {
+  Place out;
+  out.experiments = names;
+  const auto points = static_cast<double>(names.size());
+  for (const auto& halves : score.errors) {
+    out.low_hz += halves[0].front().low_hz / points;
+    out.high_hz += halves[0].back().high_hz / points;
+  }
+  return out;
+}
+
 std::vector<Place> PlacesLeft(const std::vector<std::string>& names, const HeldOutScore& score) {
   std::vector<Place> out;
   double total = 0.0;

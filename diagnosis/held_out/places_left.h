@@ -11,6 +11,13 @@
 
 namespace howl {
 
+// `score` with what another structure errs by as its ceiling: PlacesLeft then says where it falls
+// short of that one.
+HeldOutScore Beside(HeldOutScore score, const HeldOutScore& other);
+
+// All bands and operating points.
+Place Everywhere(const std::vector<std::string>& names, const HeldOutScore& score);
+
 // The larger share first: kAcoustics for p given q, kFlame for q given p.
 std::vector<Place> PlacesLeft(const std::vector<std::string>& names, const HeldOutScore& score);
 

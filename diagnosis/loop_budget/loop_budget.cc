@@ -1,17 +1,19 @@
 #include "diagnosis/loop_budget/loop_budget.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "diagnosis/held_out/common_ceiling.h"
 #include "diagnosis/held_out/octave_gaps.h"
 #include "diagnosis/held_out/places_left.h"
+#include "diagnosis/loop_budget/delay_trend.h"
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "diagnosis/loop_budget/loop_item_parameters.h"
+#include "diagnosis/loop_budget/loop_verdict.h"
 #include "diagnosis/loop_budget/sample_facts.h"
 #include "diagnosis/loop_budget/search/loop_search.h"
 #include "estimation/joint_records/loop_names.h"
@@ -44,12 +46,52 @@ LinesLeft LinesOf(const LoopRecords& records, const LoopFound& found, const Loop
   return {with.Density() - found.best.Density(), size, Better(with, found.best)};
 }
 
-// Without errors at the cycle's lines, the best loop has at most this density.
-double DensityWithoutLines(const LoopFound& found) {
-  double out = found.best.Density();
+// Where an item makes the difference: the bands and the operating points at which the loop without
+// it falls short.
+Place PlaceOf(const LoopRecords& records, const LoopItem& item, const HeldOutScore& with,
+              const HeldOutScore& without) {
+  const std::vector<Place> short_of = PlacesLeft(records.names(), Beside(without, with));
+  Place out = short_of.empty() ? Everywhere(records.names(), with) : short_of.front();
+  out.block = BlockOf(item);
+  return out;
+}
+
+// The effects that all points share, with the errors of their values, as the entries have them.
+std::vector<SharedErrors> SharedErrorsOf(const LoopFound& found,
+                                         const std::vector<BudgetEntry>& entries) {
+  constexpr double kIntervalOverDeviation = 2.0 * 1.96;
+  std::vector<SharedErrors> out;
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
-    if (found.steps[i].item.lines != nullptr) out = std::min(out, found.without[i].Density());
+    if (!found.steps[i].item.effect) continue;
+    SharedErrors errors{found.steps[i].item.effect, {}};
+    for (const EstimatedParameter& parameter : entries[i].parameters) {
+      errors.deviations.push_back((parameter.high - parameter.low) / kIntervalOverDeviation);
+    }
+    out.push_back(std::move(errors));
   }
+  return out;
+}
+
+// The trend of the points' delays as an entry, where it is worth as much as an item must be.
+std::optional<BudgetEntry> DelayTrendIn(const LoopRecords& records, const LoopFound& found,
+                                        const std::vector<BudgetEntry>& entries,
+                                        const HeldOutScore& score,
+                                        const LoopBudgetOptions& options) {
+  const bool withheld =
+      std::ranges::find(options.withheld, kDelayTrendId) != options.withheld.end();
+  if (!options.one_delay || withheld || records.size() < kFewestOfTrend) return std::nullopt;
+  const DelayTrend trend =
+      TrendOf(DelaysOf(records, found.best, SharedErrorsOf(found, entries), options));
+  const auto offered = static_cast<double>(AllLoopItems().size());
+  if (!(trend.nats > std::log(kOddsOfItem * offered))) return std::nullopt;
+  BudgetEntry out;
+  out.item = kDelayTrendId;
+  out.lost_nats = trend.nats;
+  out.lost_on_halves.fill(std::numeric_limits<double>::quiet_NaN());
+  out.experiments_better = trend.points_better;
+  out.parameters.push_back({"rel_span", trend.rel_span, trend.low, trend.high, ""});
+  out.place = Everywhere(records.names(), score);
+  out.place.block = LoopBlock::kDelay;
   return out;
 }
 
@@ -76,6 +118,7 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
   Budget out;
   out.best_model = ModelLine(found.best.model.structure, found.best.model.flame_input);
   out.experiments = records.size();
+  out.everywhere = Everywhere(records.names(), base);
   out.gap_before = ceiling.Gap(base);
   out.gap_left = ceiling.Gap(best);
   double before = out.gap_before;
@@ -97,12 +140,19 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
       entry.lost_on_halves[half] = best.Nats(half) - without[i].Nats(half);
     }
     entry.experiments_better = Better(found.best, found.without[i]);
+    entry.place = PlaceOf(records, step.item, best, without[i]);
     entry.equals = step.equals;
-    // Jumps at random times have the same spectrum.
-    if (step.item.id == "parametric_noise") entry.equals.emplace_back("intermittency");
+    // Jumps at random times have the same spectrum, and so have sidebands of a delay that wanders.
+    if (step.item.id == "parametric_noise") {
+      entry.equals.insert(entry.equals.end(), {"intermittency", "delay_wander"});
+    }
     entry.parameters = LoopItemParameters(records, found.best, step.item, mode, options);
     if (step.item.kind == LoopItemKind::kMode) ++mode;
     out.entries.push_back(std::move(entry));
+  }
+  if (std::optional<BudgetEntry> trend = DelayTrendIn(records, found, out.entries, best, options)) {
+    trend->gap_before = trend->gap_after = before;
+    out.entries.push_back(std::move(*trend));
   }
   const HeldOutScore left = ceiling.Against(best);
   if (out.gap_left > 0.0) out.left = PlacesLeft(records.names(), left);
@@ -111,83 +161,16 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
   return out;
 }
 
-std::string Joined(const Budget& budget) {
-  std::string out;
-  const auto add = [&out](const std::string& name) { out += (out.empty() ? "" : "+") + name; };
-  for (const SampleFact& fact : budget.seen_in_samples) add(fact.effect);
-  for (const BudgetEntry& entry : budget.entries) add(entry.item);
-  return out;
-}
-
-// All that is named, as the only candidate.
-void AddCandidate(const LoopFound& found, double probability, Diagnosis* diagnosis) {
-  const Budget& budget = *diagnosis->budget;
-  Candidate candidate;
-  candidate.effect = Joined(budget);
-  candidate.probability = probability;
-  candidate.gain = found.best.Density() - found.base.Density();
-  candidate.gap_after = budget.gap_left;
-  candidate.shrinkage = budget.gap_before > 0.0 ? 1.0 - budget.gap_left / budget.gap_before : 0.0;
-  candidate.shrinkage_low = candidate.shrinkage_high = std::numeric_limits<double>::quiet_NaN();
-  candidate.p_value = std::numeric_limits<double>::quiet_NaN();
-  diagnosis->candidates.push_back(std::move(candidate));
-}
-
-// What the samples show stands in them; of what else there may be nothing is said.
-void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
-  diagnosis->kind = VerdictKind::kEffect;
-  diagnosis->effect = Joined(*diagnosis->budget);
-  AddCandidate(found, 1.0, diagnosis);
-}
-
-void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
-  Diagnosis& diagnosis = out->diagnosis;
-  const double gained = std::max(out->acoustics.nats, out->flame.nats);
-  const bool unknown = gained > std::log(kOddsOfUnknown);
-  const bool any = std::ranges::any_of(
-      found.steps, [](const LoopStep& step) { return step.item.lines == nullptr; });
-  diagnosis.kind = unknown ? VerdictKind::kUnknown
-                   : any   ? VerdictKind::kEffect
-                           : VerdictKind::kNone;
-  if (diagnosis.kind == VerdictKind::kEffect) diagnosis.effect = Joined(*diagnosis.budget);
-  const double best = DensityWithoutLines(found);
-  const bool lines_stay = best < found.best.Density();
-  const double with_lines = lines_stay ? found.best.Density() : best + gained;
-  const double base = found.base.Density();
-  const double most = std::max({with_lines, best, base});
-  const std::array<double, 3> odds = {std::exp(with_lines - most),
-                                      any ? std::exp(best - most) : 0.0, std::exp(base - most)};
-  const double sum = odds[0] + odds[1] + odds[2];
-  diagnosis.probability_unknown = odds[0] / sum;
-  diagnosis.probability_none = odds[2] / sum;
-  if (any) AddCandidate(found, odds[1] / sum, &diagnosis);
-}
-
-std::string AdviceOf(const LoopDiagnosis& found) {
-  if (!found.diagnosis.budget->seen_in_samples.empty()) {
-    return "record again, within the converter's range and with finer steps: whatever is fitted to "
-           "such samples speaks of what was done to them";
-  }
-  const std::string& model = found.diagnosis.budget->best_model;
-  switch (found.diagnosis.kind) {
-    case VerdictKind::kNone:
-      return "the config's loop stands";
-    case VerdictKind::kEffect:
-      return "howl fit with " + model;
-    case VerdictKind::kUnknown:
-      break;
-  }
-  return "howl fit with " + model +
-         ", which is the best loop found, but not the rig's: distrust what it says of the cycle";
-}
-
 }  // namespace
 
 LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& base,
                             const LoopBudgetOptions& options) {
   const std::vector<SampleFact> seen = SampleFactsOf(all, options.withheld);
   LoopBudgetOptions how = options;
-  if (!seen.empty()) how.withheld = LoopItemIds();
+  if (!AreNoise(seen)) {
+    how.withheld = LoopItemIds();
+    how.one_delay = false;
+  }
   const LoopFound found = SearchLoopBudget(LoopRecords(all, options.threads), base, how);
   const LoopRecords& records = found.records;
   LoopDiagnosis out;
@@ -196,23 +179,14 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   out.acoustics =
       LinesOf(records, found, found.with_acoustic_lines, &PointStructure::acoustic_lines);
   out.flame = LinesOf(records, found, found.with_flame_lines, &PointStructure::flame_lines);
-  Diagnosis& diagnosis = out.diagnosis;
-  diagnosis.budget = BudgetOf(records, found, options);
-  diagnosis.budget->seen_in_samples = seen;
+  out.diagnosis.budget = BudgetOf(records, found, how);
+  Budget& budget = *out.diagnosis.budget;
+  budget.seen_in_samples = seen;
+  budget.acoustic_error = out.acoustics.size;
+  budget.flame_error = out.flame.size;
   out.items = options.given;
-  for (const BudgetEntry& entry : diagnosis.budget->entries) out.items.push_back(entry.item);
-  diagnosis.where = diagnosis.budget->left;
-  diagnosis.gap_before = diagnosis.budget->gap_before;
-  diagnosis.gap_after = diagnosis.budget->gap_left;
-  diagnosis.gap_floor = diagnosis.budget->floor;
-  diagnosis.budget->acoustic_error = out.acoustics.size;
-  diagnosis.budget->flame_error = out.flame.size;
-  if (seen.empty()) {
-    TakeVerdict(found, &out);
-  } else {
-    TakeWhatSamplesShow(found, &diagnosis);
-  }
-  diagnosis.advice = AdviceOf(out);
+  for (const LoopStep& step : found.steps) out.items.push_back(step.item.id);
+  TakeVerdict(found, &out);
   return out;
 }
 

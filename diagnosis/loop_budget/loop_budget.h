@@ -2,10 +2,13 @@
 // freedoms the config's loop lacks, one after the other, how much each explains, and what is left.
 //
 // The verdict names what the samples themselves show (sample_facts.h), and then nothing is added;
-// else all that was added, in that order; `none` where nothing pays. It is `unknown` where free
-// errors at the cycle's lines (loop_point.h), of the acoustics or of the flame, pay where nothing
-// else does: the best loop then is not the rig's. The probabilities are those of the base, of the
-// best loop without such errors, and of that with them, by the densities of what was left out.
+// else all that was added, in that order, but finer spectra of noise; `none` where nothing pays. It
+// is `unknown` where free errors at the cycle's lines (loop_point.h), of the acoustics or of the
+// flame, pay where nothing else does: the best loop then is not the rig's; where it would name
+// more than two causes (odds.h); and where an effect of the catalogue would have a value that it
+// cannot have, as a share of the flame below zero: something else does the same then. The
+// probabilities are those of the base, of the best loop without such errors, and of that with them,
+// by the densities of what was left out.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
 
@@ -33,6 +36,7 @@ struct LoopDiagnosis {
   std::vector<std::string> items;
   LinesLeft acoustics;
   LinesLeft flame;
+  std::string unknown_because;  // for a reader; empty where the verdict is another
 };
 
 LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& records, const LoopForm& base,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
+#include "diagnosis/loop_budget/fine_steps.h"
 #include "estimation/health/sample_health.h"
 
 namespace howl {
@@ -13,13 +15,31 @@ struct Kind {
   const char* subject;  // of a finding (sample_health.h)
 };
 
-constexpr std::array<Kind, 3> kKinds = {
-    {{"p_clipping", "p_clipped"}, {"q_clipping", "q_clipped"}, {"quantisation", "p_coarse"}}};
+constexpr std::array<Kind, 5> kKinds = {{{"p_clipping", "p_clipped"},
+                                         {"q_clipping", "q_clipped"},
+                                         {"quantisation", "p_coarse"},
+                                         {"p_dropouts", "p_stuck"},
+                                         {"q_dropouts", "q_stuck"}}};
 
 Health FindingsOf(const LoopRecord& of) {
   const Record& record = of.record;
   Health out = CheckSamples(of.name, "p", record.pressure, record.sampling_hz);
   Append(CheckSamples(of.name, "q", record.heat_release, record.sampling_hz), out);
+  return out;
+}
+
+// Of more than half of the records.
+std::optional<SampleFact> FineStepsOf(const std::vector<LoopRecord>& records,
+                                      const std::vector<std::string>& withheld) {
+  SampleFact out{.effect = "quantisation", .is_noise = true};
+  if (std::ranges::find(withheld, out.effect) != withheld.end()) return std::nullopt;
+  for (const LoopRecord& each : records) {
+    const int levels = LevelsOfFineSteps(each.record.pressure);
+    out.value += levels;
+    if (levels > 0) ++out.experiments;
+  }
+  if (2 * out.experiments <= records.size()) return std::nullopt;
+  out.value /= static_cast<double>(out.experiments);
   return out;
 }
 
@@ -29,6 +49,16 @@ std::vector<std::string> SampleFactIds() {
   std::vector<std::string> out;
   for (const Kind& kind : kKinds) out.emplace_back(kind.effect);
   return out;
+}
+
+bool AreNoise(const std::vector<SampleFact>& facts) {
+  return std::ranges::all_of(facts, &SampleFact::is_noise);
+}
+
+bool CanBeRepaired(const std::vector<SampleFact>& facts) {
+  return !AreNoise(facts) && std::ranges::none_of(facts, [](const SampleFact& fact) {
+    return fact.effect.ends_with("dropouts");
+  });
 }
 
 std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
@@ -48,9 +78,11 @@ std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
     }
   }
   std::vector<SampleFact> out;
+  if (std::optional<SampleFact> steps = FineStepsOf(records, withheld)) out.push_back(*steps);
   for (std::size_t k = 0; k < kKinds.size(); ++k) {
     if (2 * seen[k].experiments <= records.size()) continue;
     if (std::ranges::find(withheld, kKinds[k].effect) != withheld.end()) continue;
+    if (!out.empty() && out[0].effect == kKinds[k].effect) out.clear();
     out.push_back({kKinds[k].effect, seen[k].value / static_cast<double>(seen[k].experiments),
                    seen[k].experiments});
   }

@@ -24,8 +24,6 @@ struct DiagnosisOptions {
   // Where it is set, only these replicates are run, for the memory, and the diagnosis then ends as
   // if it had been stopped: one of several processes' shares.
   std::function<bool(std::size_t replicate)> owns_replicate;
-  // Where no single cause is found, several are searched for (Diagnosis::budget).
-  bool find_budget = false;
   std::vector<std::string> withheld;   // identifiers of the catalogue that are not tried
   std::vector<EffectPointer> further;  // effects of the user's own
   // Records that take the model's place (reference.h); none: the base alone is the model.
@@ -33,7 +31,6 @@ struct DiagnosisOptions {
   // Progress in starts of the search, of which an effect has a few or many.
   std::function<void(std::size_t done, std::size_t total)> progress;
   std::function<void(std::size_t done, std::size_t total)> bootstrap_progress;
-  std::function<void(std::size_t done, std::size_t total)> budget_progress;
   FitUnits* memory = nullptr;     // of an interrupted run of the same inputs
   std::function<bool()> stopped;  // asked between effects
 };

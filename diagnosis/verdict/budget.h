@@ -25,18 +25,25 @@ struct BudgetEntry {
   // What is lost when this item alone is taken away and the rest fitted anew.
   double lost_nats = 0.0;  // of what the other points foretell
   double lost_gap = 0.0;
-  std::array<double, 2> lost_on_halves = {};  // nats of what was left out
-  std::size_t experiments_better = 0;         // with the item, of what was left out
+  // Nats of what was left out; NaN where halves are not fitted.
+  std::array<double, 2> lost_on_halves = {};
+  std::size_t experiments_better = 0;  // with the item, of what was left out
   // Items that in the end, in its place, foretell as well within the odds of a class (odds.h).
   std::vector<std::string> equals;
   std::vector<EstimatedParameter> parameters;
+  // The item's block, and where the loop without it falls short; everywhere where it nowhere does.
+  Place place;
 };
 
 // An effect that the samples themselves show (loop_budget/sample_facts.h).
 struct SampleFact {
   std::string effect;
-  double value = 0.0;  // of clipping the share of samples at the range's ends; else the levels
+  // Of clipping the share of samples at the range's ends; levels; of dropouts the samples of the
+  // longest.
+  double value = 0.0;
   std::size_t experiments = 0;
+  // Whether it adds to the samples what the base has: white noise of p (fine_steps.h).
+  bool is_noise = false;
 };
 
 struct Budget {
@@ -51,6 +58,7 @@ struct Budget {
   double acoustic_error = 0.0;
   double flame_error = 0.0;
   std::size_t experiments = 0;
+  Place everywhere;        // all operating points and bands
   std::string best_model;  // of the loop with all entries, as a config's model: {...}
 };
 

@@ -74,7 +74,7 @@ struct Diagnosis {
   // The largest gain of each replicate of the bootstrap, ascending; empty if there was none.
   std::vector<double> bootstrap_gains;
   std::string advice;
-  // Where no single cause was found, what a search for several adds to the base (budget/budget.h).
+  // Of a diagnosis of loops (loop_budget.h): what was added to the base.
   std::optional<Budget> budget;
   bool stopped = false;  // the run was stopped before its end, and the rest is empty
 };

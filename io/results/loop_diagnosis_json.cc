@@ -41,6 +41,8 @@ Json LoopDiagnosisJson(const LoopDiagnosis& found) {
   for (const char* key : {"free_slack", "bootstrap", "base_parameters", "best_model"}) {
     json.erase(key);
   }
+  json["unknown_because"] =
+      found.unknown_because.empty() ? Json(nullptr) : Json(found.unknown_because);
   json["base"] = FormJson(found.base);
   json["best"] = FormJson(found.best);
   json["items"] = found.items;

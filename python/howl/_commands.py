@@ -140,7 +140,7 @@ def simulate(problem: Any, q: Any = None, *, member: Optional[int] = None, sampl
 
 @_documented
 def diagnose(problem: Any, q: Any = None, *, reference: Union[PathLike, Result, None] = None,
-             bootstrap: Optional[int] = None, without: Sequence[str] = (), budget: bool = True,
+             bootstrap: Optional[int] = None, without: Sequence[str] = (), one_cause: bool = False,
              sampling_hz: Any = None, phi: Any = None, name: Any = None,
              config: Optional[Mapping[str, Any]] = None, out: Optional[PathLike] = None,
              threads: Optional[int] = None, seed: Optional[int] = None,
@@ -149,14 +149,14 @@ def diagnose(problem: Any, q: Any = None, *, reference: Union[PathLike, Result, 
 
     `reference` is the config of another simulator's records, or a simulation, which then stand in
     the model's place.
-    `bootstrap` rigs (19 or more) are simulated to tell what noise alone gains. Effects named in
-    `without` are left out of the catalogue. Where the verdict is unknown, `budget` accounts for the
-    gap by several causes.
+    `bootstrap` rigs (19 or more) are simulated to tell what noise alone gains. Effects and items of
+    the budget that are named in `without` are left out. With `one_cause` the one effect of the
+    catalogue is looked for that explains most, as with a reference or a bootstrap.
     """
     words = ["--reference", _config_of(reference)] if reference is not None else []
     words += ["--bootstrap", str(int(bootstrap))] if bootstrap is not None else []
     words += ["--without", ",".join(without)] if without else []
-    words += [] if budget else ["--no-budget"]
+    words += ["--one-cause"] if one_cause else []
     return result(Diagnosis, "diagnose", words, problem, q, options_of(locals()))
 
 

@@ -15,10 +15,11 @@ if TYPE_CHECKING:
 class Diagnosis(Result):
     """Where, why and by how much the model falls short of the rig.
 
-    `verdict` is "effect", "none" or "unknown", `effect` the one that is named, `probability` that
-    of each candidate and of "none" and "unknown". `candidates` has a row for each effect that was
-    tried, `estimates` its parameters, `where` the places, `gap` the root mean excess of the
-    residual's power over its noise before and after.
+    `verdict` is "effect", "none" or "unknown", `effect` what is named, joined by "+", `probability`
+    that of each candidate and of "none" and "unknown". `budget` has a row for each item that was
+    added to the loop, `estimates` their parameters, `where` the places, `gap` how far predictions
+    fall short before and after. Of a search for one cause `candidates` has a row for each effect
+    that was tried, and `estimates` their parameters.
     """
 
     main_file = "diagnosis.json"
@@ -63,16 +64,18 @@ class Diagnosis(Result):
 
     @property
     def estimates(self) -> pd.DataFrame:
+        key = "item" if self.json.get("budget") else "effect"
+        found = self.json.get("budget") or self.json["candidates"]
         rows = [
-            {"effect": one["effect"], "parameter": name, **value}
-            for one in self.json["candidates"] for name, value in one["parameters"].items()
+            {"effect": one[key], "parameter": name, **value}
+            for one in found for name, value in one["parameters"].items()
         ]
         columns = ["effect", "parameter", "value", "lo", "hi", "unit"]
         return pd.DataFrame(rows, columns=columns).set_index(["effect", "parameter"])
 
     @property
     def budget(self) -> pd.DataFrame:
-        """Where several causes act together: what each takes off the gap, in their order."""
+        """What each item takes off the gap, in their order; empty of a search for one cause."""
         return frame_of(self.json.get("budget", []), "item")
 
     @property

@@ -118,7 +118,7 @@ TEST(LongDiagnose, StoppedAtAnyUnitItGoesOnToTheSameBytes) {
           .string();
   const std::string out = (folder.path() / "rig").string();
   ASSERT_EQ(RunHowl("simulate " + config + " --quiet --out " + out).status, 0);
-  const std::string command = "diagnose " + out + "/records.yaml --quiet --without " +
+  const std::string command = "diagnose " + out + "/records.yaml --one-cause --quiet --without " +
                               AllBut({"channel_skew"}) + " --out " + out;
   ASSERT_EQ(RunHowl(command).status, 0);
   const std::string whole = ReadFile(out + "/diagnosis.json");
@@ -143,7 +143,7 @@ TEST(Diagnose, AStateOfAnotherBuildOrWithAKeyTwiceIsNotBelieved) {
   const std::string rig = SimulatedRig(folder, "rig", "1");
   const std::string out = (folder.path() / "out").string();
   const std::string command =
-      "diagnose " + rig + " --without " + AllBut({"channel_skew"}) + " --out " + out;
+      "diagnose " + rig + " --one-cause --without " + AllBut({"channel_skew"}) + " --out " + out;
   std::filesystem::create_directories(out + "/diagnosis.json");
   ASSERT_NE(RunHowl(command).status, 0);
   std::filesystem::remove(out + "/diagnosis.json");
@@ -176,7 +176,7 @@ TEST(LongDiagnose, TheBaseIsTheConfigsModel) {
     folder.Write("rig/other.yaml", text);
     const std::string out = (folder.path() / "other").string();
     const std::string config = (folder.path() / "rig" / "other.yaml").string();
-    const ProgramResult run = RunHowl("diagnose " + config + " --without " +
+    const ProgramResult run = RunHowl("diagnose " + config + " --one-cause --without " +
                                       AllBut({"mode_detuning", "channel_skew"}) + " --out " + out);
     EXPECT_EQ(run.status, 0) << run.err;
     return nlohmann::json::parse(ReadFile(out + "/diagnosis.json"));
@@ -271,7 +271,8 @@ TEST(Diagnose, ARateInKilohertzIsAMistake) {
   const std::string out = (folder.path() / "out").string();
   const ProgramResult result = RunHowl("diagnose " + rig + " --out " + out);
   EXPECT_EQ(result.status, 2);
-  EXPECT_EQ(result.err, rig + ":4: record: a is sampled at 5 Hz, expected at least 100 Hz\n");
+  EXPECT_EQ(result.err,
+            rig + ":2: experiments: a is sampled at 5.00 Hz, expected at least 100 Hz\n");
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

@@ -34,10 +34,10 @@ class LoopDiagnosis : public testing::Test {
 
 // The records are of a loop of one mode whose flame answers to dp/dt.
 TEST_F(LoopDiagnosis, SaysWhatTheConfigsLoopLacks) {
-  const ProgramResult run =
-      Diagnose("{modes: 1, flame_input: velocity}",
-               "--without p_sensor_noise,q_sensor_noise,duct_noise,background_noise,acoustic_mode,"
-               "complex_residues,delay_dispersion,gamma_delays");
+  const ProgramResult run = Diagnose(
+      "{modes: 1, flame_input: velocity}",
+      "--without p_sensor_noise,q_sensor_noise,duct_noise,background_noise,extra_acoustic_mode,"
+      "complex_residues,delay_dispersion,gamma_delays");
   ASSERT_EQ(run.status, 0) << run.err << run.out;
   EXPECT_THAT(run.out, HasSubstr("to go on from there: --with flame_input_pressure_rate\n"));
   const Json json = Json::parse(ReadFile(folder_.path() / "out/diagnosis.json"));
@@ -65,10 +65,10 @@ TEST_F(LoopDiagnosis, RefusesWhatItDoesNotTake) {
   };
   refuses(loop, "--plan", "--plan: the config's model states a loop");
   refuses(loop, "--bootstrap 19", "--bootstrap: the config's model states a loop");
-  refuses(loop, "--without duct_nois",
-          "--without: duct_nois is nothing that a loop of records may");
+  refuses(loop, "--one-cause", "--one-cause: the config's model states a loop");
+  refuses(loop, "--without duct_nois", "did you mean duct_noise?");
   refuses(loop, "--with duct_nois", "did you mean duct_noise?");
-  refuses("{modes: 1}", "--with duct_noise", "--with begins a budget of records");
+  refuses("{modes: 1}", "--one-cause --with duct_noise", "--with begins a budget of records");
   refuses("{modes: auto}", "", "is auto, expected a number");
   refuses("{modes: 1, flame_input: auto}", "", "is auto, expected one of them");
 }

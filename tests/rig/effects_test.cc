@@ -36,14 +36,14 @@ TEST(Effects, AtTheirNullsAreTheBase) {
       {"second_delay_path", {{"share", 0.0}}},
       {"external_tone", {{"rel", 0.0}}},
       {"x_entropy_wave", {{"rel", 0.0}}},
-      {"x_mode_damping", {{"factor", 1.0}}},
+      {"own_damping", {{"factor", 1.0}}},
       {"x_flame_resonance", {{"gain", 0.0}}},
       {"x_flame_play", {{"rel", 0.0}}},
       {"x_delay_wander", {{"rel_rms", 0.0}}},
-      {"x_duct_noise", {{"rel", 0.0}}},
+      {"duct_noise", {{"rel", 0.0}}},
       {"x_swept_source", {{"rel", 0.0}}},
       {"x_p_highpass", {{"cutoff_hz", 0.0}}},
-      {"x_p_dropouts", {{"per_s", 0.0}}},
+      {"p_dropouts", {{"per_s", 0.0}}},
       {"x_q_highpass", {{"cutoff_hz", 0.0}}},
       {"x_q_compression", {{"rel", 0.0}}},
       {"x_point_wander", {{"rel_rms", 0.0}}},
@@ -78,7 +78,7 @@ TEST(Effects, CoverEveryBlockInsideAndOutsideTheCatalogue) {
       outside.insert(effect.block);
     }
   }
-  EXPECT_EQ(inside, 20);
+  EXPECT_EQ(inside, 23);
   EXPECT_EQ(outside, (std::set<std::string>{"acoustics", "flame", "delay", "source", "p_instrument",
                                             "q_instrument", "operating_point"}));
 }

@@ -106,6 +106,15 @@ LoopForm LeastForm(const RecordLoopSpec& spec) {
   return out;
 }
 
+LoopForm PapersForm(int modes, double ratio) {
+  RecordLoopSpec spec;
+  spec.modes = modes;
+  if (modes > 1) spec.ratio = ratio;
+  spec.own_damping = false;
+  spec.complex_residues = false;
+  return LeastForm(spec);
+}
+
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
   std::vector<LoopItem> out;
   for (LoopItem item : AllLoopItems()) {

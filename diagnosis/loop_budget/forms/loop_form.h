@@ -28,6 +28,10 @@ std::vector<NoiseTerm> LeastNoise();
 // finds what more there is.
 LoopForm LeastForm(const RecordLoopSpec& spec);
 
+// The paper's loop as records show it: modes that are tied at `ratio`, with one damping and real
+// residues, flame driven by dp/dt; each point's delay is its own.
+LoopForm PapersForm(int modes = 2, double ratio = 3.0);
+
 // All that may be added to `model` now, of a search that began at `base`.
 std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);
 

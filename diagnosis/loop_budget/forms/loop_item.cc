@@ -1,5 +1,7 @@
 #include "diagnosis/loop_budget/forms/loop_item.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +14,21 @@ namespace {
 // Of a flame's gain, in cycles. Of a peak half way between two of them either has a fifth of the
 // power in the wrong place; a memory of a tenth of a record is a drift.
 constexpr std::array kGainMemories = {1.0, 4.0, 16.0};
+
+LoopBlock BlockOf(LoopNoise source) {
+  switch (source) {
+    case LoopNoise::kPressureSensor:
+    case LoopNoise::kPressureHum:
+      return LoopBlock::kPressureInstrument;
+    case LoopNoise::kHeatReleaseSensor:
+    case LoopNoise::kHeatReleaseHum:
+      return LoopBlock::kHeatReleaseInstrument;
+    case LoopNoise::kFlameGain:
+      return LoopBlock::kFlame;
+    default:
+      return LoopBlock::kSource;
+  }
+}
 
 std::vector<LoopItem> MakeItems() {
   std::vector<LoopItem> out = {
@@ -32,7 +49,7 @@ std::vector<LoopItem> MakeItems() {
       {"mode_detuning", LoopItemKind::kDetuning},
       {"own_damping", LoopItemKind::kOwnDamping},
       {"complex_residues", LoopItemKind::kComplexResidues},
-      {"acoustic_mode", LoopItemKind::kMode},
+      {"extra_acoustic_mode", LoopItemKind::kMode},
       {std::string(kDelayDispersionId), LoopItemKind::kDelaySpread, {}, DelaySpread::kNormal},
       {"gamma_delays", LoopItemKind::kDelaySpread, {}, DelaySpread::kGamma},
       {std::string(kSecondPathId), LoopItemKind::kSecondPath},
@@ -81,6 +98,34 @@ std::vector<LoopItem> MakeItems() {
 }
 
 }  // namespace
+
+LoopBlock BlockOf(const LoopItem& item) {
+  switch (item.kind) {
+    case LoopItemKind::kNoise:
+      return BlockOf(item.noise.source);
+    case LoopItemKind::kNoiseShape:
+      return LoopBlock::kSource;
+    case LoopItemKind::kDetuning:
+    case LoopItemKind::kOwnDamping:
+    case LoopItemKind::kComplexResidues:
+    case LoopItemKind::kMode:
+      return LoopBlock::kAcoustics;
+    case LoopItemKind::kDelaySpread:
+    case LoopItemKind::kSecondPath:
+      return LoopBlock::kDelay;
+    case LoopItemKind::kFlameInput:
+      return LoopBlock::kFlame;
+    case LoopItemKind::kSharedEffect:
+      return item.effect->block();
+    case LoopItemKind::kSlowChange:
+      if (item.change == &PointStructure::delay_follows_amplitude) return LoopBlock::kDelay;
+      return item.change == &PointStructure::gain_follows_amplitude ? LoopBlock::kFlame
+                                                                    : LoopBlock::kAcoustics;
+    case LoopItemKind::kLineErrors:
+      return item.lines == &PointStructure::flame_lines ? LoopBlock::kFlame : LoopBlock::kAcoustics;
+  }
+  LOG(FATAL) << "an item of no kind";
+}
 
 LoopItem SharedItem(const EffectPointer& effect) {
   return {.id = std::string(effect->id()), .kind = LoopItemKind::kSharedEffect, .effect = effect};

@@ -12,7 +12,7 @@
 //   mode_detuning                    the modes' frequencies are free of the base's ratio
 //   own_damping                      each mode has its own
 //   complex_residues                 p is measured elsewhere than the flame is, or there is flow
-//   acoustic_mode                    one more mode, with its own frequency and damping; it may be
+//   extra_acoustic_mode              one more mode, with its own frequency and damping; it may be
 //                                    added repeatedly
 //   delay_dispersion                 delays are spread, normally (flame_path.h)
 //   gamma_delays                     or as behind a chain of lags
@@ -78,6 +78,8 @@ struct LoopItem {
 };
 
 std::vector<std::string> LoopItemIds();
+// Where in the loop it lies.
+LoopBlock BlockOf(const LoopItem& item);
 // In keys of finished units (fit_units.h): forms of one effect are different items.
 std::string KeyOf(const LoopItem& item);
 

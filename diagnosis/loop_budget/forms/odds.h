@@ -15,6 +15,11 @@ inline constexpr double kOddsOfClass = 50.0;
 // Against the loop found being the rig's, of free errors at the cycle's lines.
 inline constexpr double kOddsOfUnknown = 20.0;
 
+// Causes that a verdict names. Of some forty items three and more can imitate what none of them is:
+// of sixty rigs of the second simulator two had such an account (bench/loop_trial_study), one of an
+// effect that is no item, and one of two causes beside which the third was none.
+inline constexpr int kMostNamed = 2;
+
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_ODDS_H_

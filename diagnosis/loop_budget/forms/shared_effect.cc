@@ -195,4 +195,26 @@ double LogJacobian(const RecordSpectra& record, const std::vector<SharedEffect>&
   return sum;
 }
 
+double TurnOfCycle(const std::vector<SharedEffect>& effects, double cycle_hz) {
+  double turn = 0.0;
+  for (const SharedEffect& each : effects) {
+    if (IsAtNull(each)) continue;
+    switch (StageOf(*each.effect)) {
+      case Stage::kFlame: {
+        const auto response =
+            each.effect->ChangesFlameInput() ? &Effect::FlameIn : &Effect::FlameOut;
+        turn -= std::arg(((*each.effect).*response)(cycle_hz, {}, each.values));
+        break;
+      }
+      case Stage::kPressure:
+        turn += std::arg(each.effect->PressureInstrument(cycle_hz, each.values));
+        break;
+      case Stage::kLeak:
+      case Stage::kHeatRelease:
+        break;
+    }
+  }
+  return turn;
+}
+
 }  // namespace howl

@@ -51,6 +51,10 @@ Eigen::VectorXd PressureAsRecorded(const RecordSpectra& record,
 Eigen::Matrix2cd ByRecorded(const std::vector<SharedEffect>& effects, double cycle_hz,
                             std::complex<double> s);
 
+// What they add to the loop's delay, in radians of the cycle: their turn of its phase is taken
+// back, so that the loop's delay is that of the cycle, and the flame's own is less by so much.
+double TurnOfCycle(const std::vector<SharedEffect>& effects, double cycle_hz);
+
 // ln of the Jacobian.
 double LogJacobian(const RecordSpectra& record, const std::vector<SharedEffect>& effects);
 

@@ -68,20 +68,19 @@ double OverFloor(const Pressure& p, double hz) {
          (shape * p.floor[std::clamp<Eigen::Index>(middle, 0, p.floor.size() - 1)]);
 }
 
-bool IsAwayFromCycles(const std::vector<Pressure>& rig, double hz) {
-  return std::ranges::none_of(rig, [hz](const Pressure& p) {
-    const double of_cycle = hz / p.cycle_hz;
-    return std::abs(of_cycle - std::max(std::round(of_cycle), 1.0)) < kLineReach;
-  });
+bool IsAwayFromCycle(const Pressure& p, double hz) {
+  const double of_cycle = hz / p.cycle_hz;
+  return std::abs(of_cycle - std::max(std::round(of_cycle), 1.0)) >= kLineReach;
 }
 
 double Best(const std::vector<Pressure>& rig, double from_hz, double to_hz, double step_hz) {
   double best_hz = 0.0;
   double most = 0.0;
   for (double hz = from_hz; hz <= to_hz; hz += step_hz) {
-    if (!IsAwayFromCycles(rig, hz)) continue;
     double sum = 0.0;
-    for (const Pressure& p : rig) sum += OverFloor(p, hz);
+    for (const Pressure& p : rig) {
+      if (IsAwayFromCycle(p, hz)) sum += OverFloor(p, hz);
+    }
     if (sum > most) {
       most = sum;
       best_hz = hz;

@@ -6,8 +6,8 @@
 //
 //   sum over records e of |u^H P_e|^2 / (|u|^2 M_e)
 //
-// is largest, away from the lines of all records' cycles. It is a start for the item external_tone,
-// which has to pay; whether there is a tone is not said here.
+// is largest, over the records whose cycles have no line there. It is a start for the item
+// external_tone, which has to pay; whether there is a tone is not said here.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_TONE_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_TONE_H_
 

@@ -68,6 +68,9 @@ std::vector<LoopTrial> ForwardSearch::Try(const LoopFit& from, double standing,
   for (const LoopTrial& trial : out) {
     VLOG(1) << key << trial.item.id << " " << trial.gain << " nats";
     last_gain_[KeyOf(trial.item)] = trial.gain;
+    if (!first_step_) continue;
+    const auto [at, is_new] = alone_.emplace(trial.item.id, trial.gain);
+    if (!is_new) at->second = std::max(at->second, trial.gain);
   }
   return out;
 }
@@ -140,7 +143,10 @@ std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from, const std::vect
       waiting.erase(waiting.begin(), waiting.begin() + now);
       bar = Bar(trials, fitted);
       if (!waiting.empty() && !(LastGain(waiting[0]) < bar)) continue;
-      if (std::optional<LoopStep> found = BestOf(trials, from, offered, key, &fitted)) return found;
+      if (std::optional<LoopStep> found = BestOf(trials, from, offered, key, &fitted)) {
+        first_step_ = false;
+        return found;
+      }
       bar = std::numeric_limits<double>::infinity();
     }
   }

@@ -37,6 +37,9 @@ class ForwardSearch {
   std::optional<LoopStep> Next(const LoopFit& from, const std::vector<LoopStep>& steps,
                                const std::string& prefix);
 
+  // What each item gained, by its ID and in its best form, in trials of the first step.
+  const std::map<std::string, double>& alone() const { return alone_; }
+
  private:
   std::vector<LoopTrial> Try(const LoopFit& from, double standing,
                              const std::vector<LoopItem>& items, const std::string& key);
@@ -51,6 +54,8 @@ class ForwardSearch {
   const LoopForm& base_;
   const LoopBudgetOptions& options_;
   std::map<std::string, double> last_gain_;  // nats, of a trial, by the item's key
+  std::map<std::string, double> alone_;
+  bool first_step_ = true;
 };
 
 }  // namespace howl

@@ -15,7 +15,6 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kMostItems = 24;
 // Forward and backward; each comes in and goes by the same odds, and could go to and fro.
 constexpr int kMostPasses = 3;
 
@@ -73,13 +72,14 @@ LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const
 bool Search::Forward(const std::string& prefix, LoopFound* out) {
   ForwardSearch forward(records_, base_, options_);
   const std::size_t before = out->steps.size();
-  while (out->steps.size() < kMostItems) {
+  while (out->steps.size() < options_.most_items) {
     std::optional<LoopStep> next = forward.Next(out->best, out->steps, prefix);
     if (!next) break;
     next->after = Driven(next->after, prefix + "step/" + std::to_string(out->steps.size()) + "/");
     out->best = next->after;
     out->steps.push_back(std::move(*next));
   }
+  if (prefix.empty()) out->alone = forward.alone();
   if (out->steps.size() == before) return false;
   for (const LoopItem& item : SharedItemsOf(out->best.model)) {
     out->best = Refined(records_, std::move(out->best), item, prefix + "best/", options_);

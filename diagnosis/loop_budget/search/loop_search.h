@@ -15,6 +15,8 @@
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_SEARCH_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_SEARCH_H_
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "diagnosis/loop_budget/search/loop_exchange.h"
@@ -28,6 +30,7 @@ struct LoopFound : LoopStanding {
   // where it has them.
   LoopFit with_acoustic_lines;
   LoopFit with_flame_lines;
+  std::map<std::string, double> alone;  // nats (ForwardSearch::alone)
 };
 
 LoopFound SearchLoopBudget(LoopRecords records, const LoopForm& base,

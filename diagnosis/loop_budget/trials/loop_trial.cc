@@ -37,7 +37,7 @@ std::vector<Eigen::VectorXd> StartOf(const LoopRecords& records, const LoopFit& 
   return BestRow({starts.rows.size(), records.size(), starts.apart}, options.threads, on_middle);
 }
 
-// Whether at most points a mode rings on for longer than the record.
+// Whether at most points a mode's half-power width is less than the record resolves.
 bool HasATone(const LoopRecords& records, const LoopTrial& trial) {
   std::size_t points = 0;
   for (std::size_t e = 0; e < records.size(); ++e) {
@@ -45,7 +45,7 @@ bool HasATone(const LoopRecords& records, const LoopTrial& trial) {
         trial.model.structure, records.FlameTerms(trial.model.flame_input, e), trial.starts[0][e]);
     const double of_record = 2.0 * std::numbers::pi * records.cycle_hz()[e] * records.length_s()[e];
     if (std::ranges::any_of(point.modes, [of_record](const LoopMode& mode) {
-          return mode.xi * mode.omega * of_record < 1.0;
+          return mode.xi * mode.omega * of_record < std::numbers::pi;
         })) {
       ++points;
     }

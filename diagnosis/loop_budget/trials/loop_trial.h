@@ -14,20 +14,27 @@
 
 namespace howl {
 
+// Beyond what any rig was found to need: of three measured points 15 stayed.
+inline constexpr std::size_t kMostItems = 24;
+
 struct LoopBudgetOptions {
   std::size_t starts = 12;  // of the base's fit, of each point by itself
   std::uint64_t seed = 1;
   int threads = 0;
   FitUnits* units = nullptr;
-  std::vector<std::string> withheld = {};                             // items that are not tried
-  std::vector<std::string> given = {};                                // that the base has
+  std::vector<std::string> withheld = {};  // items that are not tried
+  std::vector<std::string> given = {};     // that the base has
+  std::size_t most_items = kMostItems;     // that may come in before the way back
+  // Whether the base's points have one delay, so that a trend of their own ones is a cause
+  // (delay_trend.h).
+  bool one_delay = false;
   std::function<void(std::size_t done, std::size_t total)> progress;  // in trials of a step
 };
 
 struct LoopTrial {
   LoopItem item;
   LoopForm model;
-  // Nats. Of a mode that at most points rings on for longer than the record minus infinity: the
+  // Nats. Of a mode that at most points is narrower than the record resolves minus infinity: the
   // records do not tell it from a tone, which is another item.
   double gain = 0.0;
   // Of that, what values which all points share cost. Densities of records that are left out do not

@@ -9,6 +9,8 @@ namespace {
 
 // Of the cycle's frequency: as far as its lines reach (loop_point.h).
 constexpr double kBesideCycle = 0.06;
+// Of a tapered line all but two thousandths lie within two bins to either side.
+constexpr double kBinsApart = 4.0;
 
 Eigen::VectorXd Lines(const NoiseTerm& term, const RecordSpectra& record) {
   const double cycle_hz = record.scale.cycle_hz;
@@ -17,8 +19,8 @@ Eigen::VectorXd Lines(const NoiseTerm& term, const RecordSpectra& record) {
   const double highest_hz =
       HasOneLine(term) ? 1.5 * term.line_hz : f_hz[record.bins() - 1] + term.line_hz;
   for (double line_hz = term.line_hz; line_hz < highest_hz; line_hz += term.line_hz) {
-    const double of_cycle = line_hz / cycle_hz;
-    if (std::abs(of_cycle - std::round(of_cycle)) < kBesideCycle) continue;
+    const double from_cycle_hz = line_hz - std::round(line_hz / cycle_hz) * cycle_hz;
+    if (std::abs(from_cycle_hz) < kBinsApart * record.bin_hz) continue;
     for (Eigen::Index i = 0; i < record.bins(); ++i) {
       const double bins = (f_hz[i] - line_hz) / record.bin_hz;
       out[i] += 1.0 / std::max(1.0, std::pow(4.0 * bins * bins - 1.0, 2));

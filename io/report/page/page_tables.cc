@@ -194,6 +194,8 @@ std::string DiagnosisSummary(const ReportInput& input) {
   rows.clear();
   for (const auto& candidate : input.diagnosis.value("candidates", nlohmann::json::array())) {
     if (rows.size() == 5) break;
+    // Of a budget only what is named was fitted to all points.
+    if (!std::isfinite(NumberAt(candidate, "shrinkage"))) continue;
     std::string parameters;
     const nlohmann::json estimates = candidate.value("parameters", nlohmann::json::object());
     for (const auto& [name, value] : estimates.items()) {

@@ -88,8 +88,8 @@ TEST(LinesOfRecords, AreATone) {
     rig.push_back(DuctAt(gain, 0.8, rig.size() + 1, {}, with_tone));
   }
   EXPECT_NEAR(ToneIn(LoopRecords(rig, 0)), kTone_hz, 0.1);
-  const LoopDiagnosis found =
-      DiagnoseLoops(rig, DuctsForm(), Among({"external_tone", "acoustic_mode", "duct_noise"}));
+  const LoopDiagnosis found = DiagnoseLoops(
+      rig, DuctsForm(), Among({"external_tone", "extra_acoustic_mode", "duct_noise"}));
   ASSERT_EQ(found.diagnosis.budget->entries.size(), 1u);
   EXPECT_EQ(found.diagnosis.budget->entries[0].item, "external_tone");
   EXPECT_NEAR(found.diagnosis.budget->entries[0].parameters[1].value, kTone_hz, 0.1);

@@ -23,8 +23,8 @@ std::vector<LoopRecord> DuctsRecords() { return DuctsAt({1.2, 1.5, 1.8}); }
 TEST(LoopBudget, OfTheRightLoopHasNothing) {
   const LoopDiagnosis found =
       DiagnoseLoops(DuctsRecords(), DuctsForm(),
-                    Among({"acoustic_mode", "delay_dispersion", "duct_noise", "p_sensor_noise",
-                           "mains_hum", "external_tone"}));
+                    Among({"extra_acoustic_mode", "delay_dispersion", "duct_noise",
+                           "p_sensor_noise", "mains_hum", "external_tone"}));
   EXPECT_EQ(found.diagnosis.kind, VerdictKind::kNone);
   EXPECT_TRUE(found.diagnosis.budget->entries.empty());
   EXPECT_GT(found.diagnosis.probability_none, 0.5);
@@ -39,17 +39,17 @@ TEST(LoopBudget, FindsASecondModeBesideASingleOne) {
   RecordLoopSpec spec;
   spec.modes = 1;
   spec.own_damping = false;
-  const LoopDiagnosis found =
-      DiagnoseLoops(DuctsRecords(), LeastForm(spec), Among({"acoustic_mode", "mode_detuning"}));
+  const LoopDiagnosis found = DiagnoseLoops(DuctsRecords(), LeastForm(spec),
+                                            Among({"extra_acoustic_mode", "mode_detuning"}));
   const Budget& budget = *found.diagnosis.budget;
   ASSERT_EQ(budget.entries.size(), 1u);
-  EXPECT_EQ(budget.entries[0].item, "acoustic_mode");
+  EXPECT_EQ(budget.entries[0].item, "extra_acoustic_mode");
   EXPECT_EQ(budget.entries[0].experiments_better, 3u);
   ASSERT_EQ(budget.entries[0].parameters.size(), 2u);
   EXPECT_NEAR(budget.entries[0].parameters[0].value, 455.0, 5.0);
   EXPECT_EQ(found.best.structure.modes, 2);
   // Items are fitted at once on as many threads as there are: to the same bits as on one.
-  LoopBudgetOptions alone = Among({"acoustic_mode", "mode_detuning"});
+  LoopBudgetOptions alone = Among({"extra_acoustic_mode", "mode_detuning"});
   alone.threads = 1;
   const LoopDiagnosis again = DiagnoseLoops(DuctsRecords(), LeastForm(spec), alone);
   EXPECT_EQ(again.diagnosis.budget->gap_left, budget.gap_left);
@@ -138,7 +138,7 @@ TEST(LoopItem, ComesAndGoes) {
   // A further mode stays where the others are tied to one another again.
   const LoopItem own_damping{"own_damping", LoopItemKind::kOwnDamping};
   LoopForm free = With(base, own_damping);
-  free = With(free, {"acoustic_mode", LoopItemKind::kMode});
+  free = With(free, {"extra_acoustic_mode", LoopItemKind::kMode});
   EXPECT_EQ(free.structure.Frequencies(), 2);
   EXPECT_EQ(free.structure.Dampings(), 3);
   const LoopForm tied = Without(free, own_damping, base);

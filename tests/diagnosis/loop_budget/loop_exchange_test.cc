@@ -31,7 +31,7 @@ TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
   LoopBudgetOptions options;
   options.starts = 4;
   const LoopFit without = DuctsFit(records, options);
-  const LoopItem mode = ItemsOf("acoustic_mode").at(0);
+  const LoopItem mode = ItemsOf("extra_acoustic_mode").at(0);
   const LoopTrial trial = TryAll(records, without, 0.0, {mode}, "mode/", options)[0];
   const LoopFit with_mode =
       FitLoopFrom(records, trial.model, trial.starts, MaximumTaken::kBest, "mode/", options);

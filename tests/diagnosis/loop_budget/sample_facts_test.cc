@@ -74,5 +74,25 @@ TEST(SampleFacts, SoAreFewLevels) {
   EXPECT_EQ(found.diagnosis.probability_none, 0.0);
 }
 
+// Of 100 levels the steps are the noise of p, which the base has: the rest is looked for beside it.
+TEST(SampleFacts, FineStepsLeaveTheRestToBeFound) {
+  std::vector<LoopRecord> records = Ducts();
+  for (LoopRecord& each : records) {
+    std::vector<double>& p = each.record.pressure;
+    const double step = std::ranges::max(p) / 50.0;
+    for (double& value : p) value = step * std::round(value / step);
+  }
+  const std::vector<SampleFact> facts = SampleFactsOf(records);
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_TRUE(facts[0].is_noise);
+  EXPECT_NEAR(facts[0].value, 100.0, 8.0);
+  const LoopDiagnosis alone = DiagnoseLoops(records, DuctsForm(), Among({"complex_residues"}));
+  EXPECT_EQ(alone.diagnosis.effect, "quantisation");
+  LoopForm base = DuctsForm();
+  base.structure.complex_residues = false;
+  const LoopDiagnosis both = DiagnoseLoops(records, base, Among({"complex_residues"}));
+  EXPECT_EQ(both.diagnosis.effect, "quantisation+complex_residues");
+}
+
 }  // namespace
 }  // namespace howl

@@ -270,5 +270,16 @@ TEST(SharedEffect, HasNoColouredNoiseBesideIt) {
   EXPECT_EQ(found.diagnosis.effect, "q_sensor_lowpass");
 }
 
+// A lag of the flame's answer adds its phase lag at the cycle to the loop's delay.
+TEST(SharedEffect, TurnsTheCycle) {
+  const std::vector<EffectPointer> effects = SharedEffects();
+  const auto lag = std::ranges::find(
+      effects, "flame_lowpass", [](const EffectPointer& each) { return std::string(each->id()); });
+  ASSERT_NE(lag, effects.end());
+  EXPECT_NEAR(TurnOfCycle({{*lag, {300.0}}}, 200.0), std::atan(200.0 / 300.0), 1e-12);
+  EXPECT_EQ(TurnOfCycle({{*lag, {(*lag)->parameters()[0].null_value}}}, 200.0), 0.0);
+  EXPECT_EQ(TurnOfCycle({}, 200.0), 0.0);
+}
+
 }  // namespace
 }  // namespace howl

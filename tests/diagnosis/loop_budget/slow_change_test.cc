@@ -89,9 +89,9 @@ TEST(SlowChanges, OfTheDelayAreFound) {
   // Beside the delay a gain is worth 5.4 nats here, by chance or by what is not proportional: of
   // seven items that would pay, of so many it does not, nor of all, which would take two minutes.
   std::vector<std::string> offered = Offered();
-  for (const char* more :
-       {"q_sensor_noise", "background_noise", "noise_shape", "mains_hum", "external_tone",
-        "own_damping", "complex_residues", "mode_detuning", "acoustic_mode", "gamma_delays"}) {
+  for (const char* more : {"q_sensor_noise", "background_noise", "noise_shape", "mains_hum",
+                           "external_tone", "own_damping", "complex_residues", "mode_detuning",
+                           "extra_acoustic_mode", "gamma_delays"}) {
     offered.emplace_back(more);
   }
   const LoopDiagnosis found = DiagnoseLoops(records, DuctsForm(), Among(offered));
@@ -130,7 +130,7 @@ TEST(SlowChanges, ThatFluctuateAreFound) {
   const BudgetEntry& entry = OnlyEntry(found);
   EXPECT_EQ(entry.item, "parametric_noise");
   // Whose spectrum is the same.
-  EXPECT_EQ(entry.equals, std::vector<std::string>{"intermittency"});
+  EXPECT_EQ(entry.equals, (std::vector<std::string>{"intermittency", "delay_wander"}));
   ASSERT_EQ(entry.parameters.size(), 2u);
   // The cycle's amplitude follows the gain: a part of what it does passes for the flame's curve.
   EXPECT_LT(entry.parameters[0].value, 1.05 * kGain);

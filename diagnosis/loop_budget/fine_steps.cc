@@ -1,0 +1,62 @@
+#include "diagnosis/loop_budget/fine_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
+
+#include "model/numerics/fft.h"
+
+namespace howl {
+namespace {
+
+// Samples are written with six digits at least.
+constexpr double kOffTheLattice = 1e-2;  // of a step
+constexpr double kShareOfFloor = 0.5;
+
+// The variance of white noise with the power that the signal has at its upper frequencies.
+double FloorOf(const std::vector<double>& signal) {
+  const std::size_t n = signal.size();
+  std::vector<double> windowed(n);
+  double weights = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double phase = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5);
+    const double weight = 1.0 - std::cos(phase / static_cast<double>(n));
+    windowed[i] = weight * signal[i];
+    weights += weight * weight;
+  }
+  std::vector<std::complex<double>> spectrum(n / 2 + 1);
+  Fft::OfThisThread().Forward(windowed, spectrum);
+  std::vector<double> power;
+  for (std::size_t k = n / 4; k < n / 2; ++k) power.push_back(std::norm(spectrum[k]));
+  if (power.empty()) return 0.0;
+  const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
+  std::ranges::nth_element(power, middle);
+  return *middle / std::numbers::ln2 / weights;
+}
+
+}  // namespace
+
+int LevelsOfFineSteps(const std::vector<double>& signal) {
+  std::vector<double> values = signal;
+  std::ranges::sort(values);
+  values.erase(std::ranges::unique(values).begin(), values.end());
+  if (values.size() < 2 || values.size() > kMostLevels) return 0;
+  double step = values.back() - values.front();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    step = std::min(step, values[i] - values[i - 1]);
+  }
+  const double levels = (values.back() - values.front()) / step;
+  if (levels > kMostLevels) return 0;
+  for (const double value : values) {
+    const double steps = (value - values.front()) / step;
+    if (std::abs(steps - std::round(steps)) > kOffTheLattice * std::max(1.0, steps / levels)) {
+      return 0;
+    }
+  }
+  if (step * step / 12.0 < kShareOfFloor * FloorOf(signal)) return 0;
+  return static_cast<int>(std::lround(levels)) + 1;
+}
+
+}  // namespace howl

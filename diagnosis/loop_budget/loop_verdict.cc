@@ -1,0 +1,229 @@
+#include "diagnosis/loop_budget/loop_verdict.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/loop_budget/delay_trend.h"
+#include "diagnosis/loop_budget/forms/odds.h"
+#include "diagnosis/loop_budget/sample_facts.h"
+#include "model/effects/catalogue.h"
+
+namespace howl {
+namespace {
+
+// Errors at the cycle's lines are no cause, and finer spectra of noise name none.
+bool IsCause(const LoopStep& step) {
+  return step.item.lines == nullptr && step.item.kind != LoopItemKind::kNoiseShape;
+}
+
+bool IsOfLines(const LoopStep& step) { return step.item.lines != nullptr; }
+
+// Without errors at the cycle's lines, the best loop has at most this density.
+double DensityWithoutLines(const LoopFound& found) {
+  double out = found.best.Density();
+  for (std::size_t i = 0; i < found.steps.size(); ++i) {
+    if (IsOfLines(found.steps[i])) out = std::min(out, found.without[i].Density());
+  }
+  return out;
+}
+
+std::string Joined(const Budget& budget) {
+  std::string out;
+  const auto add = [&out](const std::string& name) { out += (out.empty() ? "" : "+") + name; };
+  for (const SampleFact& fact : budget.seen_in_samples) add(fact.effect);
+  for (const BudgetEntry& entry : budget.entries) {
+    if (entry.item != "noise_shape") add(entry.item);
+  }
+  return out;
+}
+
+// All that is named, as the only candidate.
+void AddCandidate(double gain, double probability, Diagnosis* diagnosis) {
+  const Budget& budget = *diagnosis->budget;
+  Candidate candidate;
+  candidate.effect = Joined(budget);
+  candidate.probability = probability;
+  candidate.gain = gain;
+  candidate.gap_after = budget.gap_left;
+  candidate.shrinkage = budget.gap_before > 0.0 ? 1.0 - budget.gap_left / budget.gap_before : 0.0;
+  candidate.shrinkage_low = candidate.shrinkage_high = std::numeric_limits<double>::quiet_NaN();
+  candidate.p_value = std::numeric_limits<double>::quiet_NaN();
+  if (budget.entries.size() == 1) candidate.parameters = budget.entries[0].parameters;
+  diagnosis->candidates.push_back(std::move(candidate));
+}
+
+// What items would gain alone, beside the base, the best of them first: no candidates of which
+// anything was fitted to all points.
+void AddAlone(const LoopFound& found, Diagnosis* diagnosis) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const std::string named =
+      diagnosis->candidates.empty() ? "" : diagnosis->candidates.front().effect;
+  const std::size_t first = diagnosis->candidates.size();
+  for (const auto& [item, gain] : found.alone) {
+    if (!(gain > 0.0) || item == named) continue;
+    Candidate candidate;
+    candidate.effect = item;
+    candidate.gain = gain;
+    candidate.gap_after = candidate.shrinkage = candidate.p_value = kUnknown;
+    candidate.shrinkage_low = candidate.shrinkage_high = kUnknown;
+    diagnosis->candidates.push_back(std::move(candidate));
+  }
+  std::sort(diagnosis->candidates.begin() + static_cast<std::ptrdiff_t>(first),
+            diagnosis->candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+}
+
+// What is named with one item in the place of another of its class.
+std::vector<std::string> Alike(const Budget& budget) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < budget.entries.size(); ++i) {
+    for (const std::string& other : budget.entries[i].equals) {
+      Budget exchanged;
+      exchanged.seen_in_samples = budget.seen_in_samples;
+      exchanged.entries = budget.entries;
+      exchanged.entries[i].item = other;
+      out.push_back(Joined(exchanged));
+    }
+  }
+  return out;
+}
+
+LoopBlock BlockOfSamples(const std::string& effect) {
+  for (const EffectPointer& each : Catalogue()) {
+    if (each->id() == effect) return each->block();
+  }
+  return LoopBlock::kPressureInstrument;
+}
+
+// Of what is named the places, by what each is worth; of what nothing explains where it is.
+std::vector<Place> Where(const Diagnosis& diagnosis) {
+  const Budget& budget = *diagnosis.budget;
+  if (diagnosis.kind != VerdictKind::kEffect) return budget.left;
+  std::vector<Place> out;
+  for (const SampleFact& fact : budget.seen_in_samples) {
+    Place place = budget.everywhere;
+    place.block = BlockOfSamples(fact.effect);
+    place.share =
+        budget.entries.empty() ? 1.0 / static_cast<double>(budget.seen_in_samples.size()) : 0.0;
+    out.push_back(std::move(place));
+  }
+  if (!AreNoise(budget.seen_in_samples)) return out;
+  double sum = 0.0;
+  for (const BudgetEntry& entry : budget.entries) sum += entry.lost_nats;
+  for (const BudgetEntry& entry : budget.entries) {
+    out.push_back(entry.place);
+    out.back().share = entry.lost_nats / sum;
+  }
+  std::ranges::stable_sort(out, std::ranges::greater(), &Place::share);
+  return out;
+}
+
+// The samples have been changed; of what else there may be nothing is said.
+void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
+  diagnosis->kind = VerdictKind::kEffect;
+  diagnosis->effect = Joined(*diagnosis->budget);
+  AddCandidate(found.best.Density() - found.base.Density(), 1.0, diagnosis);
+}
+
+// An effect of the catalogue that would have a value outside its bounds; empty: there is none.
+std::string Impossible(const Budget& budget) {
+  for (const BudgetEntry& entry : budget.entries) {
+    for (const EffectPointer& effect : Catalogue()) {
+      if (effect->id() != entry.item) continue;
+      for (const EstimatedParameter& estimate : entry.parameters) {
+        const auto known =
+            std::ranges::find(effect->parameters(), estimate.name, &EffectParameter::name);
+        // Times and frequencies have the bounds of rigs of another size.
+        if (known == effect->parameters().end() || !known->unit.empty()) continue;
+        if (estimate.value < known->low || estimate.value > known->high) {
+          return entry.item + " would have a " + estimate.name + " that it cannot have";
+        }
+      }
+    }
+  }
+  return "";
+}
+
+// Of the errors at the cycle's lines what they gain is `lines`; `named` causes would be named.
+std::string WhyUnknown(const Budget& budget, double lines, std::ptrdiff_t named) {
+  if (lines > std::log(kOddsOfUnknown)) return "the best loop still errs at the cycle's lines";
+  if (named > kMostNamed) return "so many items together can imitate what none of them is";
+  return Impossible(budget);
+}
+
+void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
+  Diagnosis& diagnosis = out->diagnosis;
+  const double gained = std::max(out->acoustics.nats, out->flame.nats);
+  double trend = 0.0;
+  for (const BudgetEntry& entry : diagnosis.budget->entries) {
+    if (entry.item == kDelayTrendId) trend = entry.lost_nats;
+  }
+  const bool seen = !diagnosis.budget->seen_in_samples.empty();
+  const auto named = std::ranges::count_if(found.steps, IsCause) + (trend > 0.0 ? 1 : 0);
+  out->unknown_because = WhyUnknown(*diagnosis.budget, gained, named);
+  const bool unknown = !out->unknown_because.empty();
+  const bool any = seen || trend > 0.0 || std::ranges::any_of(found.steps, IsCause);
+  diagnosis.kind = unknown ? VerdictKind::kUnknown
+                   : any   ? VerdictKind::kEffect
+                           : VerdictKind::kNone;
+  if (diagnosis.kind == VerdictKind::kEffect) diagnosis.effect = Joined(*diagnosis.budget);
+  const double best = DensityWithoutLines(found) + trend;
+  const bool lines_stay = std::ranges::any_of(found.steps, IsOfLines);
+  const double with_lines = lines_stay ? found.best.Density() + trend : best + gained;
+  const double base = found.base.Density();
+  const double most = std::max({with_lines, best, base});
+  std::array<double, 3> odds = {std::exp(with_lines - most), any ? std::exp(best - most) : 0.0,
+                                seen ? 0.0 : std::exp(base - most)};
+  if (unknown && gained <= std::log(kOddsOfUnknown)) odds[0] += std::exchange(odds[1], 0.0);
+  const double sum = odds[0] + odds[1] + odds[2];
+  diagnosis.probability_unknown = odds[0] / sum;
+  diagnosis.probability_none = odds[2] / sum;
+  if (any) AddCandidate(best - base, odds[1] / sum, &diagnosis);
+}
+
+std::string AdviceOf(const Diagnosis& diagnosis) {
+  if (!AreNoise(diagnosis.budget->seen_in_samples)) {
+    return "record again, within the converter's range and with finer steps: whatever is fitted to "
+           "such samples speaks of what was done to them";
+  }
+  const std::string& model = diagnosis.budget->best_model;
+  switch (diagnosis.kind) {
+    case VerdictKind::kNone:
+      return "the config's loop stands";
+    case VerdictKind::kEffect:
+      return "howl fit with " + model;
+    case VerdictKind::kUnknown:
+      break;
+  }
+  return "howl fit with " + model +
+         ", which is the best loop found, but need not be the rig's: distrust what it says of the "
+         "cycle";
+}
+
+}  // namespace
+
+void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
+  Diagnosis& diagnosis = out->diagnosis;
+  const Budget& budget = *diagnosis.budget;
+  diagnosis.gap_before = budget.gap_before;
+  diagnosis.gap_after = budget.gap_left;
+  diagnosis.gap_floor = budget.floor;
+  if (AreNoise(budget.seen_in_samples)) {
+    TakeOdds(found, out);
+  } else {
+    TakeWhatSamplesShow(found, &diagnosis);
+  }
+  AddAlone(found, &diagnosis);
+  if (diagnosis.kind == VerdictKind::kEffect) diagnosis.indistinguishable = Alike(budget);
+  diagnosis.where = Where(diagnosis);
+  diagnosis.advice = AdviceOf(diagnosis);
+}
+
+}  // namespace howl
