@@ -49,7 +49,7 @@ void PrintCase(const std::filesystem::path& folder) {
   const nlohmann::json truth = nlohmann::json::parse(file);
   const MeasuredRig rig = ReadCase(folder);
   const double begun = Seconds();
-  const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(rig), PapersForm(), {});
+  const LoopDiagnosis found = DiagnoseLoops(LoopRecordsOf(rig), PapersForm(), {.one_delay = true});
   std::printf("%s %-24s %s | %s ", folder.filename().c_str(),
               truth["effect"].get<std::string>().c_str(), truth["effect_parameters"].dump().c_str(),
               found.diagnosis.kind == VerdictKind::kUnknown ? "unknown" : "");

@@ -99,7 +99,8 @@ LoopBlock BlockOfSamples(const std::string& effect) {
   for (const EffectPointer& each : Catalogue()) {
     if (each->id() == effect) return each->block();
   }
-  return LoopBlock::kPressureInstrument;
+  return effect.starts_with("q_") ? LoopBlock::kHeatReleaseInstrument
+                                  : LoopBlock::kPressureInstrument;
 }
 
 // Of what is named the places, by what each is worth; of what nothing explains where it is.
@@ -132,30 +133,11 @@ void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
   AddCandidate(found.best.Density() - found.base.Density(), 1.0, diagnosis);
 }
 
-// An effect of the catalogue that would have a value outside its bounds; empty: there is none.
-std::string Impossible(const Budget& budget) {
-  for (const BudgetEntry& entry : budget.entries) {
-    for (const EffectPointer& effect : Catalogue()) {
-      if (effect->id() != entry.item) continue;
-      for (const EstimatedParameter& estimate : entry.parameters) {
-        const auto known =
-            std::ranges::find(effect->parameters(), estimate.name, &EffectParameter::name);
-        // Times and frequencies have the bounds of rigs of another size.
-        if (known == effect->parameters().end() || !known->unit.empty()) continue;
-        if (estimate.value < known->low || estimate.value > known->high) {
-          return entry.item + " would have a " + estimate.name + " that it cannot have";
-        }
-      }
-    }
-  }
-  return "";
-}
-
 // Of the errors at the cycle's lines what they gain is `lines`; `named` causes would be named.
 std::string WhyUnknown(const Budget& budget, double lines, std::ptrdiff_t named) {
   if (lines > std::log(kOddsOfUnknown)) return "the best loop still errs at the cycle's lines";
   if (named > kMostNamed) return "so many items together can imitate what none of them is";
-  return Impossible(budget);
+  return ValueThatCannotBe(budget);
 }
 
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
@@ -208,6 +190,23 @@ std::string AdviceOf(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
+
+std::string ValueThatCannotBe(const Budget& budget) {
+  for (const BudgetEntry& entry : budget.entries) {
+    for (const EffectPointer& effect : Catalogue()) {
+      if (effect->id() != entry.item) continue;
+      for (const EstimatedParameter& estimate : entry.parameters) {
+        const auto known =
+            std::ranges::find(effect->parameters(), estimate.name, &EffectParameter::name);
+        if (known == effect->parameters().end() || !known->unit.empty()) continue;
+        if (estimate.value < known->low || estimate.value > known->high) {
+          return entry.item + " would have a " + estimate.name + " that it cannot have";
+        }
+      }
+    }
+  }
+  return "";
+}
 
 void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;

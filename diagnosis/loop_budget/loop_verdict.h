@@ -3,10 +3,16 @@
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_VERDICT_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_VERDICT_H_
 
+#include <string>
+
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "diagnosis/loop_budget/search/loop_search.h"
 
 namespace howl {
+
+// In words, an effect of the catalogue that would have a value outside its bounds, of those without
+// a unit: times and frequencies have the bounds of rigs of another size. Empty: there is none.
+std::string ValueThatCannotBe(const Budget& budget);
 
 // Sets all of `out->diagnosis` but its budget, which is there, as are the lines' errors.
 void TakeVerdict(const LoopFound& found, LoopDiagnosis* out);
