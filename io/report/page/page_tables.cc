@@ -213,7 +213,11 @@ std::string DiagnosisSummary(const ReportInput& input) {
                     TableCell(NumberAt(candidate, "gap_after")), parameters});
   }
   if (!rows.empty()) {
-    out += HtmlTable("The most probable candidates, with 95 % intervals",
+    // Values that all operating points share have an interval, others a range over the points.
+    out += HtmlTable(input.diagnosis.contains("budget")
+                         ? "What is named, with 95 % intervals, or from the least to the largest "
+                           "of the operating points"
+                         : "The most probable candidates, with 95 % intervals",
                      {"effect", "gap removed (%)", "gap left", "estimate"}, rows);
   }
   if (input.diagnosis.contains("advice") && input.diagnosis["advice"].is_string()) {

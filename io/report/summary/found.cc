@@ -130,9 +130,11 @@ void AddVerdict(const ReportInput& input, std::vector<std::string>& out) {
   } else if (kind == "effect") {
     out.push_back("The model falls short of the rig by: " + TextAt(verdict, "effect") + ".");
   } else if (kind == "unknown") {
+    const std::string because = TextAt(input.diagnosis, "unknown_because");
     out.push_back(
         "The model falls short of the rig by a cause that is not in the catalogue, or "
-        "by several together: the verdict is unknown.");
+        "by several together: the verdict is unknown" +
+        (because.empty() ? "." : "; " + because + "."));
   }
 }
 
