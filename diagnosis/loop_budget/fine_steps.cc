@@ -41,7 +41,7 @@ double FloorOf(const std::vector<double>& signal) {
 int LevelsOfFineSteps(const std::vector<double>& signal) {
   std::vector<double> values = signal;
   std::ranges::sort(values);
-  values.erase(std::ranges::unique(values).begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   if (values.size() < 2 || values.size() > kMostLevels) return 0;
   double step = values.back() - values.front();
   for (std::size_t i = 1; i < values.size(); ++i) {
