@@ -83,14 +83,17 @@ bool LooksForOneCause(const Config& config, const Options& options) {
 // Whether clipping or few levels have changed the samples, so that no likelihood of a loop holds
 // for them, and the search for one cause can make that good.
 bool RepairComesFirst(const Config& config, const Options& options) {
-  std::vector<DiagnosisExperiment> experiments;
   std::vector<LoopRecord> records;
   for (NamedRecord& each : LoadRecords(config)) {
     if (each.record.heat_release.empty()) return false;
-    records.push_back({each.name, each.phi, 0.0, each.record});
-    experiments.push_back({each.name, each.phi, std::move(each.record)});
+    records.push_back({std::move(each.name), each.phi, 0.0, std::move(each.record)});
   }
-  return CanBeRepaired(SampleFactsOf(records, Withheld(options))) && !FindCutObstacle(experiments);
+  if (!CanBeRepaired(SampleFactsOf(records, Withheld(options)))) return false;
+  std::vector<DiagnosisExperiment> experiments;
+  for (LoopRecord& each : records) {
+    experiments.push_back({std::move(each.name), each.operating_parameter, std::move(each.record)});
+  }
+  return !FindCutObstacle(experiments);
 }
 
 int Run(const Options& options) {

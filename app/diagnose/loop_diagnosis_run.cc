@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "app/input/usable_records.h"
 #include "app/process/progress_line.h"
 #include "app/text/loop_diagnosis_text.h"
+#include "app/text/text_table.h"
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/joint_records/record_loop_spec.h"
 #include "io/results/loop_diagnosis_json.h"
@@ -63,6 +65,21 @@ LoopForm LoopBaseOf(const Config& config) {
   return LeastForm(spec);
 }
 
+// A rate in kHz that was meant in Hz would else be fitted as it stands.
+constexpr double kLeastSampling_hz = 100.0;
+
+void RequireHertz(const Config& config, const std::vector<LoopRecord>& records) {
+  for (const LoopRecord& each : records) {
+    if (each.record.sampling_hz >= kLeastSampling_hz) continue;
+    const auto of = std::ranges::find_if(config.experiments, [&](const ExperimentConfig& other) {
+      return other.experiment.name == each.name;
+    });
+    throw UserError(config.source.string(), of->line, "experiments",
+                    each.name + " is sampled at " + Significant(each.record.sampling_hz, 3) +
+                        " Hz, expected at least " + Significant(kLeastSampling_hz, 3) + " Hz");
+  }
+}
+
 }  // namespace
 
 int RunLoopDiagnosis(const Config& config, const Options& options) {
@@ -75,6 +92,7 @@ int RunLoopDiagnosis(const Config& config, const Options& options) {
   how.one_delay = !config.record_loop && !(StatesDelays(config) && BaseOf(config).own_delays);
   const LoopForm base = LoopBaseOf(config);
   const std::vector<LoopRecord> records = LoopRecordsOf(LoadUsableRecords(config, options));
+  if (!config.record_loop) RequireHertz(config, records);
   FitState state(config, options, "diagnosis.state", Choices(options));
   if (!options.quiet) state.SayWhereItStands();
   how.starts = StatedStarts(config).value_or(how.starts);

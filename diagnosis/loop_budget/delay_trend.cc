@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "estimation/analysis/spectra/half_width.h"
+
 namespace howl {
 namespace {
 
@@ -23,7 +25,6 @@ constexpr int kSteps = 24;
 constexpr double kMeanDeviation = 1.0;
 // A record that tells of its delay less than a hundredth of what the prior does tells nothing.
 constexpr double kLeastTold = 0.01;
-constexpr double kWithin95 = 1.96;
 
 double OfStep(int i) { return kLeast * std::pow(kMost / kLeast, i / double{kSteps}); }
 
@@ -46,16 +47,14 @@ class Delays {
     x_.resize(size, 2);
     log_tau_.resize(size);
     variance_.resize(size);
+    shared_.resize(size, points.empty() ? 0 : static_cast<Eigen::Index>(points[0].shared.size()));
     for (Eigen::Index e = 0; e < size; ++e) {
       const TimedPoint& point = points[static_cast<std::size_t>(e)];
       x_.row(e) << 1.0, point.z;
       log_tau_[e] = point.log_tau;
       variance_[e] = point.variance;
-    }
-    shared_.resize(size, static_cast<Eigen::Index>(points.empty() ? 0 : points[0].shared.size()));
-    for (Eigen::Index e = 0; e < size; ++e) {
       for (Eigen::Index k = 0; k < shared_.cols(); ++k) {
-        shared_(e, k) = points[static_cast<std::size_t>(e)].shared[static_cast<std::size_t>(k)];
+        shared_(e, k) = point.shared[static_cast<std::size_t>(k)];
       }
     }
   }
@@ -179,8 +178,8 @@ DelayTrend TrendOf(const std::vector<TimedPoint>& points) {
   const double span = most.z - least.z;
   const double deviation = std::sqrt(std::max(with.square - with.trend * with.trend, 0.0));
   out.rel_span = span * with.trend;
-  out.low = out.rel_span - kWithin95 * span * deviation;
-  out.high = out.rel_span + kWithin95 * span * deviation;
+  out.low = out.rel_span - HalfWidth95(span * deviation);
+  out.high = out.rel_span + HalfWidth95(span * deviation);
   return out;
 }
 

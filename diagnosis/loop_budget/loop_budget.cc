@@ -16,6 +16,7 @@
 #include "diagnosis/loop_budget/loop_verdict.h"
 #include "diagnosis/loop_budget/sample_facts.h"
 #include "diagnosis/loop_budget/search/loop_search.h"
+#include "estimation/analysis/spectra/half_width.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/shared_units.h"
 #include "estimation/parallel.h"
@@ -49,9 +50,9 @@ LinesLeft LinesOf(const LoopRecords& records, const LoopFound& found, const Loop
 // Where an item makes the difference: the bands and the operating points at which the loop without
 // it falls short.
 Place PlaceOf(const LoopRecords& records, const LoopItem& item, const HeldOutScore& with,
-              const HeldOutScore& without) {
+              const HeldOutScore& without, const Place& everywhere) {
   const std::vector<Place> short_of = PlacesLeft(records.names(), Beside(without, with));
-  Place out = short_of.empty() ? Everywhere(records.names(), with) : short_of.front();
+  Place out = short_of.empty() ? everywhere : short_of.front();
   out.block = BlockOf(item);
   return out;
 }
@@ -59,13 +60,12 @@ Place PlaceOf(const LoopRecords& records, const LoopItem& item, const HeldOutSco
 // The effects that all points share, with the errors of their values, as the entries have them.
 std::vector<SharedErrors> SharedErrorsOf(const LoopFound& found,
                                          const std::vector<BudgetEntry>& entries) {
-  constexpr double kIntervalOverDeviation = 2.0 * 1.96;
   std::vector<SharedErrors> out;
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
     if (!found.steps[i].item.effect) continue;
     SharedErrors errors{found.steps[i].item.effect, {}};
     for (const EstimatedParameter& parameter : entries[i].parameters) {
-      errors.deviations.push_back((parameter.high - parameter.low) / kIntervalOverDeviation);
+      errors.deviations.push_back((parameter.high - parameter.low) / (2.0 * HalfWidth95(1.0)));
     }
     out.push_back(std::move(errors));
   }
@@ -74,14 +74,12 @@ std::vector<SharedErrors> SharedErrorsOf(const LoopFound& found,
 
 // The trend of the points' delays as an entry, where it is worth as much as an item must be.
 std::optional<BudgetEntry> DelayTrendIn(const LoopRecords& records, const LoopFound& found,
-                                        const std::vector<BudgetEntry>& entries,
-                                        const HeldOutScore& score,
-                                        const LoopBudgetOptions& options) {
+                                        const Budget& budget, const LoopBudgetOptions& options) {
   const bool withheld =
       std::ranges::find(options.withheld, kDelayTrendId) != options.withheld.end();
   if (!options.one_delay || withheld || records.size() < kFewestOfTrend) return std::nullopt;
   const DelayTrend trend =
-      TrendOf(DelaysOf(records, found.best, SharedErrorsOf(found, entries), options));
+      TrendOf(DelaysOf(records, found.best, SharedErrorsOf(found, budget.entries), options));
   const auto offered = static_cast<double>(AllLoopItems().size());
   if (!(trend.nats > std::log(kOddsOfItem * offered))) return std::nullopt;
   BudgetEntry out;
@@ -90,7 +88,7 @@ std::optional<BudgetEntry> DelayTrendIn(const LoopRecords& records, const LoopFo
   out.lost_on_halves.fill(std::numeric_limits<double>::quiet_NaN());
   out.experiments_better = trend.points_better;
   out.parameters.push_back({"rel_span", trend.rel_span, trend.low, trend.high, ""});
-  out.place = Everywhere(records.names(), score);
+  out.place = budget.everywhere;
   out.place.block = LoopBlock::kDelay;
   return out;
 }
@@ -140,7 +138,7 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
       entry.lost_on_halves[half] = best.Nats(half) - without[i].Nats(half);
     }
     entry.experiments_better = Better(found.best, found.without[i]);
-    entry.place = PlaceOf(records, step.item, best, without[i]);
+    entry.place = PlaceOf(records, step.item, best, without[i], out.everywhere);
     entry.equals = step.equals;
     // Jumps at random times have the same spectrum, and so have sidebands of a delay that wanders.
     if (step.item.id == "parametric_noise") {
@@ -150,7 +148,7 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     if (step.item.kind == LoopItemKind::kMode) ++mode;
     out.entries.push_back(std::move(entry));
   }
-  if (std::optional<BudgetEntry> trend = DelayTrendIn(records, found, out.entries, best, options)) {
+  if (std::optional<BudgetEntry> trend = DelayTrendIn(records, found, out, options)) {
     trend->gap_before = trend->gap_after = before;
     out.entries.push_back(std::move(*trend));
   }

@@ -133,9 +133,9 @@ void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
   AddCandidate(found.best.Density() - found.base.Density(), 1.0, diagnosis);
 }
 
-// Of the errors at the cycle's lines what they gain is `lines`; `named` causes would be named.
-std::string WhyUnknown(const Budget& budget, double lines, std::ptrdiff_t named) {
-  if (lines > std::log(kOddsOfUnknown)) return "the best loop still errs at the cycle's lines";
+// `errs`: at the cycle's lines; `named` causes would be named.
+std::string WhyUnknown(const Budget& budget, bool errs, std::ptrdiff_t named) {
+  if (errs) return "the best loop still errs at the cycle's lines";
   if (named > kMostNamed) return "so many items together can imitate what none of them is";
   return ValueThatCannotBe(budget);
 }
@@ -143,13 +143,14 @@ std::string WhyUnknown(const Budget& budget, double lines, std::ptrdiff_t named)
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
   const double gained = std::max(out->acoustics.nats, out->flame.nats);
+  const bool errs = gained > std::log(kOddsOfUnknown);
   double trend = 0.0;
   for (const BudgetEntry& entry : diagnosis.budget->entries) {
     if (entry.item == kDelayTrendId) trend = entry.lost_nats;
   }
   const bool seen = !diagnosis.budget->seen_in_samples.empty();
   const auto named = std::ranges::count_if(found.steps, IsCause) + (trend > 0.0 ? 1 : 0);
-  out->unknown_because = WhyUnknown(*diagnosis.budget, gained, named);
+  out->unknown_because = WhyUnknown(*diagnosis.budget, errs, named);
   const bool unknown = !out->unknown_because.empty();
   const bool any = seen || trend > 0.0 || std::ranges::any_of(found.steps, IsCause);
   diagnosis.kind = unknown ? VerdictKind::kUnknown
@@ -163,7 +164,7 @@ void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   const double most = std::max({with_lines, best, base});
   std::array<double, 3> odds = {std::exp(with_lines - most), any ? std::exp(best - most) : 0.0,
                                 seen ? 0.0 : std::exp(base - most)};
-  if (unknown && gained <= std::log(kOddsOfUnknown)) odds[0] += std::exchange(odds[1], 0.0);
+  if (unknown && !errs) odds[0] += std::exchange(odds[1], 0.0);
   const double sum = odds[0] + odds[1] + odds[2];
   diagnosis.probability_unknown = odds[0] / sum;
   diagnosis.probability_none = odds[2] / sum;

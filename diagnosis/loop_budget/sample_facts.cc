@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "diagnosis/loop_budget/fine_steps.h"
 #include "estimation/health/sample_health.h"
@@ -78,13 +79,16 @@ std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
     }
   }
   std::vector<SampleFact> out;
-  if (std::optional<SampleFact> steps = FineStepsOf(records, withheld)) out.push_back(*steps);
   for (std::size_t k = 0; k < kKinds.size(); ++k) {
     if (2 * seen[k].experiments <= records.size()) continue;
     if (std::ranges::find(withheld, kKinds[k].effect) != withheld.end()) continue;
-    if (!out.empty() && out[0].effect == kKinds[k].effect) out.clear();
     out.push_back({kKinds[k].effect, seen[k].value / static_cast<double>(seen[k].experiments),
                    seen[k].experiments});
+  }
+  // Coarse steps are called so already.
+  if (std::ranges::find(out, "quantisation", &SampleFact::effect) != out.end()) return out;
+  if (std::optional<SampleFact> steps = FineStepsOf(records, withheld)) {
+    out.insert(out.begin(), *std::move(steps));
   }
   return out;
 }

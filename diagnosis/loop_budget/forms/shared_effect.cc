@@ -68,15 +68,36 @@ TransferFunction TurnBack(C at_cycle) {
   return [turn](C s) { return std::exp(-turn * s); };
 }
 
-FlameFilters FiltersOf(const SharedEffect& filter, double cycle_hz) {
-  const auto at = [filter, cycle_hz](auto response) {
-    const auto plain = [filter, cycle_hz, response](C s) {
-      return ((*filter.effect).*response)(s.imag() * cycle_hz, {}, filter.values);
-    };
-    return [plain, back = TurnBack(plain({0.0, 1.0}))](C s) { return plain(s) * back(s); };
+TransferFunction FilterOf(const SharedEffect& filter, double cycle_hz) {
+  const auto response = filter.effect->ChangesFlameInput() ? &Effect::FlameIn : &Effect::FlameOut;
+  return [filter, cycle_hz, response](C s) {
+    return ((*filter.effect).*response)(s.imag() * cycle_hz, {}, filter.values);
   };
-  return filter.effect->ChangesFlameInput() ? FlameFilters{at(&Effect::FlameIn), nullptr}
-                                            : FlameFilters{nullptr, at(&Effect::FlameOut)};
+}
+
+// The factor of what drives the flame, or of what it answers, at the cycle, whose turn is taken
+// back.
+C FactorAtCycle(const SharedEffect& shared, double cycle_hz) {
+  constexpr C kCycle(0.0, 1.0);
+  switch (StageOf(*shared.effect)) {
+    case Stage::kFlame:
+      return FilterOf(shared, cycle_hz)(kCycle);
+    case Stage::kPressure:
+      return 1.0 / PressureInstrumentOf(shared, cycle_hz)(kCycle);
+    case Stage::kLeak:
+    case Stage::kHeatRelease:
+      break;
+  }
+  return 1.0;
+}
+
+FlameFilters FiltersOf(const SharedEffect& filter, double cycle_hz) {
+  const TransferFunction turned = [plain = FilterOf(filter, cycle_hz),
+                                   back = TurnBack(FactorAtCycle(filter, cycle_hz))](C s) {
+    return plain(s) * back(s);
+  };
+  return filter.effect->ChangesFlameInput() ? FlameFilters{turned, nullptr}
+                                            : FlameFilters{nullptr, turned};
 }
 
 void TakeLeak(const SharedEffect& shared, RecordSpectra* record) {
@@ -100,7 +121,7 @@ void Take(const SharedEffect& shared, Stage stage, RecordSpectra* record) {
       return;
     case Stage::kPressure: {
       const TransferFunction instrument = PressureInstrumentOf(shared, cycle_hz);
-      const FlameFilters back = {TurnBack(1.0 / instrument({0.0, 1.0})), nullptr};
+      const FlameFilters back = {TurnBack(FactorAtCycle(shared, cycle_hz)), nullptr};
       *record = WithoutPressureInstrument(std::move(*record), instrument, back);
       return;
     }
@@ -198,21 +219,7 @@ double LogJacobian(const RecordSpectra& record, const std::vector<SharedEffect>&
 double TurnOfCycle(const std::vector<SharedEffect>& effects, double cycle_hz) {
   double turn = 0.0;
   for (const SharedEffect& each : effects) {
-    if (IsAtNull(each)) continue;
-    switch (StageOf(*each.effect)) {
-      case Stage::kFlame: {
-        const auto response =
-            each.effect->ChangesFlameInput() ? &Effect::FlameIn : &Effect::FlameOut;
-        turn -= std::arg(((*each.effect).*response)(cycle_hz, {}, each.values));
-        break;
-      }
-      case Stage::kPressure:
-        turn += std::arg(each.effect->PressureInstrument(cycle_hz, each.values));
-        break;
-      case Stage::kLeak:
-      case Stage::kHeatRelease:
-        break;
-    }
+    if (!IsAtNull(each)) turn -= std::arg(FactorAtCycle(each, cycle_hz));
   }
   return turn;
 }

@@ -21,6 +21,11 @@ void Clip(double of_largest, std::vector<double>* signal) {
   for (double& value : *signal) value = std::clamp(value, -level, level);
 }
 
+void Quantise(double steps_to_largest, std::vector<double>* signal) {
+  const double step = std::ranges::max(*signal) / steps_to_largest;
+  for (double& value : *signal) value = step * std::round(value / step);
+}
+
 TEST(SampleFacts, AreNoneOfASimulatedLoop) { EXPECT_TRUE(SampleFactsOf(Ducts()).empty()); }
 
 TEST(SampleFacts, AreOfMoreThanHalfOfTheRecords) {
@@ -59,11 +64,7 @@ TEST(SampleFacts, ClippingIsTheVerdict) {
 
 TEST(SampleFacts, SoAreFewLevels) {
   std::vector<LoopRecord> records = Ducts();
-  for (LoopRecord& each : records) {
-    std::vector<double>& p = each.record.pressure;
-    const double step = std::ranges::max(p) / 12.0;
-    for (double& value : p) value = step * std::round(value / step);
-  }
+  for (LoopRecord& each : records) Quantise(12.0, &each.record.pressure);
   LoopForm base = DuctsForm();
   base.structure.complex_residues = false;
   const LoopDiagnosis found = DiagnoseLoops(records, base, Among({"complex_residues"}));
@@ -74,14 +75,23 @@ TEST(SampleFacts, SoAreFewLevels) {
   EXPECT_EQ(found.diagnosis.probability_none, 0.0);
 }
 
+TEST(SampleFacts, AreAllThatTheRecordsShow) {
+  std::vector<LoopRecord> records = Ducts();
+  for (LoopRecord& each : records) {
+    Clip(0.6, &each.record.heat_release);
+    Quantise(12.0, &each.record.pressure);
+  }
+  const std::vector<SampleFact> facts = SampleFactsOf(records);
+  ASSERT_EQ(facts.size(), 2u);
+  EXPECT_EQ(facts[0].effect, "q_clipping");
+  EXPECT_EQ(facts[1].effect, "quantisation");
+  EXPECT_FALSE(facts[1].is_noise);
+}
+
 // Of 100 levels the steps are the noise of p, which the base has: the rest is looked for beside it.
 TEST(SampleFacts, FineStepsLeaveTheRestToBeFound) {
   std::vector<LoopRecord> records = Ducts();
-  for (LoopRecord& each : records) {
-    std::vector<double>& p = each.record.pressure;
-    const double step = std::ranges::max(p) / 50.0;
-    for (double& value : p) value = step * std::round(value / step);
-  }
+  for (LoopRecord& each : records) Quantise(50.0, &each.record.pressure);
   const std::vector<SampleFact> facts = SampleFactsOf(records);
   ASSERT_EQ(facts.size(), 1u);
   EXPECT_TRUE(facts[0].is_noise);
