@@ -72,12 +72,14 @@ void Adopt(const Options& options, const Units& units) {
 }
 
 // What the budget of several causes does not take: another simulator in the model's place,
-// replicates, a plan, and effects that the config declares.
+// replicates, a plan, and declared effects that are not one transfer function at all points.
 bool LooksForOneCause(const Config& config, const Options& options) {
   const bool asked =
       std::ranges::any_of(std::array{"--one-cause", "--reference", "--bootstrap", "--plan"},
                           [&](const char* option) { return options.Has(option); });
-  return asked || !config.effects.empty();
+  return asked || !std::ranges::all_of(config.effects, [](const EffectDeclaration& each) {
+           return DeclaredEffect(each).IsOneTransfer();
+         });
 }
 
 // Whether clipping or few levels have changed the samples, so that no likelihood of a loop holds

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/command_line/command.h"
@@ -80,6 +82,21 @@ void RequireHertz(const Config& config, const std::vector<LoopRecord>& records) 
   }
 }
 
+std::vector<EffectPointer> DeclaredIn(const Config& config) {
+  std::vector<EffectPointer> out;
+  for (const EffectDeclaration& declaration : config.effects) {
+    auto effect = std::make_shared<const DeclaredEffect>(declaration);
+    if (!effect->IsOneTransfer()) {
+      throw UserError(config.source.string(), config.tree.Find("effects")->value.line, "effects",
+                      declaration.name +
+                          " is not one transfer function at all operating points, expected one of "
+                          "an instrument or of the flame: the config's model states a loop");
+    }
+    out.push_back(std::move(effect));
+  }
+  return out;
+}
+
 }  // namespace
 
 int RunLoopDiagnosis(const Config& config, const Options& options) {
@@ -87,6 +104,7 @@ int RunLoopDiagnosis(const Config& config, const Options& options) {
   LoopBudgetOptions how;
   how.withheld = Withheld(options);
   how.given = ListedNames(options, "--with", LoopItemIds(), kNoItem);
+  how.declared = DeclaredIn(config);
   how.most_items = static_cast<std::size_t>(
       options.Count("--most-items", 1, static_cast<int>(kMostItems)).value_or(kFirstItems));
   how.one_delay = !config.record_loop && !(StatesDelays(config) && BaseOf(config).own_delays);

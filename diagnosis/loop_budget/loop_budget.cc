@@ -80,7 +80,7 @@ std::optional<BudgetEntry> DelayTrendIn(const LoopRecords& records, const LoopFo
   if (!options.one_delay || withheld || records.size() < kFewestOfTrend) return std::nullopt;
   const DelayTrend trend =
       TrendOf(DelaysOf(records, found.best, SharedErrorsOf(found, budget.entries), options));
-  const auto offered = static_cast<double>(AllLoopItems().size());
+  const auto offered = static_cast<double>(AllLoopItems().size() + options.declared.size());
   if (!(trend.nats > std::log(kOddsOfItem * offered))) return std::nullopt;
   BudgetEntry out;
   out.item = kDelayTrendId;

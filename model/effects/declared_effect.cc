@@ -66,6 +66,20 @@ bool DeclaredEffect::ChangesFlameInput() const {
   return IsAt(LoopPlace::kFlameIn) || IsAt(LoopPlace::kPressureRecorded);
 }
 
+bool DeclaredEffect::IsOneTransfer() const {
+  if (kind() != EffectKind::kTransfer) return false;
+  if (IsAt(LoopPlace::kPressureRecorded) || IsAt(LoopPlace::kHeatReleaseRecorded)) return true;
+  if (IsAt(LoopPlace::kFlameOut)) return declaration_.form == DeclaredForm::kTransfer;
+  if (!IsAt(LoopPlace::kFlameIn)) return false;
+  const auto tells_points_apart = [](const DeclaredFormula& formula) {
+    return std::ranges::any_of(formula.Names(), [](const std::string& name) {
+      return name == "phi_position" || name == "amplitude" || name == "cycle_hz";
+    });
+  };
+  return std::ranges::none_of(declaration_.numerator, tells_points_apart) &&
+         std::ranges::none_of(declaration_.denominator, tells_points_apart);
+}
+
 bool DeclaredEffect::IsNull(EffectValues x) const {
   return std::equal(x.begin(), x.end(), null_.begin(), null_.end());
 }

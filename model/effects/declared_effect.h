@@ -94,6 +94,11 @@ class DeclaredEffect final : public NamedEffect {
   Response FlameOut(double frequency_hz, const EffectContext& /*at*/,
                     EffectValues x) const override;
   double DelayFactor(const EffectContext& at, EffectValues x) const override;
+  bool RangesGoWithCycle() const override { return false; }
+
+  // Whether it is a transfer function that is the same at all operating points, of an instrument or
+  // of the flame.
+  bool IsOneTransfer() const;
 
   const EffectDeclaration& declaration() const { return declaration_; }
   // The recorded signal of a map; not finite where the map has no value.

@@ -146,6 +146,10 @@ class Effect {
 
   virtual EffectForm form() const { return {}; }
 
+  // Whether ranges and starts in Hz and s were made for the cycles of the paper's rig, and go with
+  // those of another; else they are as its user has stated them.
+  virtual bool RangesGoWithCycle() const { return true; }
+
   // Frequencies over omega of modes that it adds: one of them may carry an experiment's cycle.
   virtual std::vector<double> ModeRatios(EffectValues /*x*/) const { return {}; }
 

@@ -69,6 +69,10 @@ TEST_F(LoopDiagnosis, RefusesWhatItDoesNotTake) {
   refuses(loop, "--without duct_nois", "did you mean duct_noise?");
   refuses(loop, "--with duct_nois", "did you mean duct_noise?");
   refuses("{modes: 1}", "--one-cause --with duct_noise", "--with begins a budget of records");
+  refuses(loop +
+              "\neffects: [{name: mine, at: acoustics, transfer: 1 + a, parameters: {a: "
+              "{null_value: 0, low: 0, high: 1, starts: [0.1]}}}]",
+          "", "mine is not one transfer function at all operating points");
   refuses("{modes: auto}", "", "is auto, expected a number");
   refuses("{modes: 1, flame_input: auto}", "", "is auto, expected one of them");
 }

@@ -115,7 +115,8 @@ LoopForm PapersForm(int modes, double ratio) {
   return LeastForm(spec);
 }
 
-std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
+std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base,
+                                const std::vector<EffectPointer>& declared) {
   std::vector<LoopItem> out;
   for (LoopItem item : AllLoopItems()) {
     const bool hum = IsHum(item.noise.source);
@@ -123,6 +124,9 @@ std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base) {
       item.noise.line_hz = base.tone_hz;
     }
     if (MayBeAdded(item, model, base)) out.push_back(std::move(item));
+  }
+  for (const EffectPointer& effect : declared) {
+    if (!HasShared(model, effect->id())) out.push_back(SharedItem(effect));
   }
   return out;
 }

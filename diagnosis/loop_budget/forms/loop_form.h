@@ -32,8 +32,10 @@ LoopForm LeastForm(const RecordLoopSpec& spec);
 // residues, flame driven by dp/dt; each point's delay is its own.
 LoopForm PapersForm(int modes = 2, double ratio = 3.0);
 
-// All that may be added to `model` now, of a search that began at `base`.
-std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base);
+// All that may be added to `model` now, of a search that began at `base`, with effects that a user
+// has declared.
+std::vector<LoopItem> LoopItems(const LoopForm& model, const LoopForm& base,
+                                const std::vector<EffectPointer>& declared = {});
 
 // The shared effects that it has, as items.
 std::vector<LoopItem> SharedItemsOf(const LoopForm& model);

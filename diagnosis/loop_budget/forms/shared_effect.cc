@@ -148,9 +148,12 @@ double LogJacobianOf(const RecordSpectra& record, const TransferFunction& instru
 
 }  // namespace
 
+// A path or a spread behind the curve is each point's own (loop_point.h), and a change of the whole
+// delay is no filter.
 bool IsFlameFilter(const Effect& effect) {
-  const bool of_delays = effect.id() == kSecondPathId || effect.id() == kDelayDispersionId;
-  return effect.id() == "flame_lowpass" || (of_delays && effect.ChangesFlameInput());
+  if (effect.kind() != EffectKind::kTransfer) return false;
+  return effect.block() == LoopBlock::kFlame ||
+         (effect.block() == LoopBlock::kDelay && effect.ChangesFlameInput());
 }
 
 std::vector<EffectPointer> SharedEffects() {

@@ -36,7 +36,9 @@ inline constexpr std::string_view kDelayDispersionId = "delay_dispersion";
 // Of a flame.
 bool IsFlameFilter(const Effect& effect);
 
-// Those of q's instrument, with one parameter, of p's, and the flame's filters, in all their forms.
+// Those of the catalogue: of q's instrument, with one parameter, of p's, and the flame's filters,
+// in all their forms. A declared one is such an effect where it is one transfer function
+// (declared_effect.h).
 std::vector<EffectPointer> SharedEffects();
 
 // The record as it would be without the instruments, and with the flame's filters.

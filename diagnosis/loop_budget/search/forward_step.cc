@@ -114,7 +114,7 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
 
 std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from, const std::vector<LoopStep>& steps,
                                             const std::string& prefix) {
-  std::vector<LoopItem> items = LoopItems(from.model, base_);
+  std::vector<LoopItem> items = LoopItems(from.model, base_, options_.declared);
   std::erase_if(items, [&](const LoopItem& item) {
     return std::ranges::find(options_.withheld, item.id) != options_.withheld.end();
   });

@@ -15,7 +15,7 @@ LoopFit WithGiven(const LoopRecords& records, const LoopForm& base, LoopFit fit,
                   const LoopBudgetOptions& options) {
   for (std::size_t i = 0; i < options.given.size(); ++i) {
     const std::string key = "given/" + std::to_string(i) + "/";
-    std::vector<LoopItem> items = LoopItems(fit.model, base);
+    std::vector<LoopItem> items = LoopItems(fit.model, base, options.declared);
     std::erase_if(items, [&](const LoopItem& item) { return item.id != options.given[i]; });
     if (items.empty()) continue;
     const double standing = StandingEvidence(records, fit, key, options);

@@ -23,10 +23,11 @@ struct Exchange {
 };
 
 // Of rivals that may come where the step's item is not.
-std::vector<Exchange> Possible(const LoopForm& base, const LoopStanding& now) {
+std::vector<Exchange> Possible(const LoopForm& base, const LoopStanding& now,
+                               const LoopBudgetOptions& options) {
   std::vector<Exchange> out;
   for (std::size_t i = 0; i < now.steps.size(); ++i) {
-    const std::vector<LoopItem> offered = LoopItems(now.without[i].model, base);
+    const std::vector<LoopItem> offered = LoopItems(now.without[i].model, base, options.declared);
     for (const LoopItem& rival : now.steps[i].rivals) {
       if (std::ranges::find(offered, KeyOf(rival), KeyOf) != offered.end()) {
         out.push_back({i, rival});
@@ -41,7 +42,7 @@ std::vector<Exchange> Possible(const LoopForm& base, const LoopStanding& now) {
 std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopForm& base,
                                          const std::string& key, const LoopBudgetOptions& options,
                                          LoopStanding* now) {
-  std::vector<Exchange> exchanges = Possible(base, *now);
+  std::vector<Exchange> exchanges = Possible(base, *now, options);
   RunUnits(exchanges.size(), options.threads, [&](std::size_t n) {
     Exchange& each = exchanges[n];
     const std::string of_this = key + std::to_string(each.step) + "/" + KeyOf(each.rival) + "/";

@@ -39,7 +39,9 @@ constexpr double kDifference = 1e-5;
 // seconds they go with the cycle's period, in Hz with its frequency.
 constexpr double kCyclesOfCatalogue_hz = 210.0;
 
-double FactorOf(const EffectParameter& parameter, const LoopRecords& records) {
+double FactorOf(const Effect& effect, const EffectParameter& parameter,
+                const LoopRecords& records) {
+  if (!effect.RangesGoWithCycle()) return 1.0;
   if (parameter.unit != "Hz" && parameter.unit != "s") return 1.0;
   double sum = 0.0;
   for (const double cycle_hz : records.cycle_hz()) sum += std::log(cycle_hz);
@@ -52,7 +54,7 @@ Eigen::VectorXd End(const LoopRecords& records, const Effect& effect,
                     double EffectParameter::*end) {
   std::vector<double> out;
   for (const EffectParameter& each : effect.parameters()) {
-    out.push_back(FactorOf(each, records) * each.*end);
+    out.push_back(FactorOf(effect, each, records) * each.*end);
   }
   return ToSearch(effect, out);
 }
@@ -155,7 +157,7 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
     return BeginFromNull(At(null, at_null));
   }
   std::vector<double> starts;
-  const double factor = FactorOf(parameter, records_);
+  const double factor = FactorOf(effect(), parameter, records_);
   for (const double start : parameter.starts) starts.push_back(ToSearch(parameter, factor * start));
   std::ranges::sort(starts, {}, [&](double u) { return std::abs(u - null[0]); });
   const auto roughly_at = [&](const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& from) {

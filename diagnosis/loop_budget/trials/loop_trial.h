@@ -22,9 +22,10 @@ struct LoopBudgetOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   FitUnits* units = nullptr;
-  std::vector<std::string> withheld = {};  // items that are not tried
-  std::vector<std::string> given = {};     // that the base has
-  std::size_t most_items = kMostItems;     // that may come in before the way back
+  std::vector<std::string> withheld = {};    // items that are not tried
+  std::vector<std::string> given = {};       // that the base has
+  std::vector<EffectPointer> declared = {};  // that are tried too (shared_effect.h)
+  std::size_t most_items = kMostItems;       // that may come in before the way back
   // Whether the base's points have one delay, so that a trend of their own ones is a cause
   // (delay_trend.h).
   bool one_delay = false;
