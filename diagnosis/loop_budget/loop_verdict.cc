@@ -133,13 +133,6 @@ void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
   AddCandidate(found.best.Density() - found.base.Density(), 1.0, diagnosis);
 }
 
-// `errs`: at the cycle's lines; `named` causes would be named.
-std::string WhyUnknown(const Budget& budget, bool errs, std::ptrdiff_t named) {
-  if (errs) return "the best loop still errs at the cycle's lines";
-  if (named > kMostNamed) return "so many items together can imitate what none of them is";
-  return ValueThatCannotBe(budget);
-}
-
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
   const double gained = std::max(out->acoustics.nats, out->flame.nats);
@@ -164,7 +157,7 @@ void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   const double most = std::max({with_lines, best, base});
   std::array<double, 3> odds = {std::exp(with_lines - most), any ? std::exp(best - most) : 0.0,
                                 seen ? 0.0 : std::exp(base - most)};
-  if (unknown && !errs) odds[0] += std::exchange(odds[1], 0.0);
+  if (unknown && !errs) odds[0] += std::exchange(odds[1], 0.0) + std::exchange(odds[2], 0.0);
   const double sum = odds[0] + odds[1] + odds[2];
   diagnosis.probability_unknown = odds[0] / sum;
   diagnosis.probability_none = odds[2] / sum;
@@ -207,6 +200,16 @@ std::string ValueThatCannotBe(const Budget& budget) {
     }
   }
   return "";
+}
+
+std::string WhyUnknown(const Budget& budget, bool errs_at_lines, std::ptrdiff_t named) {
+  if (errs_at_lines) return "the best loop still errs at the cycle's lines";
+  if (budget.gap_left > budget.floor) {
+    return "of what the best loop misses a free transfer foretells more than errors of its "
+           "parameters explain";
+  }
+  if (named > kMostNamed) return "so many items together can imitate what none of them is";
+  return ValueThatCannotBe(budget);
 }
 
 void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {

@@ -30,5 +30,22 @@ TEST(LoopVerdict, NamesNoEffectWithAValueThatItCannotHave) {
   EXPECT_EQ(ValueThatCannotBe(of_no_catalogue), "");
 }
 
+// A right loop leaves a gap of its floor, by the errors of its parameters.
+TEST(LoopVerdict, IsUnknownWhereMoreThanTheFloorIsLeft) {
+  Budget budget = Path(0.2, 1e-3);
+  budget.floor = 0.05;
+  for (const double gap : {0.0, 0.05}) {
+    budget.gap_left = gap;
+    EXPECT_EQ(WhyUnknown(budget, false, 1), "");
+  }
+  budget.gap_left = 0.06;
+  EXPECT_NE(WhyUnknown(budget, false, 0), "");
+  EXPECT_NE(WhyUnknown(budget, false, 1), "");
+  budget.gap_left = 0.0;
+  EXPECT_NE(WhyUnknown(budget, true, 1), "");
+  EXPECT_EQ(WhyUnknown(budget, false, 2), "");
+  EXPECT_NE(WhyUnknown(budget, false, 3), "");
+}
+
 }  // namespace
 }  // namespace howl
