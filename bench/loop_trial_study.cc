@@ -37,10 +37,10 @@ struct Tally {
 // The rig's names where the budget has others. Some that the catalogue has not are items.
 std::string ItemOf(const std::string& effect) {
   // As earlier rigs had them.
-  static const std::map<std::string, std::string> kItems = {{"x_mode_damping", "own_damping"},
-                                                            {"x_duct_noise", "duct_noise"},
-                                                            {"x_p_dropouts", "p_dropouts"},
-                                                            {"x_delay_wander", "delay_wander"}};
+  static const std::map<std::string, std::string> kItems = {
+      {"x_mode_damping", "own_damping"},     {"x_duct_noise", "duct_noise"},
+      {"x_p_highpass", "p_sensor_highpass"}, {"x_q_highpass", "q_sensor_highpass"},
+      {"x_p_dropouts", "p_dropouts"},        {"x_delay_wander", "delay_wander"}};
   const auto at = kItems.find(effect);
   return at == kItems.end() ? effect : at->second;
 }

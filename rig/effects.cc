@@ -60,9 +60,11 @@ const std::map<std::string, std::map<std::string, Setter>>& Numbers() {
        {{"rel", &Behaviour::sweep},
         {"low_hz", &Behaviour::sweep_low_hz},
         {"high_hz", &Behaviour::sweep_high_hz}}},
-      {"x_p_highpass", {{"cutoff_hz", &Behaviour::p_highpass_hz}}},
+      {"p_sensor_highpass", {{"cutoff_hz", &Behaviour::p_highpass_hz}}},
       {"p_dropouts", {{"per_s", &Behaviour::p_dropouts_per_s}}},
-      {"x_q_highpass", {{"cutoff_hz", &Behaviour::q_highpass_hz}}},
+      {"x_p_echo", {{"share", &Behaviour::p_echo}, {"delay_s", &Behaviour::p_echo_s}}},
+      {"x_q_clock", {{"rel", &Behaviour::q_clock}}},
+      {"q_sensor_highpass", {{"cutoff_hz", &Behaviour::q_highpass_hz}}},
       {"x_q_compression", {{"rel", &Behaviour::q_compression}}},
       {"x_point_wander", {{"rel_rms", &Behaviour::point_wander}}},
       {"x_odd_point", {{"rel", &Behaviour::odd_point}, {"index", &Behaviour::odd_point_index}}}};
@@ -100,9 +102,11 @@ const std::vector<EffectInfo>& Effects() {
       {"x_delay_wander", "delay", false, "rel_rms", 0.006, 0.016, 0.04},
       {"duct_noise", "source", true, "rel", 0.15, 0.4, 1.2},
       {"x_swept_source", "source", false, "rel", 0.03, 0.09, 0.24},
-      {"x_p_highpass", "p_instrument", false, "cutoff_hz", 6, 22, 80},
+      {"p_sensor_highpass", "p_instrument", true, "cutoff_hz", 6, 22, 80},
       {"p_dropouts", "p_instrument", true, "per_s", 2, 6, 20},
-      {"x_q_highpass", "q_instrument", false, "cutoff_hz", 15, 60, 150},
+      {"x_p_echo", "p_instrument", false, "share", 0.04, 0.12, 0.35},
+      {"x_q_clock", "q_instrument", false, "rel", 3e-5, 1.2e-4, 4e-4},
+      {"q_sensor_highpass", "q_instrument", true, "cutoff_hz", 15, 60, 150},
       {"x_q_compression", "q_instrument", false, "rel", 0.05, 0.14, 0.35},
       {"x_point_wander", "operating_point", false, "rel_rms", 0.015, 0.04, 0.1},
       {"x_odd_point", "operating_point", false, "rel", 0.015, 0.04, 0.1}};
@@ -136,7 +140,8 @@ Parameters DrawEffect(const EffectInfo& effect, double severity, const DrawScale
   } else if (id == "p_sensor_resonance") {
     out["zeta"] = random.LogUniform(0.1, 0.4);
   } else if (id == "channel_skew" || id == "delay_varies_with_phi" || id == "slow_drift" ||
-             id == "amplitude_dependent_delay" || id == "crosstalk_p_to_q" || id == "x_odd_point") {
+             id == "amplitude_dependent_delay" || id == "crosstalk_p_to_q" || id == "x_odd_point" ||
+             id == "x_q_clock") {
     out[effect.size_name] *= random.Sign();
   } else if (id == "extra_acoustic_mode") {
     // Away from the two modes that the duct has anyhow.
@@ -163,6 +168,8 @@ Parameters DrawEffect(const EffectInfo& effect, double severity, const DrawScale
     out["correlation_s"] = random.Uniform(0.03, 0.08);
   } else if (id == "x_entropy_wave") {
     out["delay_s"] = scales.tau_s * random.Uniform(2.2, 4.0);
+  } else if (id == "x_p_echo") {
+    out["delay_s"] = random.Uniform(0.15, 0.6) / scales.cycle_hz;
   } else if (id == "own_damping") {
     if (random.Uniform() < 0.5) out["factor"] = 1.0 / scattered;
   } else if (id == "x_flame_resonance") {

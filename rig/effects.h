@@ -60,6 +60,8 @@ struct Behaviour {
   double p_hum = 0.0;  // over the amplitude
   double p_highpass_hz = 0.0;
   double p_dropouts_per_s = 0.0;
+  double p_echo = 0.0;     // share of p that its line reflects ...
+  double p_echo_s = 2e-3;  // ... and that comes this much later
 
   // What records q.
   double q_cutoff_hz = kNever;
@@ -71,6 +73,7 @@ struct Behaviour {
   double q_leak = 0.0;  // of p, in units of both amplitudes
   double q_highpass_hz = 0.0;
   double q_compression = 0.0;
+  double q_clock = 0.0;  // relative rate by which its clock gains on that of p
 
   // Operating point.
   double point_wander = 0.0;  // flame gain and delay move together, slowly

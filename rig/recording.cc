@@ -24,14 +24,16 @@ double Amplitude(const std::vector<double>& x) {
   return std::sqrt(2.0 * square / static_cast<double>(x.size()));
 }
 
-void Skew(double steps, std::vector<double>& x) {
-  if (steps == 0.0) return;
-  // Ahead where it is read late, so that the stencil is centred.
-  const auto whole = static_cast<std::ptrdiff_t>(std::floor(steps)) - 8;
-  const Stencil stencil = ValueAt(steps - static_cast<double>(whole));
+// Read so many steps late as `steps` says at each of its own.
+template <typename Steps>
+std::vector<double> ReadLate(const Steps& steps, const std::vector<double>& x) {
   std::vector<double> out(x.size(), 0.0);
   const auto n = static_cast<std::ptrdiff_t>(x.size());
   for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const double late = steps(i);
+    // Ahead where it is read late, so that the stencil is centred.
+    const auto whole = static_cast<std::ptrdiff_t>(std::floor(late)) - 8;
+    const Stencil stencil = ValueAt(late - static_cast<double>(whole));
     double sum = 0.0;
     for (std::size_t j = 0; j < kStencil; ++j) {
       const std::ptrdiff_t k = i - whole - stencil.first - static_cast<std::ptrdiff_t>(j);
@@ -40,7 +42,24 @@ void Skew(double steps, std::vector<double>& x) {
     }
     out[static_cast<std::size_t>(i)] = sum;
   }
-  x = std::move(out);
+  return out;
+}
+
+void Skew(double steps, std::vector<double>& x) {
+  if (steps != 0.0) x = ReadLate([&](std::ptrdiff_t /*i*/) { return steps; }, x);
+}
+
+// As late at the end as it is early at the beginning.
+void SkewMoreAndMore(double rate, std::vector<double>& x) {
+  if (rate == 0.0) return;
+  const double middle = 0.5 * static_cast<double>(x.size());
+  x = ReadLate([&](std::ptrdiff_t i) { return rate * (static_cast<double>(i) - middle); }, x);
+}
+
+void Echo(double share, double steps, std::vector<double>& x) {
+  if (share == 0.0) return;
+  const std::vector<double> late = ReadLate([&](std::ptrdiff_t /*i*/) { return steps; }, x);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += share * late[i];
 }
 
 template <typename F>
@@ -145,6 +164,7 @@ Record Digitise(const Plan& plan, std::size_t index, const Grid& grid, const Tru
   const double p_amplitude = Amplitude(p);
   const double q_amplitude = Amplitude(q);
 
+  Echo(at.p_echo, at.p_echo_s / step_s, p);
   HighPass(at.p_highpass_hz, step_s, p);
   if (std::isfinite(at.p_resonance_hz)) {
     Pass(SecondOrder(at.p_resonance_hz, at.p_resonance_damping, 1.0, 0.0, 0.0, step_s), p);
@@ -158,6 +178,7 @@ Record Digitise(const Plan& plan, std::size_t index, const Grid& grid, const Tru
     }
   }
   Skew(at.q_skew_s / step_s, q);
+  SkewMoreAndMore(at.q_clock, q);
   if (at.q_compression != 0.0) {
     const double k = at.q_compression / q_amplitude;
     for (double& value : q) value /= 1.0 + k * std::abs(value);

@@ -15,8 +15,10 @@ namespace howl {
 // that in which effects are told.
 #define HOWL_EFFECTS(X)      \
   X(QSensorLowPass)          \
+  X(QSensorHighPass)         \
   X(FlameLowPass)            \
   X(PSensorResonance)        \
+  X(PSensorHighPass)         \
   X(ChannelSkew)             \
   X(ExtraAcousticMode)       \
   X(ModeDetuning)            \

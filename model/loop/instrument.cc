@@ -54,6 +54,22 @@ void FirstOrderLowPass::ApplyToChannel(double /*time_s*/, std::span<double> sign
   }
 }
 
+std::unique_ptr<Instrument> FirstOrderHighPass::Clone() const {
+  return std::make_unique<FirstOrderHighPass>(*this);
+}
+
+void FirstOrderHighPass::Start(double rate_hz, std::uint64_t seed) {
+  if (cutoff_hz_ > 0.0) slow_.Start(rate_hz, seed);
+}
+
+void FirstOrderHighPass::ApplyToChannel(double time_s, std::span<double> signal) {
+  if (cutoff_hz_ == 0.0) return;
+  slow_signal_.assign(signal.begin(), signal.end());
+  // Low-passes act on one channel alone, whichever of the two they are given it as.
+  slow_.Apply(time_s, slow_signal_, slow_signal_);
+  for (std::size_t i = 0; i < signal.size(); ++i) signal[i] -= slow_signal_[i];
+}
+
 std::unique_ptr<Instrument> SecondOrderResponse::Clone() const {
   return std::make_unique<SecondOrderResponse>(*this);
 }

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace howl {
 
@@ -86,6 +87,23 @@ class FirstOrderLowPass final : public ChannelInstrument {
   double input_ = 0.0;
   double output_ = 0.0;
   bool first_ = true;
+};
+
+// First order: H(s) = s / (s + w_c), what a low-pass leaves. Null: a cut-off of zero.
+class FirstOrderHighPass final : public ChannelInstrument {
+ public:
+  FirstOrderHighPass(Channel channel, double cutoff_hz)
+      : ChannelInstrument(channel), cutoff_hz_(cutoff_hz), slow_(channel, cutoff_hz) {}
+  void Start(double rate_hz, std::uint64_t seed) override;
+  std::unique_ptr<Instrument> Clone() const override;
+
+ protected:
+  void ApplyToChannel(double time_s, std::span<double> signal) override;
+
+ private:
+  double cutoff_hz_;
+  FirstOrderLowPass slow_;
+  std::vector<double> slow_signal_;
 };
 
 // Second order: H(s) = w0^2 / (s^2 + 2 zeta w0 s + w0^2). zeta of 1 / sqrt(2) is Butterworth's

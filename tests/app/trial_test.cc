@@ -195,7 +195,7 @@ TEST(TrialMistakes, AreOneLine) {
   const std::string config = folder.Write("rig.yaml", kConfig).string();
   const std::string out = " --out " + (folder.path() / "out").string();
   for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
-           {" --effects q_sensor_highpass", "--effects: q_sensor_highpass"},
+           {" --effects q_sensor_bandpass", "--effects: q_sensor_bandpass"},
            {" --severities huge", "--severities: huge"},
            {" --cases 0", "--cases: 0"},
            {" --duration -1", "--duration: expected a positive number"}}) {

@@ -209,6 +209,17 @@ TEST(EffectsInTime, QLowPassOfBothOrders) {
   EXPECT_LT(std::abs(second.q / second.true_q - 1.0 / (1.0 + std::sqrt(2.0) * s + s * s)), 3e-3);
 }
 
+TEST(EffectsInTime, HighPassesOfEitherSensor) {
+  double f = 0.0;
+  const Instruments of_p = RecordCycle("p_sensor_highpass", {60.0}, &f);
+  const Response expected = Response(0.0, f) / Response(60.0, f);
+  EXPECT_LT(std::abs(of_p.p / of_p.true_p - expected), 3e-3);
+  EXPECT_LT(std::abs(of_p.q / of_p.true_q - 1.0), 3e-3);
+  const Instruments of_q = RecordCycle("q_sensor_highpass", {60.0}, &f);
+  EXPECT_LT(std::abs(of_q.q / of_q.true_q - expected), 3e-3);
+  EXPECT_LT(std::abs(of_q.p / of_q.true_p - 1.0), 3e-3);
+}
+
 TEST(EffectsInTime, PressureResonance) {
   double f = 0.0;
   const Instruments at = RecordCycle("p_sensor_resonance", {500.0, 0.15}, &f);

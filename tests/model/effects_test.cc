@@ -50,7 +50,7 @@ TEST(Effects, NullIsTheBaseBitForBit) {
   }
 }
 
-TEST(Effects, TwentyIdentifiers) {
+TEST(Effects, TwentyTwoIdentifiers) {
   std::set<std::string> ids;
   for (const EffectPointer& effect : Catalogue()) {
     ids.insert(std::string(effect->id()));
@@ -63,7 +63,7 @@ TEST(Effects, TwentyIdentifiers) {
       }
     }
   }
-  EXPECT_EQ(ids.size(), 20u);
+  EXPECT_EQ(ids.size(), 22u);
 }
 
 TEST(Effects, FirstOrderFiltersAtTheirCutOff) {
@@ -75,6 +75,19 @@ TEST(Effects, FirstOrderFiltersAtTheirCutOff) {
     EXPECT_NEAR(std::abs(at), std::sqrt(0.5), 1e-14) << id;
     EXPECT_NEAR(std::arg(at), -std::atan(1.0), 1e-14) << id;
   }
+}
+
+TEST(Effects, HighPassesAtTheirCutOff) {
+  const std::vector<double> x = {30.0};
+  const Response p = Find("p_sensor_highpass")->PressureInstrument(30.0, x);
+  const Response q = Find("q_sensor_highpass")->HeatReleaseInstrument(30.0, x);
+  for (const Response at : {p, q}) {
+    EXPECT_NEAR(std::abs(at), std::sqrt(0.5), 1e-14);
+    EXPECT_NEAR(std::arg(at), std::atan(1.0), 1e-14);
+  }
+  EXPECT_EQ(Find("p_sensor_highpass")->PressureInstrument(0.0, x), 0.0);
+  EXPECT_EQ(Find("p_sensor_highpass")->HeatReleaseInstrument(30.0, x), 1.0);
+  EXPECT_EQ(Find("q_sensor_highpass")->PressureInstrument(30.0, x), 1.0);
 }
 
 TEST(Effects, ButterworthAtItsCutOff) {

@@ -52,6 +52,8 @@ TEST(Instrument, FiltersHaveTheirStatedResponses) {
     const Complex64 s(0.0, f);
     FirstOrderLowPass first(Channel::kPressure, 220.0);
     EXPECT_LT(std::abs(MeasuredResponse(first, f, 40000.0) - 1.0 / (1.0 + s / 220.0)), 2e-3);
+    FirstOrderHighPass high(Channel::kPressure, 40.0);
+    EXPECT_LT(std::abs(MeasuredResponse(high, f, 40000.0) - s / (s + 40.0)), 2e-3);
     SecondOrderResponse second(Channel::kPressure, 800.0, 0.1);
     const Complex64 truth = 640000.0 / (s * s + 2.0 * 0.1 * 800.0 * s + 640000.0);
     EXPECT_LT(std::abs(MeasuredResponse(second, f, 40000.0) / truth - 1.0), 2e-3);

@@ -42,9 +42,11 @@ TEST(Effects, AtTheirNullsAreTheBase) {
       {"x_delay_wander", {{"rel_rms", 0.0}}},
       {"duct_noise", {{"rel", 0.0}}},
       {"x_swept_source", {{"rel", 0.0}}},
-      {"x_p_highpass", {{"cutoff_hz", 0.0}}},
+      {"p_sensor_highpass", {{"cutoff_hz", 0.0}}},
       {"p_dropouts", {{"per_s", 0.0}}},
-      {"x_q_highpass", {{"cutoff_hz", 0.0}}},
+      {"q_sensor_highpass", {{"cutoff_hz", 0.0}}},
+      {"x_p_echo", {{"share", 0.0}}},
+      {"x_q_clock", {{"rel", 0.0}}},
       {"x_q_compression", {{"rel", 0.0}}},
       {"x_point_wander", {{"rel_rms", 0.0}}},
       {"x_odd_point", {{"rel", 0.0}}}};
@@ -78,7 +80,7 @@ TEST(Effects, CoverEveryBlockInsideAndOutsideTheCatalogue) {
       outside.insert(effect.block);
     }
   }
-  EXPECT_EQ(inside, 23);
+  EXPECT_EQ(inside, 25);
   EXPECT_EQ(outside, (std::set<std::string>{"acoustics", "flame", "delay", "source", "p_instrument",
                                             "q_instrument", "operating_point"}));
 }
@@ -151,6 +153,47 @@ TEST(Effects, SkewMovesOneChannelInTime) {
     best = std::min(best, p_error / Largest(a.p) + q_error / Largest(a.q));
   }
   EXPECT_LT(best / 1400.0, 1e-3);
+}
+
+// As late or early at either end as half its rate times the record says.
+TEST(Effects, AClockThatGainsSkewsMoreAndMore) {
+  constexpr double kRate = 4e-4;
+  Spec plain = TwoPoints();
+  plain.sensor_noise = 0.0;
+  Spec moved = plain;
+  moved.effects.push_back({"x_q_clock", 0.5, Parameters{{"rel", kRate}}});
+  const Record a = Simulate(plain);
+  const Record b = Simulate(moved);
+  EXPECT_EQ(RecordCsv({a.p, a.p}), RecordCsv({b.p, b.p}));
+  const auto n = static_cast<std::ptrdiff_t>(a.q.size());
+  for (const double at : {0.1, 0.5, 0.9}) {
+    // The shift, in samples, that leaves least of the difference, to first order.
+    double slopes = 0.0;
+    double differences = 0.0;
+    for (std::ptrdiff_t i = -150; i < 150; ++i) {
+      const auto k = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at * n) + i);
+      const double slope = 0.5 * (a.q[k + 1] - a.q[k - 1]);
+      slopes += slope * slope;
+      differences += slope * (a.q[k] - b.q[k]);
+    }
+    const double expected = kRate * (at - 0.5) * static_cast<double>(n);
+    EXPECT_NEAR(differences / slopes, expected, 0.02 + 0.1 * std::abs(expected)) << at;
+  }
+}
+
+TEST(Effects, AnEchoIsTheSignalOnceMore) {
+  Spec plain = TwoPoints();
+  plain.sensor_noise = 0.0;
+  Spec moved = plain;
+  moved.effects.push_back({"x_p_echo", 0.5, Parameters{{"share", 0.3}, {"delay_s", 2e-3}}});
+  const Record a = Simulate(plain);
+  const Record b = Simulate(moved);
+  EXPECT_EQ(RecordCsv({a.q, a.q}), RecordCsv({b.q, b.q}));
+  double worst = 0.0;
+  for (std::size_t k = 100; k < a.p.size(); ++k) {
+    worst = std::max(worst, std::abs(b.p[k] - a.p[k] - 0.3 * a.p[k - 10]));
+  }
+  EXPECT_LT(worst, 2e-3 * Largest(a.p));
 }
 
 TEST(Rig, IsTheSameForTheSameSeedAlone) {

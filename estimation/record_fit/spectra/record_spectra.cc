@@ -243,7 +243,9 @@ RecordSpectra WithoutPressureInstrument(RecordSpectra record, const TransferFunc
   const double bin = record.bin_hz / record.scale.cycle_hz;
   const auto divide = [&](Eigen::Index first, Eigen::VectorXcd* spectrum) {
     for (Eigen::Index k = 0; k < spectrum->size(); ++k) {
-      (*spectrum)[k] /= instrument(C(0.0, bin * static_cast<double>(first + k)));
+      const C response = instrument(C(0.0, bin * static_cast<double>(first + k)));
+      // What it does not pass at all, as a high-pass the mean, is not to be told from the record.
+      (*spectrum)[k] = response == 0.0 ? 0.0 : (*spectrum)[k] / response;
     }
   };
   divide(0, &record.driving);

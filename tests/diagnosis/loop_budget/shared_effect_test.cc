@@ -12,6 +12,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_budget.h"
@@ -163,6 +164,24 @@ TEST(SharedEffect, FindsAResonanceOfThePressureSensor) {
     ASSERT_EQ(parameters.size(), 2u);
     EXPECT_NEAR(parameters[0].value, faster * 900.0, faster * 6.0);
     EXPECT_NEAR(parameters[1].value, 0.1, 0.006);
+  }
+}
+
+// A signal without a mean, which a high-pass leaves none of, tells the loop all the same.
+TEST(SharedEffect, FindsHighPassesOfEitherSensor) {
+  constexpr double kCutoff_hz = 12.0;
+  const auto response = [](double hz) {
+    return std::complex<double>(0.0, hz) / std::complex<double>(kCutoff_hz, hz);
+  };
+  for (const auto& [id, signal] : {std::pair{"p_sensor_highpass", &Record::pressure},
+                                   std::pair{"q_sensor_highpass", &Record::heat_release}}) {
+    const std::vector<LoopRecord> rig = Ducts([&, signal = signal](Record* record) {
+      Filter(response, record->sampling_hz, &(record->*signal));
+    });
+    const LoopTrial best = BestOf(TrialsOn(rig));
+    EXPECT_EQ(best.item.id, id);
+    EXPECT_GT(best.gain, 20.0);
+    EXPECT_NEAR(best.model.effects.back().values[0], kCutoff_hz, 2.0);
   }
 }
 
