@@ -18,6 +18,8 @@
 namespace howl {
 namespace {
 
+constexpr double kKindsOfLineErrors = 2.0;
+
 // Errors at the cycle's lines are no cause, and finer spectra of noise name none.
 bool IsCause(const LoopStep& step) {
   return step.item.lines == nullptr && step.item.kind != LoopItemKind::kNoiseShape;
@@ -136,7 +138,7 @@ void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
   const double gained = std::max(out->acoustics.nats, out->flame.nats);
-  const bool errs = gained > std::log(kOddsOfUnknown);
+  const bool errs = gained > std::log(kOddsOfItem * kKindsOfLineErrors);
   double trend = 0.0;
   for (const BudgetEntry& entry : diagnosis.budget->entries) {
     if (entry.item == kDelayTrendId) trend = entry.lost_nats;

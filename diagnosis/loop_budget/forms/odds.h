@@ -8,12 +8,10 @@
 namespace howl {
 
 // That an item comes in where it has no place, with the number of items that were offered: one in
-// twenty, as is customary.
+// twenty, as is customary. Of free errors at the cycle's lines two are, of acoustics and of flame.
 inline constexpr double kOddsOfItem = 20.0;
 // Against another item in the place of one that came in: within them the two are a class.
 inline constexpr double kOddsOfClass = 50.0;
-// Against the loop found being the rig's, of free errors at the cycle's lines.
-inline constexpr double kOddsOfUnknown = 20.0;
 
 // Causes that a verdict names. Of some forty items three and more can imitate what none of them is:
 // of sixty rigs of the second simulator two had such an account (bench/loop_trial_study), one of an
