@@ -9,6 +9,7 @@
 #include "app/check/check_diagnose.h"
 #include "app/family/family_run.h"
 #include "app/input/config_fit.h"
+#include "app/input/usable_records.h"
 #include "app/text/text_table.h"
 #include "estimation/fit/joint_problem.h"
 #include "estimation/joint_records/loop_names.h"
@@ -91,6 +92,7 @@ class Finder {
           "the config's model states a loop that is fitted to records, and not every experiment "
           "has one");
     }
+    RequireUsable(config_, input_.records, *input_.analysis);
     const RecordLoopSpec& loop = *config_.record_loop;
     const std::string modes = loop.choose_modes ? "auto" : std::to_string(loop.modes);
     const std::string input = loop.choose_flame_input ? "auto" : FlameInputName(loop.flame_input);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/input/diagnose_input.h"
+#include "app/input/usable_records.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -16,7 +17,8 @@ std::string WhatDiagnoseCanDo(const Config& config, const ProblemInput& input) {
     }
     return "a table: bounds on the lag of the q sensor alone";
   }
-  const std::size_t records = MakeDiagnosisExperiments(config, input.records).size();
+  RequireUsable(config, input.records, *input.analysis);
+  const std::size_t records = input.records.size();
   std::string text = std::to_string(records) + (records == 1 ? " record" : " records") +
                      " of p and q; modes: " + std::to_string(ModesOfLoop(config));
   if (records == 1) text += "; what varies from one operating point to the next cannot be told";

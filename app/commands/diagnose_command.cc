@@ -84,11 +84,11 @@ bool LooksForOneCause(const Config& config, const Options& options) {
 
 // Whether clipping or few levels have changed the samples, so that no likelihood of a loop holds
 // for them, and the search for one cause can make that good.
-bool RepairComesFirst(const Config& config, const Options& options) {
+bool RepairComesFirst(const std::vector<NamedRecord>& read, const Options& options) {
   std::vector<LoopRecord> records;
-  for (NamedRecord& each : LoadRecords(config)) {
+  for (const NamedRecord& each : read) {
     if (each.record.heat_release.empty()) return false;
-    records.push_back({std::move(each.name), each.phi, 0.0, std::move(each.record)});
+    records.push_back({each.name, each.phi, 0.0, each.record});
   }
   if (!CanBeRepaired(SampleFactsOf(records, Withheld(options)))) return false;
   std::vector<DiagnosisExperiment> experiments;
@@ -100,11 +100,13 @@ bool RepairComesFirst(const Config& config, const Options& options) {
 
 int Run(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
-  if (config.record_loop) return RunLoopDiagnosis(config, options);
+  if (config.record_loop) return RunLoopDiagnosis(config, options, LoadRecords(config));
   const std::optional<Shard> shard = ShardOfReplicates(options);
-  if (HasRecords(config) && !LooksForOneCause(config, options) &&
-      (options.Has("--with") || !RepairComesFirst(config, options))) {
-    return RunLoopDiagnosis(config, options);
+  std::vector<NamedRecord> records;
+  if (HasRecords(config) && !options.Has("--plan")) records = LoadRecords(config);
+  if (!records.empty() && !LooksForOneCause(config, options) &&
+      (options.Has("--with") || !RepairComesFirst(records, options))) {
+    return RunLoopDiagnosis(config, options, std::move(records));
   }
   if (options.Has("--with")) {
     throw UsageError(
@@ -113,7 +115,8 @@ int Run(const Options& options) {
   }
   if (options.Has("--plan")) return RunPlan(config, options, Withheld(options));
   if (!HasRecords(config)) return RunTable(config, options);
-  const std::vector<DiagnosisExperiment> experiments = LoadDiagnosisExperiments(config);
+  const std::vector<DiagnosisExperiment> experiments =
+      MakeDiagnosisExperiments(config, std::move(records));
   DiagnosisOptions how;
   how.model = BaseOf(config);
   how.choose_modes = !StatesModes(config);

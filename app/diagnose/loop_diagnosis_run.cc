@@ -99,7 +99,7 @@ std::vector<EffectPointer> DeclaredIn(const Config& config) {
 
 }  // namespace
 
-int RunLoopDiagnosis(const Config& config, const Options& options) {
+int RunLoopDiagnosis(const Config& config, const Options& options, std::vector<NamedRecord> read) {
   if (config.record_loop) RefuseOthers(options);
   LoopBudgetOptions how;
   how.withheld = Withheld(options);
@@ -109,7 +109,8 @@ int RunLoopDiagnosis(const Config& config, const Options& options) {
       options.Count("--most-items", 1, static_cast<int>(kMostItems)).value_or(kFirstItems));
   how.one_delay = !config.record_loop && !(StatesDelays(config) && BaseOf(config).own_delays);
   const LoopForm base = LoopBaseOf(config);
-  const std::vector<LoopRecord> records = LoopRecordsOf(LoadUsableRecords(config, options));
+  const std::vector<LoopRecord> records =
+      LoopRecordsOf(UsableRecords(config, options, std::move(read)));
   if (!config.record_loop) RequireHertz(config, records);
   FitState state(config, options, "diagnosis.state", Choices(options));
   if (!options.quiet) state.SayWhereItStands();

@@ -6,7 +6,6 @@
 
 #include "app/input/record_input.h"
 #include "app/text/text_table.h"
-#include "estimation/analysis/analyse.h"
 #include "io/user_error.h"
 
 namespace howl {
@@ -64,18 +63,30 @@ void RequireRecords(const Config& config) {
 }
 
 std::vector<UsableRecord> LoadUsableRecords(const Config& config, const Options& options) {
-  std::vector<NamedRecord> records = LoadRecords(config);
+  return UsableRecords(config, options, LoadRecords(config));
+}
+
+void RequireUsable(const Config& config, const std::vector<NamedRecord>& records,
+                   const AnalysisSet& set) {
   if (records.empty()) {
     throw UserError(config.source.string(), config.experiments.front().line, "experiments",
                     "no experiment has a record, expected at least one of p and q");
   }
-  const AnalysisSet set = AnalyseRecords(records, MakeAnalysisOptions(config, options));
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    RequireUsable(config, records[e], CycleOf(set.analyses[e]));
+  }
+}
+
+std::vector<UsableRecord> UsableRecords(const Config& config, const Options& options,
+                                        std::vector<NamedRecord> records) {
+  const AnalysisSet set = records.empty()
+                              ? AnalysisSet()
+                              : AnalyseRecords(records, MakeAnalysisOptions(config, options));
+  RequireUsable(config, records, set);
   std::vector<UsableRecord> out;
   for (std::size_t e = 0; e < records.size(); ++e) {
-    const double cycle_hz = CycleOf(set.analyses[e]);
-    RequireUsable(config, records[e], cycle_hz);
     const Characteristics& c = set.analyses[e].characteristics;
-    out.push_back({std::move(records[e]), cycle_hz,
+    out.push_back({std::move(records[e]), CycleOf(set.analyses[e]),
                    c.state == CycleState::kNoLimitCycle ? 0.0 : c.p_amplitude});
   }
   return out;

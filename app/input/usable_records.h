@@ -9,6 +9,7 @@
 
 #include "app/command_line/options.h"
 #include "app/input/record_input.h"
+#include "estimation/analysis/analyse.h"
 #include "estimation/joint_records/loop_record.h"
 #include "io/config/config.h"
 
@@ -25,6 +26,14 @@ struct UsableRecord {
 // Of the experiments that have one. Throws UserError where one is not of both signals, or not long
 // enough, and where there is none.
 std::vector<UsableRecord> LoadUsableRecords(const Config& config, const Options& options);
+
+// The same of records that were read already: those of `config`, in its order.
+std::vector<UsableRecord> UsableRecords(const Config& config, const Options& options,
+                                        std::vector<NamedRecord> records);
+
+// Throws UserError where they are not; `set` is their analysis.
+void RequireUsable(const Config& config, const std::vector<NamedRecord>& records,
+                   const AnalysisSet& set);
 
 // Throws UserError where an experiment has no record.
 void RequireRecords(const Config& config);

@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
 #include "tests/app/program.h"
@@ -171,7 +173,30 @@ TEST(CheckCommand, AFewWarningsAreNoError) {
   const ProgramResult check = RunHowl("check " + config);
   EXPECT_EQ(check.status, 0) << check.out;
   EXPECT_THAT(check.out, HasSubstr("fit: cannot: no record shows a limit cycle in p and q"));
-  EXPECT_THAT(check.out, HasSubstr("diagnose: cannot: a has pressure alone"));
+  EXPECT_THAT(check.out, HasSubstr("diagnose: cannot: a has no heat release"));
+}
+
+// What diagnose refuses, check says before.
+TEST(CheckCommand, SaysThatRecordsAreTooShortForDiagnose) {
+  const TemporaryFolder folder;
+  std::string rows = "p,q\n";
+  for (int i = 0; i < 800; ++i) {
+    const double angle = 2.0 * std::numbers::pi * 200.0 * i / 5000.0;
+    rows += std::to_string(std::cos(angle)) + "," + std::to_string(std::cos(angle - 1.0)) + "\n";
+  }
+  folder.Write("a.csv", rows);
+  const std::string config =
+      folder
+          .Write("rig.yaml",
+                 "experiments:\n  - {name: a, phi: 0.5, record: "
+                 "{file: a.csv, pressure: p, heat_release: q, sampling_hz: 5000}}\n")
+          .string();
+  const ProgramResult check = RunHowl("check " + config);
+  const ProgramResult diagnose =
+      RunHowl("diagnose " + config + " --quiet --out " + (folder.path() / "out").string());
+  EXPECT_EQ(diagnose.status, 2);
+  EXPECT_THAT(diagnose.err, HasSubstr("a holds 32.0 periods at 200.0 Hz, expected at least 50"));
+  EXPECT_THAT(check.out, HasSubstr("diagnose: cannot: a holds 32.0 periods at 200.0 Hz"));
 }
 
 }  // namespace
