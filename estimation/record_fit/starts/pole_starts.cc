@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "estimation/record_fit/starts/start_least_squares.h"
+#include "estimation/record_fit/whittle/noise_shape.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
@@ -20,6 +21,7 @@ constexpr int kRelocations = 12;
 constexpr double kSpreadXi = 0.05;
 constexpr double kLeastXi = 1e-3;
 constexpr double kMostXi = 1.0;
+constexpr double kOfLine = 1e-4;  // of a line's power, five bins beside it (noise_shape.h)
 
 // Modes with these poles, each pair of complex ones a mode; real ones pair in their order. Unstable
 // poles are mirrored.
@@ -41,13 +43,24 @@ std::vector<StartPole> PolesOf(const Eigen::VectorXcd& roots) {
   return out;
 }
 
+// Hum and tones hold thousands of times the power of the bins beside them, and tell nothing of R.
+Eigen::VectorXd WeightsBesideLines(const RecordSpectra& record, const PointStructure& structure) {
+  Eigen::VectorXd out =
+      SmoothPower(Tapered(record.pressure), kStartReach).cwiseSqrt().cwiseInverse();
+  for (const NoiseTerm& term : structure.noise) {
+    if (!HasLines(term.source)) continue;
+    out = (NoiseShape(term, record).array() > kOfLine).select(0.0, out);
+  }
+  return out;
+}
+
 }  // namespace
 
 PoleStarts::PoleStarts(const RecordSpectra& record, const PointStructure& structure)
     : record_(record),
       structure_(structure),
       heat_release_(Tapered(record.heat_release)),
-      weight_(SmoothPower(Tapered(record.pressure), kStartReach).cwiseSqrt().cwiseInverse()),
+      weight_(WeightsBesideLines(record, structure)),
       target_(weight_.cwiseProduct(Tapered(record.pressure))),
       low_(std::abs(record.s[0])),
       high_(std::abs(record.s[record.bins() - 1])) {}
