@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,9 +78,8 @@ bool LooksForOneCause(const Config& config, const Options& options) {
   const bool asked =
       std::ranges::any_of(std::array{"--one-cause", "--reference", "--bootstrap", "--plan"},
                           [&](const char* option) { return options.Has(option); });
-  return asked || !std::ranges::all_of(config.effects, [](const EffectDeclaration& each) {
-           return DeclaredEffect(each).IsOneTransfer();
-         });
+  return asked || !std::ranges::all_of(DeclaredEffectsOf(config),
+                                       [](const auto& each) { return each->IsOneTransfer(); });
 }
 
 // Whether clipping or few levels have changed the samples, so that no likelihood of a loop holds
@@ -125,9 +125,7 @@ int Run(const Options& options) {
   how.withheld = Withheld(options);
   how.seed = options.seed;
   how.bootstrap = Replicates(options);
-  for (const EffectDeclaration& declaration : config.effects) {
-    how.further.push_back(std::make_shared<DeclaredEffect>(declaration));
-  }
+  std::ranges::copy(DeclaredEffectsOf(config), std::back_inserter(how.further));
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
     how.progress = [](std::size_t done, std::size_t total) {
       static ProgressLine line("starts of the search", false);

@@ -1,6 +1,8 @@
 #include "app/diagnose/diagnose_plan.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -44,9 +46,7 @@ int RunPlan(const Config& config, const Options& options,
   if (!StatesDelays(config)) how.model.own_delays = true;
   how.threads = options.threads;
   how.withheld = withheld;
-  for (const EffectDeclaration& declaration : config.effects) {
-    how.further.push_back(std::make_shared<DeclaredEffect>(declaration));
-  }
+  std::ranges::copy(DeclaredEffectsOf(config), std::back_inserter(how.further));
   const Plan plan = MakePlan(experiments, how);
   const std::filesystem::path path = options.out / "plan.json";
   WriteWholeFile(path, PlanJson(plan, simulated).dump(2) + "\n");

@@ -73,10 +73,7 @@ constexpr double kLeastSampling_hz = 100.0;
 void RequireHertz(const Config& config, const std::vector<LoopRecord>& records) {
   for (const LoopRecord& each : records) {
     if (each.record.sampling_hz >= kLeastSampling_hz) continue;
-    const auto of = std::ranges::find_if(config.experiments, [&](const ExperimentConfig& other) {
-      return other.experiment.name == each.name;
-    });
-    throw UserError(config.source.string(), of->line, "experiments",
+    throw UserError(config.source.string(), ExperimentNamed(config, each.name).line, "experiments",
                     each.name + " is sampled at " + Significant(each.record.sampling_hz, 3) +
                         " Hz, expected at least " + Significant(kLeastSampling_hz, 3) + " Hz");
   }
@@ -84,15 +81,14 @@ void RequireHertz(const Config& config, const std::vector<LoopRecord>& records) 
 
 std::vector<EffectPointer> DeclaredIn(const Config& config) {
   std::vector<EffectPointer> out;
-  for (const EffectDeclaration& declaration : config.effects) {
-    auto effect = std::make_shared<const DeclaredEffect>(declaration);
+  for (const auto& effect : DeclaredEffectsOf(config)) {
     if (!effect->IsOneTransfer()) {
       throw UserError(config.source.string(), config.tree.Find("effects")->value.line, "effects",
-                      declaration.name +
+                      std::string(effect->id()) +
                           " is not one transfer function at all operating points, expected one of "
                           "an instrument or of the flame: the config's model states a loop");
     }
-    out.push_back(std::move(effect));
+    out.push_back(effect);
   }
   return out;
 }

@@ -39,12 +39,18 @@ std::vector<DiagnosisExperiment> MakeDiagnosisExperiments(const Config& config,
   }
   if (const std::optional<CutObstacle> obstacle = FindCutObstacle(experiments)) {
     const std::string& name = experiments[obstacle->experiment].name;
-    const auto found =
-        std::find_if(config.experiments.begin(), config.experiments.end(),
-                     [&](const ExperimentConfig& each) { return each.experiment.name == name; });
-    throw UserError(file, found->record_line, "record", name + " " + obstacle->what);
+    throw UserError(file, ExperimentNamed(config, name).record_line, "record",
+                    name + " " + obstacle->what);
   }
   return experiments;
+}
+
+std::vector<std::shared_ptr<const DeclaredEffect>> DeclaredEffectsOf(const Config& config) {
+  std::vector<std::shared_ptr<const DeclaredEffect>> out;
+  for (const EffectDeclaration& declaration : config.effects) {
+    out.push_back(std::make_shared<const DeclaredEffect>(declaration));
+  }
+  return out;
 }
 
 BaseModel BaseOf(const Config& config) {

@@ -2,12 +2,14 @@
 #ifndef HOWL_APP_INPUT_DIAGNOSE_INPUT_H_
 #define HOWL_APP_INPUT_DIAGNOSE_INPUT_H_
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "diagnosis/records/cut_record.h"
 #include "estimation/analysis/analyse.h"
 #include "io/config/config.h"
+#include "model/effects/declared_effect.h"
 
 namespace howl {
 
@@ -17,6 +19,9 @@ std::vector<DiagnosisExperiment> LoadDiagnosisExperiments(const Config& config);
 // The same of records that were read already: those of `config`, in its order.
 std::vector<DiagnosisExperiment> MakeDiagnosisExperiments(const Config& config,
                                                           std::vector<NamedRecord> records);
+
+// The effects that the config declares.
+std::vector<std::shared_ptr<const DeclaredEffect>> DeclaredEffectsOf(const Config& config);
 
 // The loop that the config states for every command. Each experiment has a delay of its own unless
 // tau_s is shared.

@@ -2,6 +2,8 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
+
 #include "estimation/health/sample_health.h"
 #include "io/records/columns/time_unit.h"
 #include "io/records/record_faults.h"
@@ -22,6 +24,12 @@ Record AsRecorded(const RecordSpec& spec, const Config& config, int line, const 
 }
 
 }  // namespace
+
+const ExperimentConfig& ExperimentNamed(const Config& config, const std::string& name) {
+  return *std::ranges::find_if(config.experiments, [&](const ExperimentConfig& each) {
+    return each.experiment.name == name;
+  });
+}
 
 std::vector<NamedRecord> LoadRecords(const Config& config) {
   std::vector<NamedRecord> records;

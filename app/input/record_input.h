@@ -3,6 +3,7 @@
 #define HOWL_APP_INPUT_RECORD_INPUT_H_
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/command_line/options.h"
@@ -14,6 +15,9 @@ namespace howl {
 
 // The experiments that have a record, in the config's order. Throws UserError for bad data.
 std::vector<NamedRecord> LoadRecords(const Config& config);
+
+// Of the config's experiments the one with this name, which one of them has.
+const ExperimentConfig& ExperimentNamed(const Config& config, const std::string& name);
 
 // Of each experiment that has a record: whether a number gives its sampling rate, or the steps of
 // its time column.

@@ -1,6 +1,5 @@
 #include "app/input/usable_records.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -24,10 +23,8 @@ constexpr double kFewestSamplesPerCycle = 6.0;
 
 void RequireUsable(const Config& config, const NamedRecord& record, double cycle_hz) {
   const auto fail = [&](const std::string& what) {
-    const auto of = std::ranges::find_if(config.experiments, [&](const ExperimentConfig& each) {
-      return each.experiment.name == record.name;
-    });
-    throw UserError(config.source.string(), of->line, "experiments", record.name + what);
+    throw UserError(config.source.string(), ExperimentNamed(config, record.name).line,
+                    "experiments", record.name + what);
   };
   if (record.record.heat_release.empty()) {
     fail(" has no heat release, expected p and q: the loop is fitted to both");

@@ -71,10 +71,10 @@ bool DeclaredEffect::IsOneTransfer() const {
   if (IsAt(LoopPlace::kPressureRecorded) || IsAt(LoopPlace::kHeatReleaseRecorded)) return true;
   if (IsAt(LoopPlace::kFlameOut)) return declaration_.form == DeclaredForm::kTransfer;
   if (!IsAt(LoopPlace::kFlameIn)) return false;
-  const auto tells_points_apart = [](const DeclaredFormula& formula) {
-    return std::ranges::any_of(formula.Names(), [](const std::string& name) {
-      return name == "phi_position" || name == "amplitude" || name == "cycle_hz";
-    });
+  // At the delay all names but the parameters are those of an operating point.
+  const std::vector<std::string> of_point = FixedNames(LoopPlace::kDelay, DeclaredForm::kDelay);
+  const auto tells_points_apart = [&](const DeclaredFormula& formula) {
+    return std::ranges::find_first_of(formula.Names(), of_point) != formula.Names().end();
   };
   return std::ranges::none_of(declaration_.numerator, tells_points_apart) &&
          std::ranges::none_of(declaration_.denominator, tells_points_apart);

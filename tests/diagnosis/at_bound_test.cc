@@ -7,6 +7,7 @@
 
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/diagnosis.h"
+#include "tests/diagnosis/declare.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {
@@ -14,23 +15,16 @@ namespace {
 
 // A first-order low-pass on recorded q that is searched from low_hz on.
 EffectPointer LowPassFrom(double low_hz) {
-  EffectDeclaration out;
-  out.name = "cable";
-  out.place = LoopPlace::kHeatReleaseRecorded;
-  out.form = DeclaredForm::kTransfer;
-  out.parameters = {{"cutoff_hz",
-                     "Hz",
-                     std::numeric_limits<double>::infinity(),
-                     low_hz,
-                     1e6,
-                     {1.5 * low_hz, 4.0 * low_hz},
-                     ParameterScale::kLogarithmic}};
-  FormulaError error;
-  const auto formula = DeclaredFormula::Parse("1 / (1 + s / (2 * pi * cutoff_hz))", out.place,
-                                              out.form, out.parameters, error);
-  EXPECT_TRUE(formula.has_value()) << error.message;
-  if (formula) out.numerator = {*formula};
-  return std::make_shared<DeclaredEffect>(std::move(out));
+  return std::make_shared<DeclaredEffect>(Declare("cable", LoopPlace::kHeatReleaseRecorded,
+                                                  DeclaredForm::kTransfer,
+                                                  "1 / (1 + s / (2 * pi * cutoff_hz))",
+                                                  {"cutoff_hz",
+                                                   "Hz",
+                                                   std::numeric_limits<double>::infinity(),
+                                                   low_hz,
+                                                   1e6,
+                                                   {1.5 * low_hz, 4.0 * low_hz},
+                                                   ParameterScale::kLogarithmic}));
 }
 
 TEST(LongAtBound, ACandidateSaysThatItsSearchEndsThere) {

@@ -14,26 +14,13 @@
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
 #include "model/effects/catalogue.h"
+#include "tests/diagnosis/declare.h"
 #include "tests/diagnosis/simulated_rig.h"
 
 namespace howl {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-EffectDeclaration Declare(const std::string& name, LoopPlace place, DeclaredForm form,
-                          const std::string& formula, EffectParameter parameter) {
-  EffectDeclaration out;
-  out.name = name;
-  out.place = place;
-  out.form = form;
-  out.parameters = {std::move(parameter)};
-  FormulaError error;
-  const auto parsed = DeclaredFormula::Parse(formula, place, form, out.parameters, error);
-  EXPECT_TRUE(parsed.has_value()) << error.message;
-  if (parsed) out.numerator = {*parsed};
-  return out;
-}
 
 EffectPointer Make(EffectDeclaration declaration) {
   return std::make_shared<DeclaredEffect>(std::move(declaration));

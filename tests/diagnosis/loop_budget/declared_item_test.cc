@@ -8,26 +8,11 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_budget.h"
-#include "model/effects/declared_effect.h"
+#include "tests/diagnosis/declare.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl {
 namespace {
-
-std::shared_ptr<const DeclaredEffect> Declare(LoopPlace place, DeclaredForm form,
-                                              const std::string& formula,
-                                              const EffectParameter& parameter) {
-  EffectDeclaration out;
-  out.name = "mine";
-  out.place = place;
-  out.form = form;
-  out.parameters = {parameter};
-  FormulaError error;
-  const auto parsed = DeclaredFormula::Parse(formula, place, form, out.parameters, error);
-  EXPECT_TRUE(parsed.has_value()) << error.message;
-  if (parsed) out.numerator = {*parsed};
-  return std::make_shared<const DeclaredEffect>(out);
-}
 
 const EffectParameter kShare{"share", "", 0.0, 0.0, 0.9, {0.1, 0.3}};
 
@@ -45,15 +30,16 @@ TEST(DeclaredItem, IsNamedWithItsValue) {
     each.cycle_hz *= kFaster;
   }
   LoopBudgetOptions options = Among({"channel_skew", "p_sensor_resonance"});
-  options.declared = {Declare(LoopPlace::kPressureRecorded, DeclaredForm::kTransfer,
-                              "1 / (1 + s / (2 * pi * corner_hz))",
-                              {"corner_hz",
-                               "Hz",
-                               std::numeric_limits<double>::infinity(),
-                               30.0,
-                               1e4,
-                               {50.0, 200.0, 1000.0},
-                               ParameterScale::kLogarithmic})};
+  options.declared = {std::make_shared<DeclaredEffect>(
+      Declare("mine", LoopPlace::kPressureRecorded, DeclaredForm::kTransfer,
+              "1 / (1 + s / (2 * pi * corner_hz))",
+              {"corner_hz",
+               "Hz",
+               std::numeric_limits<double>::infinity(),
+               30.0,
+               1e4,
+               {50.0, 200.0, 1000.0},
+               ParameterScale::kLogarithmic}))};
   const LoopDiagnosis found = DiagnoseLoops(rig, DuctsForm(), options);
   const std::vector<BudgetEntry>& entries = found.diagnosis.budget->entries;
   ASSERT_EQ(entries.size(), 1u);
@@ -65,7 +51,7 @@ TEST(DeclaredItem, IsNamedWithItsValue) {
 
 TEST(DeclaredItem, IsOneTransferAtAllPoints) {
   const auto is_one = [](LoopPlace place, DeclaredForm form, const std::string& formula) {
-    return Declare(place, form, formula, kShare)->IsOneTransfer();
+    return DeclaredEffect(Declare("mine", place, form, formula, kShare)).IsOneTransfer();
   };
   EXPECT_TRUE(is_one(LoopPlace::kPressureRecorded, DeclaredForm::kTransfer, "1 / (1 + share*s)"));
   EXPECT_TRUE(is_one(LoopPlace::kHeatReleaseRecorded, DeclaredForm::kDelay, "1e-3 * share"));
