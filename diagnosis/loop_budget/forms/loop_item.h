@@ -48,8 +48,9 @@ namespace howl {
 // source that the loop shapes, and half an octave more of a sensor's.
 inline constexpr Eigen::Index kSourceCoefficients = 6;
 inline constexpr Eigen::Index kSensorCoefficients = 4;
-// Of hum's power over the band: its multiples fall, or rise, with frequency.
-inline constexpr Eigen::Index kHumCoefficients = 2;
+// Of hum: its level, and the powers of the first multiples that the band has. Rectifiers of six
+// pulses and of twelve make the 5th to the 13th (IEC 61000-3-6).
+inline constexpr Eigen::Index kHumCoefficients = 1 + 13;
 
 enum class LoopItemKind : std::uint8_t {
   kNoise,

@@ -41,7 +41,7 @@ KeptLoop::KeptLoop(const RecordSpectra& record, const PointStructure& structure)
       flame_heat_release_(record.heat_release) {
   CHECK(!structure.HasChanges() || record.slow.signals.cols() == kSlowColumns);
   for (const NoiseTerm& term : structure.noise) {
-    noise_columns_.push_back(ChebyshevColumns(record.position, term.coefficients));
+    noise_columns_.push_back(LogSpectrumColumns(term, record));
     noise_shapes_.push_back(NoiseShape(term, record));
   }
   residuals_.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));

@@ -184,7 +184,7 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
     out.flame.col(next++) = TaperedColumns(record.slow.signals.col(column));
   });
   for (const NoiseTerm& term : structure.noise) {
-    out.log_spectra.push_back(ChebyshevColumns(record.position, term.coefficients));
+    out.log_spectra.push_back(LogSpectrumColumns(term, record));
   }
   return out;
 }

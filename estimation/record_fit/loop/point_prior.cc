@@ -35,6 +35,8 @@ constexpr double kAcousticChange = 2.0;
 constexpr double kFlameChange = 0.5;
 constexpr double kLevel = 3.0;  // of ln S_j, about the signal's mean
 constexpr double kShape = 1.5;  // of its higher coefficients
+// Of what a multiple of the mains' has over others: a factor of seven of the amplitude, either way.
+constexpr double kMultiple = 4.0;
 // Amplifiers are set so that p and q fill their ranges alike.
 constexpr double kBackgroundRatio = 1.0;
 constexpr double kMostDeviations = 6.0;
@@ -124,7 +126,7 @@ PointPrior PriorOf(const PointStructure& structure, const RecordSpectra& record)
   add(structure.FlameChanges(), 0.0, kFlameChange);
   for (const NoiseTerm& term : structure.noise) {
     add(1, MeanLogPower(IsOfPressure(term.source) ? record.pressure : record.heat_release), kLevel);
-    add(term.coefficients - 1, 0.0, kShape);
+    add(term.coefficients - 1, 0.0, IsHum(term.source) ? kMultiple : kShape);
   }
   if (HasBackground(structure.noise)) add(1, 0.0, kBackgroundRatio);
   return out;

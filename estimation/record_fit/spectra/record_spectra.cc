@@ -19,7 +19,6 @@ namespace {
 
 using C = std::complex<double>;
 
-constexpr double kLowestOfCycle = 0.15;
 constexpr double kHighestOfCycle = 6.4;
 constexpr double kHighestOfSampling = 0.4;
 // Of the band's upper end: how far the flame's input reaches. A flame that is nearly a switch
@@ -149,7 +148,7 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
       std::min(kHighestOfCycle, kHighestOfSampling * record.sampling_hz / scale.cycle_hz);
   Band band;
   band.first = std::max<Eigen::Index>(
-      static_cast<Eigen::Index>(std::ceil(kLowestOfCycle / bin_of_cycle)), 1);
+      static_cast<Eigen::Index>(std::ceil(RecordScale::kLowestOfCycle / bin_of_cycle)), 1);
   band.count = static_cast<Eigen::Index>(highest / bin_of_cycle) - band.first;
   const Eigen::VectorXcd pressure = UnitarySpectrum(p);
   out.below = pressure.head(band.first);

@@ -65,6 +65,8 @@ struct FlameFilters {
 
 // The units, and the flame's functions, that records of one operating point have in common.
 struct RecordScale {
+  static constexpr double kLowestOfCycle = 0.15;  // where the band begins
+
   double cycle_hz = 0.0;
   double pressure = 1.0;
   double heat_release = 1.0;

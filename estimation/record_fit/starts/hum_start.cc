@@ -11,7 +11,7 @@ namespace howl {
 namespace {
 
 constexpr double kOnLine = 0.5;  // of what the taper passes of a line
-// Of the coefficients, so that a single line, which has no tilt, has a start.
+// Of the coefficients, which are one more than there are lines.
 constexpr double kRidge = 1e-3;
 
 }  // namespace
@@ -32,7 +32,7 @@ Eigen::VectorXd HumStart(const RecordSpectra& record, const NoiseTerm& hum,
     out[0] = std::log(std::max(power.mean(), 1e-300));
     return out;
   }
-  const Eigen::MatrixXd basis = ChebyshevColumns(record.position(bins), hum.coefficients);
+  const Eigen::MatrixXd basis = LogSpectrumColumns(hum, record)(bins, Eigen::all);
   const Eigen::VectorXd level = power(bins).array().max(1e-300).log();
   Eigen::MatrixXd normal = basis.transpose() * basis;
   normal.diagonal().array() += kRidge;

@@ -90,6 +90,8 @@ Eigen::VectorXd InRicherStructure(const RecordSpectra& record, const PointStruct
     if (HasLines(term.source)) c = HumStart(record, term, left);
     for (std::size_t j = 0; j < poor.noise.size(); ++j) {
       if (poor.noise[j].source != term.source) continue;
+      // A single line tells nothing of others.
+      if (HasOneLine(poor.noise[j]) && !HasOneLine(term)) continue;
       c[0] = 0.0;
       c.head(point.noise[j].size()) = point.noise[j];
     }

@@ -9,18 +9,24 @@ namespace {
 
 // Of the cycle's frequency: as far as its lines reach (loop_point.h).
 constexpr double kBesideCycle = 0.06;
-// Of a tapered line all but two thousandths lie within two bins to either side.
-constexpr double kBinsApart = 4.0;
 
-Eigen::VectorXd Lines(const NoiseTerm& term, const RecordSpectra& record) {
+// The k-th of a term's lines. Which they are does not hang on the length of the part of a record
+// that is looked at.
+double LineHz(const NoiseTerm& term, const RecordSpectra& record, Eigen::Index k) {
+  if (HasOneLine(term)) return term.line_hz;
+  const double first =
+      std::max(std::ceil(RecordScale::kLowestOfCycle * record.scale.cycle_hz / term.line_hz), 1.0);
+  return (first + static_cast<double>(k)) * term.line_hz;
+}
+
+Eigen::Index Lines(const NoiseTerm& term) { return HasOneLine(term) ? 1 : term.coefficients - 1; }
+
+Eigen::VectorXd LinesShape(const NoiseTerm& term, const RecordSpectra& record) {
   const double cycle_hz = record.scale.cycle_hz;
   const Eigen::VectorXd f_hz = cycle_hz * record.s.imag();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(record.bins());
-  const double highest_hz =
-      HasOneLine(term) ? 1.5 * term.line_hz : f_hz[record.bins() - 1] + term.line_hz;
-  for (double line_hz = term.line_hz; line_hz < highest_hz; line_hz += term.line_hz) {
-    const double from_cycle_hz = line_hz - std::round(line_hz / cycle_hz) * cycle_hz;
-    if (std::abs(from_cycle_hz) < kBinsApart * record.bin_hz) continue;
+  for (Eigen::Index k = 0; k < Lines(term); ++k) {
+    const double line_hz = LineHz(term, record, k);
     for (Eigen::Index i = 0; i < record.bins(); ++i) {
       const double bins = (f_hz[i] - line_hz) / record.bin_hz;
       out[i] += 1.0 / std::max(1.0, std::pow(4.0 * bins * bins - 1.0, 2));
@@ -46,7 +52,7 @@ Eigen::VectorXd BesideCycle(const NoiseTerm& term, const RecordSpectra& record) 
 }
 
 Eigen::VectorXd WithoutInstruments(const NoiseTerm& term, const RecordSpectra& record) {
-  if (HasLines(term.source)) return Lines(term, record);
+  if (HasLines(term.source)) return LinesShape(term, record);
   if (term.source == LoopNoise::kFlameGain) return BesideCycle(term, record);
   return Eigen::VectorXd::Ones(record.bins());
 }
@@ -80,9 +86,25 @@ Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record) {
   return out;
 }
 
+Eigen::MatrixXd LogSpectrumColumns(const NoiseTerm& term, const RecordSpectra& record) {
+  if (!HasLines(term.source) || HasOneLine(term)) {
+    return ChebyshevColumns(record.position, term.coefficients);
+  }
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(record.bins(), term.coefficients);
+  out.col(0).setOnes();
+  const double first_hz = LineHz(term, record, 0);
+  for (Eigen::Index i = 0; i < record.bins(); ++i) {
+    const double f_hz = record.scale.cycle_hz * record.s[i].imag();
+    const Eigen::Index k = std::lround((f_hz - first_hz) / term.line_hz);
+    if (k >= 0 && k < Lines(term)) out(i, 1 + k) = 1.0;
+  }
+  return out;
+}
+
 Eigen::VectorXd NoiseSpectrum(const NoiseTerm& term, const RecordSpectra& record,
                               const Eigen::VectorXd& coefficients) {
-  return LoopNoiseSpectrum(record.position, coefficients).cwiseProduct(NoiseShape(term, record));
+  return (LogSpectrumColumns(term, record) * coefficients).array().exp() *
+         NoiseShape(term, record).array();
 }
 
 }  // namespace howl

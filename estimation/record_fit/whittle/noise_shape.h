@@ -1,11 +1,15 @@
-// The factor by which a source's spectrum differs from a smooth one. Hum stands at multiples of the
-// mains' frequency alone, as the taper spreads each:
+// The spectra of sources, ln S_j = ln w + sum over k of c_k b_k, where the b_k are smooth but of
+// hum, and w is the factor by which a spectrum differs from a smooth one. Hum stands at multiples
+// of the mains' frequency alone, as many from the band's lower end on as its coefficients after the
+// first, as the taper spreads each:
 //
 //   w(f) = sum over n of 1 / max(1, (4 d_n^2 - 1)^2),   d_n: bins from n times the mains' frequency
 //
 // or for a tone over n = 1 alone: the bound of a line's power under a sine taper (Thomson 1982;
-// Riedel & Sidorenko 1995). Multiples next to one of the cycle's lines tell nothing of hum, and are
-// left out.
+// Riedel & Sidorenko 1995). Of hum b_0 = 1, and b_k = 1 nearest to its k-th multiple: no law says
+// how the powers of multiples go together (of a rectifier's, the odd ones stand alone). One that
+// meets a line of the cycle beats with it, and stands there as anywhere.
+//
 // A gain that fluctuates about its mean, and forgets exponentially, moves what each of the cycle's
 // lines Q_h holds to its sides (as does one that jumps between two values at random times):
 //
@@ -26,7 +30,10 @@ namespace howl {
 // w at the record's bins.
 Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record);
 
-// S_j at the record's bins: w times what noise_sources.h has.
+// b_k at the record's bins, one column each.
+Eigen::MatrixXd LogSpectrumColumns(const NoiseTerm& term, const RecordSpectra& record);
+
+// S_j at the record's bins.
 Eigen::VectorXd NoiseSpectrum(const NoiseTerm& term, const RecordSpectra& record,
                               const Eigen::VectorXd& coefficients);
 

@@ -5,15 +5,16 @@
 //   duct        (R, 0): a source other than the flame, which q does not show
 //   background  (beta - R, 1 - beta F): both channels show it, p beta times as much as q, as they
 //               do what the electronics or the building's mains add
-//   hum of p, of q   as their sensors, at multiples of the mains' frequency alone (noise_shape.h),
-//               or with one coefficient at one frequency
+//   hum of p, of q   as their sensors, at multiples of the mains' frequency alone (noise_shape.h):
+//               a level, and what each multiple has over it; or one coefficient, at one frequency
 //   tone        as the duct's, at one frequency alone
 //   gain        as combustion's, beside the cycle's lines (noise_shape.h): the flame's gain
 //               fluctuates
 //
 //   ln S_j(f) = sum over k of c_jk T_k(x),   T_k Chebyshev's polynomials, x = -1 .. 1 in log f
 //
-// One coefficient: white noise. Spectra are in units of |P|^2 or |Q|^2 under the taper.
+// but for hum's. One coefficient: white noise. Spectra are in units of |P|^2 or |Q|^2 under the
+// taper.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SOURCES_H_
 #define HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SOURCES_H_
 
@@ -52,7 +53,7 @@ struct NoiseTerm {
 inline bool IsHum(LoopNoise source) {
   return source == LoopNoise::kPressureHum || source == LoopNoise::kHeatReleaseHum;
 }
-// Whether it has one line. Of several the powers are as their coefficients have them.
+// Whether it has one line.
 inline bool HasOneLine(const NoiseTerm& term) {
   return term.source == LoopNoise::kTone || (IsHum(term.source) && term.coefficients == 1);
 }

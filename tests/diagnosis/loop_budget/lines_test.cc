@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/loop_budget/forms/tone.h"
@@ -15,8 +16,7 @@ namespace {
 
 constexpr double kShare = 0.05;  // of the signal
 
-std::vector<LoopRecord> DuctsWithHum(double line_hz, bool in_p) {
-  std::vector<LoopRecord> records = DuctsAt({1.2, 1.5, 1.8});
+std::vector<LoopRecord> WithLine(std::vector<LoopRecord> records, double line_hz, bool in_p) {
   for (LoopRecord& each : records) {
     std::vector<double>& signal = in_p ? each.record.pressure : each.record.heat_release;
     const double amplitude = kShare * std::numbers::sqrt2 * RootMeanSquare(signal);
@@ -29,14 +29,18 @@ std::vector<LoopRecord> DuctsWithHum(double line_hz, bool in_p) {
   return records;
 }
 
-void ExpectHum(const LoopDiagnosis& found, double line_hz, bool in_p) {
+std::vector<LoopRecord> DuctsWithHum(double line_hz, bool in_p) {
+  return WithLine(DuctsAt({1.2, 1.5, 1.8}), line_hz, in_p);
+}
+
+void ExpectHum(const LoopDiagnosis& found, double line_hz, bool in_p, double share = kShare) {
   const Budget& budget = *found.diagnosis.budget;
   ASSERT_EQ(budget.entries.size(), 1u);
   const BudgetEntry& hum = budget.entries[0];
   EXPECT_EQ(hum.item, "mains_hum");
   EXPECT_EQ(hum.experiments_better, 3u);
   ASSERT_EQ(hum.parameters.size(), 2u);
-  EXPECT_NEAR(hum.parameters[0].value, kShare, 0.3 * kShare);
+  EXPECT_NEAR(hum.parameters[0].value, share, 0.3 * share);
   EXPECT_NEAR(hum.parameters[1].value, line_hz, 0.05);
   const auto& noise = found.best.structure.noise;
   const LoopNoise source = in_p ? LoopNoise::kPressureHum : LoopNoise::kHeatReleaseHum;
@@ -57,6 +61,15 @@ TEST(LinesOfRecords, AreHumAtOneMultipleAlone) {
   ExpectHum(
       DiagnoseLoops(DuctsWithHum(350.0, true), DuctsForm(), Among({"mains_hum", "external_tone"})),
       350.0, true);
+}
+
+// Of a rectifier the odd ones stand alone, and no slope goes through them and the even ones.
+TEST(LinesOfRecords, AreHumOfOddMultiples) {
+  std::vector<LoopRecord> records = DuctsWithHum(50.0, false);
+  for (const int multiple : {3, 5, 7})
+    records = WithLine(std::move(records), 50.0 * multiple, false);
+  ExpectHum(DiagnoseLoops(records, DuctsForm(), Among({"mains_hum", "extra_acoustic_mode"})), 50.0,
+            false, 2.0 * kShare);
 }
 
 // Wherever it lies between two bins: half way it is in both with either sign.

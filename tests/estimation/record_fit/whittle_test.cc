@@ -64,7 +64,7 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
         ChangingStructure(ErringStructure(DelaySpread::kGamma))}) {
     structure.noise.push_back({LoopNoise::kDuct, 2});
     structure.noise.push_back({LoopNoise::kBackground, 2});
-    structure.noise.push_back({LoopNoise::kPressureHum, 2, 50.0});
+    structure.noise.push_back({LoopNoise::kPressureHum, 5, 50.0});
     structure.noise.push_back({LoopNoise::kHeatReleaseHum, 2, 60.0});
     structure.noise.push_back({LoopNoise::kFlameGain, 1, 0.0, 4.0});
     const PointPrior prior = PriorOf(structure, spectra);
