@@ -128,11 +128,14 @@ std::vector<Place> Where(const Diagnosis& diagnosis) {
   return out;
 }
 
-// The samples have been changed; of what else there may be nothing is said.
+// The samples have been changed; of what else there may be nothing is said, so that what is known
+// of it are the odds from before the records.
 void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
   diagnosis->kind = VerdictKind::kEffect;
   diagnosis->effect = Joined(*diagnosis->budget);
-  AddCandidate(found.best.Density() - found.base.Density(), 1.0, diagnosis);
+  diagnosis->probability_unknown = 1.0 / (1.0 + kOddsOfItem);
+  AddCandidate(found.best.Density() - found.base.Density(), 1.0 - diagnosis->probability_unknown,
+               diagnosis);
 }
 
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {

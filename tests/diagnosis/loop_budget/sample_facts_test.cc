@@ -73,6 +73,9 @@ TEST(SampleFacts, SoAreFewLevels) {
   EXPECT_NEAR(found.diagnosis.budget->seen_in_samples[0].value, 24.0, 2.0);
   EXPECT_TRUE(found.diagnosis.budget->entries.empty());
   EXPECT_EQ(found.diagnosis.probability_none, 0.0);
+  // Nothing else was looked for, and one cause in twenty-one has another beside it.
+  EXPECT_NEAR(found.diagnosis.probability_unknown, 1.0 / 21.0, 1e-12);
+  EXPECT_NEAR(found.diagnosis.candidates[0].probability, 20.0 / 21.0, 1e-12);
 }
 
 TEST(SampleFacts, AreAllThatTheRecordsShow) {
