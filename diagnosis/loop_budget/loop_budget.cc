@@ -81,7 +81,8 @@ std::optional<BudgetEntry> DelayTrendIn(const LoopRecords& records, const LoopFo
   const DelayTrend trend =
       TrendOf(DelaysOf(records, found.best, SharedErrorsOf(found, budget.entries), options));
   const auto offered = static_cast<double>(AllLoopItems().size() + options.declared.size());
-  if (!(trend.nats > std::log(kOddsOfItem * offered))) return std::nullopt;
+  const double beside = LeftByForms(found.best.Density() - found.base.Density());
+  if (!(trend.nats > std::log(kOddsOfItem * offered) + beside)) return std::nullopt;
   BudgetEntry out;
   out.item = kDelayTrendId;
   out.lost_nats = trend.nats;

@@ -5,11 +5,24 @@
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_ODDS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_ODDS_H_
 
+#include <algorithm>
+
 namespace howl {
 
 // That an item comes in where it has no place, with the number of items that were offered: one in
 // twenty, as is customary. Of free errors at the cycle's lines two are, of acoustics and of flame.
 inline constexpr double kOddsOfItem = 20.0;
+// No cause has the very form that an item gives it: a real low-pass is not of first order, a drift
+// is not even. An item whose form is off by this share of its size leaves the share's square of
+// what it gains, and what is left passes for other causes: so these must gain as much more. Unlike
+// nats it hangs on nothing but how well forms are known; it decides where records tell most.
+inline constexpr double kFormError = 0.05;
+
+// What another item must gain beside those that gained so much, in nats.
+inline double LeftByForms(double gained_nats) {
+  return kFormError * kFormError * std::max(gained_nats, 0.0);
+}
+
 // Against another item in the place of one that came in: within them the two are a class.
 inline constexpr double kOddsOfClass = 50.0;
 

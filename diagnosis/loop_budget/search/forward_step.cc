@@ -104,7 +104,8 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
     const LoopTrial& trial = trials[each.trial];
     LoopFit fit = FitTrial(records_, trial, Again(records_, each.fit, options_.threads),
                            key + "best/" + KeyOf(trial.item) + "/", options_);
-    if (fit.Density() > from.Density() + least + trial.price) {
+    const double beside = LeftByForms(from.Density() - base_density_);
+    if (fit.Density() > from.Density() + least + beside + trial.price) {
       return LoopStep{trial.item, least, trial.price, RivalsOf(trials, best, each.trial, from),
                       std::move(fit)};
     }

@@ -20,7 +20,7 @@ namespace howl {
 
 struct LoopStep {
   LoopItem item;
-  double least = 0.0;  // nats that it had to gain, among so many
+  double least = 0.0;  // nats that it had to gain, among so many, beside nothing
   double price = 0.0;  // and for values that all points share (LoopTrial)
   // What was fitted beside it and gained too, or would have gained as much within odds of 50 to 1.
   std::vector<LoopItem> rivals;
@@ -30,8 +30,10 @@ struct LoopStep {
 
 class ForwardSearch {
  public:
-  ForwardSearch(const LoopRecords& records, const LoopForm& base, const LoopBudgetOptions& options)
-      : records_(records), base_(base), options_(options) {}
+  // base_density: of the loop without any item, from which what others gained is counted.
+  ForwardSearch(const LoopRecords& records, const LoopForm& base, double base_density,
+                const LoopBudgetOptions& options)
+      : records_(records), base_(base), base_density_(base_density), options_(options) {}
 
   // No value where nothing pays any more. Units are kept under `prefix`.
   std::optional<LoopStep> Next(const LoopFit& from, const std::vector<LoopStep>& steps,
@@ -52,6 +54,7 @@ class ForwardSearch {
 
   const LoopRecords& records_;
   const LoopForm& base_;
+  double base_density_;
   const LoopBudgetOptions& options_;
   std::map<std::string, double> last_gain_;  // nats, of a trial, by the item's key
   std::map<std::string, double> alone_;

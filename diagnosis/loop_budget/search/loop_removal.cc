@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/loop_budget/forms/odds.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -56,12 +57,14 @@ std::vector<std::size_t> Others(const LoopStanding& found, const std::vector<std
   return out;
 }
 
-std::vector<std::size_t> Idle(const LoopStanding& found) {
+std::vector<std::size_t> Idle(const LoopStanding& found, double base_density) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
     const LoopFit& without = found.without[i];
-    const double least = found.steps[i].least + found.steps[i].price;
-    if (without.log_density.empty() || without.Density() < found.best.Density() - least) continue;
+    if (without.log_density.empty()) continue;
+    const double least =
+        found.steps[i].least + found.steps[i].price + LeftByForms(without.Density() - base_density);
+    if (without.Density() < found.best.Density() - least) continue;
     out.push_back(i);
   }
   std::ranges::stable_sort(out, std::ranges::greater(),

@@ -18,7 +18,8 @@ void TakeAway(const LoopRecords& records, const LoopForm& base,
 std::vector<std::size_t> Others(const LoopStanding& found, const std::vector<std::size_t>& than);
 
 // The steps that are known not to pay what they had to, that which pays least first.
-std::vector<std::size_t> Idle(const LoopStanding& found);
+// base_density: of the loop without any item.
+std::vector<std::size_t> Idle(const LoopStanding& found, double base_density);
 
 }  // namespace howl
 

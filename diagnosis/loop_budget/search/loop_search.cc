@@ -38,6 +38,7 @@ class Search {
 
   LoopRecords records_;
   LoopForm base_;
+  double base_density_ = 0.0;
   const LoopBudgetOptions& options_;
 };
 
@@ -70,7 +71,7 @@ LoopFit Search::WithLines(const LoopFit& from, int PointStructure::*lines, const
 }
 
 bool Search::Forward(const std::string& prefix, LoopFound* out) {
-  ForwardSearch forward(records_, base_, options_);
+  ForwardSearch forward(records_, base_, base_density_, options_);
   const std::size_t before = out->steps.size();
   while (out->steps.size() < options_.most_items) {
     std::optional<LoopStep> next = forward.Next(out->best, out->steps, prefix);
@@ -97,11 +98,11 @@ void Search::Backward(const std::string& prefix, LoopStanding* out) {
     const std::string key = prefix + "back/" + std::to_string(round) + "/";
     out->without.assign(out->steps.size(), {});
     TakeAway(records_, base_, first, MaximumTaken::kNext, key + "next/", options_, out);
-    std::vector<std::size_t> idle = Idle(*out);
+    std::vector<std::size_t> idle = Idle(*out, base_density_);
     if (idle.empty()) {
       TakeAway(records_, base_, Others(*out, first), MaximumTaken::kNext, key + "next/", options_,
                out);
-      idle = Idle(*out);
+      idle = Idle(*out, base_density_);
     }
     if (!idle.empty()) {
       const LoopFit& next = out->without[idle[0]];
@@ -110,7 +111,7 @@ void Search::Backward(const std::string& prefix, LoopStanding* out) {
                          key);
     } else {
       TakeAway(records_, base_, Others(*out, {}), MaximumTaken::kBest, key, options_, out);
-      idle = Idle(*out);
+      idle = Idle(*out, base_density_);
       if (idle.empty()) return;
       out->best = Driven(out->without[idle[0]], key);
     }
@@ -138,6 +139,7 @@ void Search::Exchange(LoopStanding* out) {
 LoopFound Search::Run() {
   LoopFound out;
   out.base = FitBase();
+  base_density_ = out.base.Density();
   out.best = out.base;
   std::string prefix;
   for (int pass = 1; Forward(prefix, &out); ++pass) {

@@ -4,7 +4,8 @@
 // The score of a model is the density of each operating point's record by the law that the other
 // points give, summed (records_fit.h); of one point alone its evidence. An item comes in where it
 // raises the score by more than the odds against any of so many, and goes where the score without
-// it is not lower by as much. Noise and other causes come in the order of what they gain: what a
+// it is not lower by as much; beside others it must gain what errors of their forms may leave too
+// (odds.h). Noise and other causes come in the order of what they gain: what a
 // poor noise leaves over passes for effects, and what a strong instrument leaves passes for noise,
 // or for hum. Errors at the cycle's lines come where nothing else pays: were they there from the
 // beginning, they would hide what the lines tell of the flame. What pays beside them then is looked
