@@ -40,6 +40,27 @@ double Brier(const CaseOutcome& one) {
   return sum + (has_truth ? 0.0 : 1.0);
 }
 
+// The number of withheld effects in an answer "a" or "a+b"; zero if it has any other.
+int NamedIn(const std::string& answer, const CaseOutcome& one) {
+  int right = 0;
+  int parts = 0;
+  std::istringstream words(answer);
+  for (std::string id; std::getline(words, id, '+');) {
+    ++parts;
+    right += std::ranges::count(one.withheld, id, &WithheldEffect::id) > 0 ? 1 : 0;
+  }
+  return right == parts ? right : 0;
+}
+
+int NamedOfTwo(const CaseOutcome& one) {
+  return one.kind == "effect" ? NamedIn(one.effect, one) : 0;
+}
+
+// Of two effects in either order.
+bool IsTruth(const CaseOutcome& one, const std::string& answer) {
+  return one.Truth() == TruthKind::kPair ? NamedIn(answer, one) == 2 : answer == one.TruthName();
+}
+
 void CountReliability(const CaseOutcome& one, std::vector<ReliabilityBin>& bins) {
   const auto top =
       std::ranges::max_element(one.probability, {}, [](const auto& each) { return each.second; });
@@ -47,7 +68,7 @@ void CountReliability(const CaseOutcome& one, std::vector<ReliabilityBin>& bins)
   for (ReliabilityBin& bin : bins) {
     if (top->second > bin.high && &bin != &bins.back()) continue;
     bin.mean_probability += top->second;  // the mean comes at the end
-    bin.right.Count(top->first == one.TruthName());
+    bin.right.Count(IsTruth(one, top->first));
     return;
   }
 }
@@ -55,19 +76,6 @@ void CountReliability(const CaseOutcome& one, std::vector<ReliabilityBin>& bins)
 const CandidateOutcome* Candidate(const CaseOutcome& one, const std::string& id) {
   const auto found = std::ranges::find(one.candidates, id, &CandidateOutcome::effect);
   return found == one.candidates.end() ? nullptr : &*found;
-}
-
-// The number of withheld effects in an answer "a" or "a+b"; zero if it has any other.
-int NamedOfTwo(const CaseOutcome& one) {
-  if (one.kind != "effect") return 0;
-  int right = 0;
-  int parts = 0;
-  std::istringstream answer(one.effect);
-  for (std::string id; std::getline(answer, id, '+');) {
-    ++parts;
-    right += std::ranges::count(one.withheld, id, &WithheldEffect::id) > 0 ? 1 : 0;
-  }
-  return right == parts ? right : 0;
 }
 
 MethodScore ScoreMethod(const std::string& method, std::span<const CaseOutcome> cases) {
@@ -83,6 +91,8 @@ MethodScore ScoreMethod(const std::string& method, std::span<const CaseOutcome> 
   int scored = 0;
   for (const CaseOutcome& one : cases) {
     const bool unknown = one.answered && one.kind == "unknown";
+    if (one.answered) score.by_answer[one.kind].Count(IsTruth(one, one.AnswerName()));
+    CountReliability(one, score.reliability);
     switch (one.Truth()) {
       case TruthKind::kNone:
         score.false_alarms.Count(one.kind != "none");
@@ -118,7 +128,6 @@ MethodScore ScoreMethod(const std::string& method, std::span<const CaseOutcome> 
     ++scored;
     score.log_score -= std::log(std::max(kLeastProbability, Probability(one, one.TruthName())));
     score.brier += Brier(one);
-    CountReliability(one, score.reliability);
   }
   score.log_score /= std::max(1, scored);
   score.brier /= std::max(1, scored);

@@ -51,7 +51,9 @@ struct MethodScore {
   Tally pairs_unknown;                      // ... "unknown"
   double log_score = 0.0;                   // mean of -ln p(truth), p of at least 0.001
   double brier = 0.0;                       // mean of the sum of (p - truth)^2
-  std::vector<ReliabilityBin> reliability;  // of the most probable answer
+  std::vector<ReliabilityBin> reliability;  // of the most probable answer, in all cases
+  // By what is answered, none, effect or unknown: how often that is all that was withheld.
+  std::map<std::string, Tally> by_answer;
   // The answer's shrinkage over the true effect's, where the latter is at least 0.1.
   double median_shrinkage_over_oracle = 0.0;
   int oracle_cases = 0;

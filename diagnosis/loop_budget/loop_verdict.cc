@@ -13,6 +13,7 @@
 #include "diagnosis/loop_budget/delay_trend.h"
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/sample_facts.h"
+#include "diagnosis/verdict/calibration.h"
 #include "model/effects/catalogue.h"
 
 namespace howl {
@@ -141,7 +142,10 @@ void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
   const double gained = std::max(out->acoustics.nats, out->flame.nats);
-  const bool errs = gained > std::log(kOddsOfItem * kKindsOfLineErrors);
+  // What they must gain before a loop is said to err at the cycle's lines.
+  const double least = std::log(kOddsOfItem * kKindsOfLineErrors) +
+                       LeftByForms(DensityWithoutLines(found) - found.base.Density());
+  const bool errs = gained > least;
   double trend = 0.0;
   for (const BudgetEntry& entry : diagnosis.budget->entries) {
     if (entry.item == kDelayTrendId) trend = entry.lost_nats;
@@ -157,7 +161,7 @@ void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   if (diagnosis.kind == VerdictKind::kEffect) diagnosis.effect = Joined(*diagnosis.budget);
   const double best = DensityWithoutLines(found) + trend;
   const bool lines_stay = std::ranges::any_of(found.steps, IsOfLines);
-  const double with_lines = lines_stay ? found.best.Density() + trend : best + gained;
+  const double with_lines = (lines_stay ? found.best.Density() + trend : best + gained) - least;
   const double base = found.base.Density();
   const double most = std::max({with_lines, best, base});
   std::array<double, 3> odds = {std::exp(with_lines - most), any ? std::exp(best - most) : 0.0,
@@ -229,6 +233,7 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
     TakeWhatSamplesShow(found, &diagnosis);
   }
   AddAlone(found, &diagnosis);
+  if (AreNoise(budget.seen_in_samples)) Calibrate(DoubtOfBudget(diagnosis.kind), &diagnosis);
   if (diagnosis.kind == VerdictKind::kEffect) diagnosis.indistinguishable = Alike(budget);
   diagnosis.where = Where(diagnosis);
   diagnosis.advice = AdviceOf(diagnosis);

@@ -71,7 +71,7 @@ Diagnosis Search::Run() {
   out.candidates = Candidates();
   if (repair_) AddClipping(&out);
   out.advice = Advice(out, model_free);
-  Calibrate(model_free, &out);
+  Calibrate(DoubtOfOneCause(out.kind, model_free), &out);
   return out;
 }
 

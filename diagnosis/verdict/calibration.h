@@ -9,9 +9,13 @@
 
 namespace howl {
 
+// How often a verdict of this kind is wrong: of the search for one cause, and of the budget.
 // model_free: the effect was detected in the samples themselves or as a spectral line. Such
 // verdicts hardly err.
-void Calibrate(bool model_free, Diagnosis* diagnosis);
+double DoubtOfOneCause(VerdictKind kind, bool model_free);
+double DoubtOfBudget(VerdictKind kind);
+
+void Calibrate(double doubt, Diagnosis* diagnosis);
 
 }  // namespace howl
 

@@ -125,6 +125,12 @@ std::string Reliability(const MethodScore& score) {
   return table.Text();
 }
 
+std::string ByAnswer(const MethodScore& score) {
+  Table table({"answer", "right"});
+  for (const auto& [kind, right] : score.by_answer) table.Row({kind, Text(right)});
+  return table.Text();
+}
+
 std::string Size(double severity, double size) {
   const std::string_view beyond = BeyondTried(severity);
   return beyond.empty() ? Format("%.3g", size) : std::string(beyond);
@@ -195,6 +201,7 @@ std::string TrialSheet(const ScoreSheet& sheet, const std::string& command,
   text += "- two effects: both named " + Text(score.pairs_both_named) + ", one " +
           Text(score.pairs_one_named) + ", unknown " + Text(score.pairs_unknown) + "\n\n";
   text += "## Reliability of the most probable answer\n\n" + Reliability(score);
+  text += "## By what is answered\n\n" + ByAnswer(score);
   text += "## Smallest size found with 90 % probability\n\n" + Power(sheet);
   text += "## Each effect, all sizes\n\n" + ByEffect(sheet);
   text += "## Confusion: withheld, then answers\n\n" + Confusions(sheet.confusion);

@@ -162,6 +162,22 @@ TEST(Score, ReliabilityHasItsBins) {
   EXPECT_EQ(score.reliability[4].right.right, 10);
 }
 
+// Two effects count in either order, and one alone is wrong where two were withheld.
+TEST(Score, ReliabilityCountsTwoEffectsToo) {
+  const std::vector<CaseOutcome> cases = {
+      Case({kHum, kLag}, "effect", "lag+hum", {{"lag+hum", 0.9}, {"unknown", 0.1}}),
+      Case({kHum, kLag}, "effect", "hum", {{"hum", 0.9}, {"unknown", 0.1}}),
+      Case({kHum, kLag}, "unknown", "", {{"hum", 0.3}, {"unknown", 0.7}})};
+  const MethodScore score = Score(cases, ThreeEffects()).howl;
+  EXPECT_EQ(score.reliability[4].right.total, 2);
+  EXPECT_EQ(score.reliability[4].right.right, 1);
+  EXPECT_EQ(score.reliability[3].right.total, 1);
+  EXPECT_EQ(score.reliability[3].right.right, 0);
+  EXPECT_EQ(score.by_answer.at("effect").total, 2);
+  EXPECT_EQ(score.by_answer.at("effect").right, 1);
+  EXPECT_EQ(score.by_answer.at("unknown").right, 0);
+}
+
 TEST(Score, ShrinkageIsOverTheOracles) {
   std::vector<CaseOutcome> cases;
   for (const double after : {0.2, 0.4, 0.6}) {
