@@ -1,5 +1,6 @@
 #include "app/text/loop_diagnosis_text.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -58,9 +59,8 @@ std::string AloneText(const Diagnosis& diagnosis) {
   std::string out;
   std::size_t shown = 0;
   for (const Candidate& candidate : diagnosis.candidates) {
-    // What is named together is no item.
-    const bool several = candidate.effect.find('+') != std::string::npos;
-    if (several || candidate.probability > 0.0 || shown == kShown) continue;
+    // What is named has a gap, which the points together leave.
+    if (!std::isnan(candidate.gap_after) || shown == kShown) continue;
     out += (out.empty() ? "" : ", ") + candidate.effect + " " + Fixed(candidate.gain, 0);
     ++shown;
   }

@@ -45,6 +45,8 @@ Json MethodJson(const MethodScore& score) {
     entry["right"] = TallyJson(bin.right);
     reliability.push_back(entry);
   }
+  Json by_answer = Json::object();
+  for (const auto& [kind, right] : score.by_answer) by_answer[kind] = TallyJson(right);
   return {{"method", score.method},
           {"by_severity", by_severity},
           {"all_severities", AccuracyJson(score.catalogue)},
@@ -63,6 +65,7 @@ Json MethodJson(const MethodScore& score) {
           {"brier", NumberOrNull(score.brier)},
           {"median_shrinkage_over_oracle", NumberOrNull(score.median_shrinkage_over_oracle)},
           {"cases_with_oracle", score.oracle_cases},
+          {"right_by_answer", by_answer},
           {"reliability", reliability}};
 }
 

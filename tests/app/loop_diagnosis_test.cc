@@ -40,8 +40,16 @@ TEST_F(LoopDiagnosis, SaysWhatTheConfigsLoopLacks) {
       "complex_residues,delay_dispersion,gamma_delays");
   ASSERT_EQ(run.status, 0) << run.err << run.out;
   EXPECT_THAT(run.out, HasSubstr("to go on from there: --with flame_input_pressure_rate\n"));
+  EXPECT_THAT(run.out, HasSubstr("alone, at each point by itself, nats: "));
   const Json json = Json::parse(ReadFile(folder_.path() / "out/diagnosis.json"));
   EXPECT_EQ(json["schema"], "howl.diagnosis/1");
+  double sum = 0.0;
+  for (const auto& [answer, probability] : json["verdict"]["probability"].items()) {
+    sum += probability.get<double>();
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-9);
+  // Trials leave a doubt.
+  EXPECT_LT(json["verdict"]["probability"]["flame_input_pressure_rate"].get<double>(), 0.95);
   ASSERT_EQ(json["budget"].size(), 1u);
   EXPECT_EQ(json["budget"][0]["item"], "flame_input_pressure_rate");
   EXPECT_GT(json["budget"][0]["lost_without"]["nats"].get<double>(), 20.0);
