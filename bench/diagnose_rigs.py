@@ -6,8 +6,10 @@
 Each case of FOLDER is diagnosed into ANSWERS/NAME, one on each core, unless it has an answer; then all
 answers are scored against FOLDER's key. A single effect counts as named where the verdict names it
 and nothing else, or has it in a class of at most three; two where it names both and nothing else; one from
-outside the catalogue, where it says unknown. Shares are with Wilson's 95 % interval. The last table
-splits single effects of medium and large size at the median of what was drawn.
+outside the catalogue, where it says unknown. Shares are with Wilson's 95 % interval. One table splits
+single effects of medium and large size at the median of what was drawn. The last shows what the item of
+a single effect leaves, in further items or in errors at the cycle's lines, over what it gains: the root is
+by how much its form is off (kFormError of diagnosis/loop_budget/forms/odds.h).
 """
 import concurrent.futures
 import json
@@ -78,6 +80,21 @@ def answer_of(verdict):
     return text + (f" (or {', '.join(alike)})" if alike else "")
 
 
+def form_errors(rows):
+    """(effect, nats that it gained, nats that it left, the root of their ratio)."""
+    out = []
+    for _, k, answer in rows:
+        held = [each["effect"] for each in k["effects"]]
+        nats = {each["item"]: each["lost_without"]["nats"] for each in answer.get("budget", [])}
+        if len(held) != 1 or held[0] not in nats:
+            continue
+        left = [nats[item] for item in nats if item != held[0]]
+        left += [each["nats"] for each in answer["line_errors"].values()]
+        most = max([0.0] + [each for each in left if each is not None])
+        out.append((held[0], nats[held[0]], most, math.sqrt(most / nats[held[0]])))
+    return sorted(out, key=lambda each: -each[3])
+
+
 def main():
     howl, folder, answers = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     cases = sorted((folder / "cases").iterdir())
@@ -88,8 +105,9 @@ def main():
     for case in cases:
         answer = answers / case.name / "diagnosis.json"
         if answer.exists():
-            rows.append((case.name, key[case.name], json.loads(answer.read_text())["verdict"]))
-    scored = [(group(k["effects"]), is_right(k["effects"], v), k, v) for _, k, v in rows]
+            rows.append((case.name, key[case.name], json.loads(answer.read_text())))
+    scored = [(group(k["effects"]), is_right(k["effects"], a["verdict"]), k, a["verdict"])
+              for _, k, a in rows]
 
     print(f"{len(rows)} of {len(cases)} rigs have an answer.\n")
     print("| withheld | right |\n|---|---|")
@@ -112,11 +130,15 @@ def main():
         print(f"| {label}, {middle:.3g} | {share(low)} | {share(high)} |")
 
     print("\n| not right | withheld | answer |\n|---|---|---|")
-    for (name, k, v), (_, right, _, _) in zip(rows, scored):
+    for (name, k, _), (_, right, _, v) in zip(rows, scored):
         if not right:
             held = "+".join(f"{each['effect']} ({each['size_name']} {each['size']:.3g})"
                             for each in k["effects"]) or "nothing"
             print(f"| {name} | {held} | {answer_of(v)} |")
+
+    print("\n| single effect | gains, nats | leaves, nats | its form is off by |\n|---|---|---|---|")
+    for effect, gained, left, error in form_errors(rows):
+        print(f"| {effect} | {gained:.0f} | {left:.1f} | {error:.3f} |")
 
 
 if __name__ == "__main__":

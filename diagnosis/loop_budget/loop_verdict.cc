@@ -12,6 +12,7 @@
 
 #include "diagnosis/loop_budget/delay_trend.h"
 #include "diagnosis/loop_budget/forms/odds.h"
+#include "diagnosis/loop_budget/loop_places.h"
 #include "diagnosis/loop_budget/sample_facts.h"
 #include "diagnosis/verdict/calibration.h"
 #include "model/effects/catalogue.h"
@@ -98,35 +99,10 @@ std::vector<std::string> Alike(const Budget& budget) {
   return out;
 }
 
-LoopBlock BlockOfSamples(const std::string& effect) {
-  for (const EffectPointer& each : Catalogue()) {
-    if (each->id() == effect) return each->block();
-  }
-  return effect.starts_with("q_") ? LoopBlock::kHeatReleaseInstrument
-                                  : LoopBlock::kPressureInstrument;
-}
-
-// Of what is named the places, by what each is worth; of what nothing explains where it is.
-std::vector<Place> Where(const Diagnosis& diagnosis) {
-  const Budget& budget = *diagnosis.budget;
-  if (diagnosis.kind != VerdictKind::kEffect) return budget.left;
-  std::vector<Place> out;
-  for (const SampleFact& fact : budget.seen_in_samples) {
-    Place place = budget.everywhere;
-    place.block = BlockOfSamples(fact.effect);
-    place.share =
-        budget.entries.empty() ? 1.0 / static_cast<double>(budget.seen_in_samples.size()) : 0.0;
-    out.push_back(std::move(place));
-  }
-  if (!AreNoise(budget.seen_in_samples)) return out;
-  double sum = 0.0;
-  for (const BudgetEntry& entry : budget.entries) sum += entry.lost_nats;
-  for (const BudgetEntry& entry : budget.entries) {
-    out.push_back(entry.place);
-    out.back().share = entry.lost_nats / sum;
-  }
-  std::ranges::stable_sort(out, std::ranges::greater(), &Place::share);
-  return out;
+// What free errors of either cut at the cycle's lines must gain before a loop is said to err there.
+double LeastOfLines(const LoopFound& found) {
+  return std::log(kOddsOfItem * kKindsOfLineErrors) +
+         LeftByForms(DensityWithoutLines(found) - found.base.Density());
 }
 
 // The samples have been changed; of what else there may be nothing is said, so that what is known
@@ -142,9 +118,7 @@ void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
   const double gained = std::max(out->acoustics.nats, out->flame.nats);
-  // What they must gain before a loop is said to err at the cycle's lines.
-  const double least = std::log(kOddsOfItem * kKindsOfLineErrors) +
-                       LeftByForms(DensityWithoutLines(found) - found.base.Density());
+  const double least = LeastOfLines(found);
   const bool errs = gained > least;
   double trend = 0.0;
   for (const BudgetEntry& entry : diagnosis.budget->entries) {
@@ -235,7 +209,7 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   AddAlone(found, &diagnosis);
   if (AreNoise(budget.seen_in_samples)) Calibrate(DoubtOfBudget(diagnosis.kind), &diagnosis);
   if (diagnosis.kind == VerdictKind::kEffect) diagnosis.indistinguishable = Alike(budget);
-  diagnosis.where = Where(diagnosis);
+  diagnosis.where = PlacesOf(*out, LeastOfLines(found));
   diagnosis.advice = AdviceOf(diagnosis);
 }
 
