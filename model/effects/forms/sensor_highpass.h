@@ -12,13 +12,17 @@
 
 namespace howl {
 
+// Twice the cycle of the rig for which the catalogue was made: what is coupled so low that little
+// of its cycle is left is no sensor.
+inline constexpr double kMostCutoff_hz = 420.0;
+
 class SensorHighPass final : public NamedEffect {
  public:
   SensorHighPass(std::string id, Channel channel)
       : NamedEffect(std::move(id),
                     channel == Channel::kPressure ? LoopBlock::kPressureInstrument
                                                   : LoopBlock::kHeatReleaseInstrument,
-                    {{"cutoff_hz", "Hz", 0.0, 0.0, 150.0, {5.0, 20.0, 60.0}}}),
+                    {{"cutoff_hz", "Hz", 0.0, 0.0, kMostCutoff_hz, {5.0, 20.0, 60.0}}}),
         channel_(channel) {}
   bool ChangesAcousticCut() const override { return true; }
   bool ChangesFlameCut() const override { return true; }
