@@ -16,8 +16,9 @@ inline constexpr double kOddsOfItem = 20.0;
 // is not even. An item whose form is off by this share of its size leaves the share's square of
 // what it gains, and what is left passes for other causes: so these must gain as much more. Unlike
 // nats it hangs on nothing but how well forms are known; it decides where records tell most. Of
-// rigs of the second simulator with one effect the form was off by 0.03 at most, where a resonance
-// of p gained 30 059 nats and left 23 (bench/diagnose_rigs.py, with 0 here); real ones are further.
+// 16 rigs of the second simulator with one effect the form was off by 0.03 at most, where a
+// resonance of p gained 30 059 nats and left 23, but of a gain that fluctuates by a quarter, which
+// is modelled to first order, 0.1 (bench/diagnose_rigs.py, with 0 here); real rigs are further off.
 inline constexpr double kFormError = 0.05;
 
 // What another item must gain beside those that gained so much, in nats.
