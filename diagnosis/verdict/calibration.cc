@@ -14,8 +14,8 @@ struct Doubts {
 // Of the third and the fourth trial.
 constexpr Doubts kOfOneCause = {0.18, 0.08, 0.07};
 constexpr double kOfModelFree = 0.02;
-// Of the trial with seed 31: 6 of 24, 13 of 80, 4 of 16 answers were wrong (docs/trial.md). They
-// hang on how many rigs have how small an effect, not on the length, the rate or the number of
+// Of the trial with seed 31: 6 of 24, 13 of 80, 4 of 16 answers were wrong (docs/validation.md).
+// They hang on how many rigs have how small an effect, not on the length, the rate or the number of
 // records.
 constexpr Doubts kOfBudget = {0.25, 0.16, 0.25};
 // The shares of the doubt that go to the other two kinds; the rest goes to all effects alike.
