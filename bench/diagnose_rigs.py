@@ -96,6 +96,8 @@ def form_errors(rows):
 
 
 def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
     howl, folder, answers = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     cases = sorted((folder / "cases").iterdir())
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -54,6 +54,8 @@ def rig_of(draw, effects, size):
 
 
 def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__)
     howl_rig, folder, count = sys.argv[1], pathlib.Path(sys.argv[2]), int(sys.argv[3])
     draw = random.Random(int(sys.argv[4]) if len(sys.argv) > 4 else 1)
     kinds = effects_of(howl_rig)
