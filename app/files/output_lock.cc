@@ -1,6 +1,7 @@
 #include "app/files/output_lock.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -61,6 +62,25 @@ bool IsStill(int descriptor, const fs::path& path) {
          opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
+// While it lives a signal that ends the program waits: it would find a lock's file that is not
+// among those which are held, and leave it.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ends;
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGINT);
+    sigaddset(&ends, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &ends, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
 }  // namespace
 
 OutputLock::OutputLock(fs::path folder, const std::string& file, Kind kind, const std::string& who)
@@ -71,7 +91,13 @@ OutputLock::OutputLock(fs::path folder, const std::string& file, Kind kind, cons
     throw UserError(folder_.string(), 0, "", "cannot make this folder: " + error.message());
   }
   const Clock::time_point last = Clock::now() + kPatience;
-  while (!Take(kind)) {
+  const auto takes = [&] {
+    const SignalsWait while_it_is_made;
+    const bool taken = Take(kind);
+    if (taken) Replace(nullptr, this);
+    return taken;
+  };
+  while (!takes()) {
     const std::string other = ReadAll(descriptor_);
     close(descriptor_);
     if (Clock::now() > last) {
@@ -81,7 +107,6 @@ OutputLock::OutputLock(fs::path folder, const std::string& file, Kind kind, cons
     }
     std::this_thread::sleep_for(kBetweenTries);
   }
-  Replace(nullptr, this);
   if (kind == Kind::kTogether) return;
   // It is for a message alone; a full disk refuses it.
   const std::string text = who + ", process " + std::to_string(getpid());
@@ -113,8 +138,9 @@ void OutputLock::Remove() const {
 }
 
 OutputLock::~OutputLock() {
-  Replace(this, nullptr);
+  const SignalsWait while_it_goes;
   Remove();
+  Replace(this, nullptr);
   close(descriptor_);
 }
 
