@@ -11,14 +11,14 @@ namespace {
 std::vector<NamedRecord> SixExperiments() {
   std::vector<NamedRecord> records;
   for (int i = 0; i < 6; ++i) {
-    testing::SyntheticOptions options;
+    fixtures::SyntheticOptions options;
     options.frequency_hz = 219.0 - 5.0 * i;
     options.phase_deg = -5.0 * i;
     options.loop_gain = 1.25;
     options.second_harmonic = 0.1;
     options.line_ratio = 3.6;
     records.push_back({"exp" + std::to_string(i + 1), 0.56 - 0.02 * i,
-                       testing::Synthesise(options, static_cast<std::uint64_t>(i)).record});
+                       fixtures::Synthesise(options, static_cast<std::uint64_t>(i)).record});
   }
   return records;
 }

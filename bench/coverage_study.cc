@@ -10,7 +10,7 @@
 #include "tests/estimation/analysis/coverage_rows.h"
 
 int main(int argc, char** argv) {
-  using namespace howl::testing;
+  using namespace howl::fixtures;
   const int records = argc > 1 ? std::atoi(argv[1]) : 50;
   const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
   std::array<Tally, kQuantities> all;

@@ -11,7 +11,7 @@
 
 #include "tests/estimation/fit_rows.h"
 
-namespace howl::testing {
+namespace howl::fixtures {
 namespace {
 
 void Print(const std::string& name, const FitScore& score) {
@@ -38,10 +38,10 @@ void Print(const StudiedRig& rig, int draws, const FitStudy& study) {
 }
 
 }  // namespace
-}  // namespace howl::testing
+}  // namespace howl::fixtures
 
 int main(int argc, char** argv) {
-  using namespace howl::testing;
+  using namespace howl::fixtures;
   const int draws = argc > 1 ? std::atoi(argv[1]) : 40;
   const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
   const double noise_p = argc > 3 ? std::atof(argv[3]) : 0.001;

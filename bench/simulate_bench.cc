@@ -11,14 +11,12 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
+#include "model/numerics/constants.h"
 #include "model/simulation/simulate.h"
 
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 howl::RigParameters Rig(int index) {
   howl::RigParameters rig;
@@ -74,7 +72,7 @@ class RungeKutta {
       : n_(model.loop.acoustics.N),
         m_(model.loop.acoustics.M),
         xi_(model.loop.acoustics.xi),
-        w1_(kTwoPi * model.loop.acoustics.omega_hz),
+        w1_(howl::kTwoPi * model.loop.acoustics.omega_hz),
         w2_(model.loop.acoustics.harmonic_ratio * w1_),
         slope_(model.flame.slope),
         saturation_(model.flame.saturation),
@@ -152,7 +150,7 @@ class RungeKutta {
 // A linear loop with the solution e^(lambda t): N and M from the characteristic equation.
 struct KnownSolution {
   howl::RigParameters rig;
-  std::complex<double> lambda{22.0, kTwoPi * 216.0};
+  std::complex<double> lambda{22.0, howl::kTwoPi * 216.0};
   std::complex<double> pressure;
 };
 
@@ -165,7 +163,7 @@ KnownSolution MakeKnownSolution() {
   const std::complex<double> s = known.lambda;
   constexpr double kTau = 0.00346123456789;
   constexpr double kSlope = -0.7e-4;
-  const double w = kTwoPi * 215.0;
+  const double w = howl::kTwoPi * 215.0;
   const std::complex<double> common = kSlope * s * s * std::exp(-s * kTau);
   const std::complex<double> a = common * Integral(w, 0.2, s);
   const std::complex<double> b = common * Integral(3.0 * w, 0.2, s);
@@ -174,7 +172,7 @@ KnownSolution MakeKnownSolution() {
   const double m = -a.imag() / determinant;
   known.rig.model = {{{215.0, 0.2, n, m, 3.0}, kTau},
                      {howl::FlameShape::kLinear, kSlope, 1.0, 0.0}};
-  known.rig.past = {{1.0, s.imag() / kTwoPi, s.real(), 0.0}};
+  known.rig.past = {{1.0, s.imag() / howl::kTwoPi, s.real(), 0.0}};
   known.pressure = s * (n * Integral(w, 0.2, s) + m * Integral(3.0 * w, 0.2, s));
   return known;
 }
@@ -222,7 +220,7 @@ void RungeKuttaAsAccurate(benchmark::State& state) {
   const auto steps = static_cast<std::size_t>(rate_hz);
   for (auto _ : state) {
     RungeKutta rk(rig.model, rate_hz, false);
-    rk.Start(0.1, {0.0, kTwoPi * 216.0}, steps, Integral);
+    rk.Start(0.1, {0.0, howl::kTwoPi * 216.0}, steps, Integral);
     for (std::size_t i = 0; i < steps; ++i) rk.Step();
     benchmark::DoNotOptimize(rk.pressure());
   }

@@ -63,7 +63,7 @@ howl_build() {
   esac
   [ -e "$root/build/$target" ] || [ -e "$root/build/howl" ] ||
     echo "compiling $target to build/: on two cores some $minutes minutes the first time" >&2
-  if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  if ! cmake -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
        -DHOWL_BUILD_TESTS=$tests -DHOWL_BUILD_BENCH=$tests >"$log" 2>&1; then
     cat "$log" >&2
     return 1

@@ -24,24 +24,22 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_CLANG_TIDY)
   set(howl_finite_complex -fcx-limited-range)
 endif()
 
-# The headers that most files of a target include, parsed once for the target; every file still names
-# what it uses. Saves a quarter of the compiling. Not for tools that read the compile commands, such as
-# clang-tidy, nor where a file's options differ from its target's (SKIP_PRECOMPILE_HEADERS).
-option(HOWL_PRECOMPILE "Precompile the headers that most files include" OFF)
-if(HOWL_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # Writes past the end of a std::string, seen where there are none.
-  target_compile_options(howl_warnings INTERFACE -Wno-stringop-overflow)
-endif()
-function(howl_precompile target)
-  if(HOWL_PRECOMPILE)
-    target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <complex> <cstdio>
-                              <filesystem> <functional> <memory> <optional> <span> <sstream>
-                              <string> <vector> ${ARGN})
-  endif()
+# With CMAKE_UNITY_BUILD the sources of one folder are compiled together, which takes a third of the
+# time: so no two of them may define the same name. A folder is a group, not any eight files, so that
+# a new file changes what its own folder's names meet and nothing else.
+function(howl_unite_folders target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "of_${group}")
+  endforeach()
 endfunction()
 
 function(howl_library name)
-  cmake_parse_arguments(ARG "INSTALL" "" "PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "INSTALL" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
   add_library(howl_${name} STATIC ${sources} ${headers})
@@ -53,7 +51,7 @@ function(howl_library name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/howl>)
   target_link_libraries(howl_${name} PUBLIC ${ARG_PUBLIC}
                         PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:howl_warnings>)
-  howl_precompile(howl_${name} ${ARG_PRECOMPILE})
+  howl_unite_folders(howl_${name})
   if(NOT ARG_INSTALL)
     return()
   endif()

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -86,6 +88,17 @@ void WriteWholeFile(const std::filesystem::path& path, std::string_view content)
   NewFile file(path);
   file.Write(content.data(), content.size());
   file.Publish();
+}
+
+std::optional<std::string> ReadWholeFile(const std::filesystem::path& path) {
+  // A device may never end.
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
 }
 
 void RemoveUnpublished(const std::filesystem::path& folder, std::string_view prefix) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,9 @@ class NewFile {
 };
 
 void WriteWholeFile(const std::filesystem::path& path, std::string_view content);
+
+// The bytes of a regular file; nothing where it is none or cannot be read.
+std::optional<std::string> ReadWholeFile(const std::filesystem::path& path);
 
 // Removes what runs that were killed left of files in `folder` that they had not published, of
 // those alone whose names begin with `prefix`. Nobody else may be writing these.

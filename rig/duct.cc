@@ -6,12 +6,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "rig/constants.h"
 #include "rig/dense.h"
 
 namespace rig {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kRoundTrips = 1.6;      // length of the distribution
 constexpr double kMatchedBand = 10.5;    // over the first mode's frequency
 constexpr double kOutsideWeight = 0.01;  // keeps the distribution smooth above the band

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "rig/constants.h"
 
 namespace rig {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double Sigma(FlameShape shape, double x) {
   switch (shape) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "rig/constants.h"
 #include "rig/filters.h"
 #include "rig/moving_lines.h"
 #include "rig/slow_noise.h"
@@ -12,7 +12,6 @@
 namespace rig {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kTapsInRoundTrip = 47.0;
 constexpr double kSlowSteps = 64.0;
 constexpr double kPeakDamping = 0.12;

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "rig/constants.h"
+
 namespace rig {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSaturation = 0.5;
 constexpr double kLargestPhaseDeg = 65.0;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "rig/constants.h"
 #include "rig/delay_line.h"
 #include "rig/filters.h"
 
 namespace rig {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kAntiAliasReach = 14.0;  // samples of the record on each side
 constexpr double kAntiAliasBand = 0.44;   // of the sampling rate, where it has lost half
 constexpr double kRingSeconds = 0.05;     // for instruments to forget how they began

@@ -9,16 +9,16 @@
 #include "io/json_fields.h"
 #include "io/json_text.h"
 #include "io/user_error.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {
 
-using Json = nlohmann::json;
 using Row = nlohmann::ordered_json;
 
 // The value at a path of keys; null where there is none.
-Json At(const Json& json, const std::vector<const char*>& keys) {
-  const Json* node = &json;
+nlohmann::json At(const nlohmann::json& json, const std::vector<const char*>& keys) {
+  const nlohmann::json* node = &json;
   for (const char* const key : keys) {
     if (!node->is_object() || !node->contains(key)) return nullptr;
     node = &node->at(key);
@@ -28,7 +28,7 @@ Json At(const Json& json, const std::vector<const char*>& keys) {
 
 // A quantity of an experiment's; points are found again by their names, so that a fit's value and a
 // family's bounds share a row.
-Row& Point(Row& row, const Json& experiment, const std::string& quantity) {
+Row& Point(Row& row, const nlohmann::json& experiment, const std::string& quantity) {
   const std::string name = TextAt(experiment, "name");
   for (Row& point : row["points"]) {
     if (point["experiment"] == name && point["quantity"] == quantity) return point;
@@ -38,9 +38,9 @@ Row& Point(Row& row, const Json& experiment, const std::string& quantity) {
   return row["points"].back();
 }
 
-void HarvestAnalysis(const Json& results, Row& row) {
+void HarvestAnalysis(const nlohmann::json& results, Row& row) {
   std::size_t cycles = 0;
-  for (const Json& experiment : At(results, {"experiments"})) {
+  for (const nlohmann::json& experiment : At(results, {"experiments"})) {
     cycles += At(experiment, {"cycle", "state"}) == "limit_cycle" ? 1 : 0;
     const std::pair<const char*, std::vector<const char*>> quantities[] = {
         {"frequency_hz", {"cycle", "frequency"}},
@@ -49,7 +49,7 @@ void HarvestAnalysis(const Json& results, Row& row) {
         {"flame_slope", {"flame", "slope"}},
         {"loop_gain_measured", {"loop_gain"}}};
     for (const auto& [quantity, keys] : quantities) {
-      const Json estimate = At(experiment, keys);
+      const nlohmann::json estimate = At(experiment, keys);
       if (!estimate.is_object() || At(estimate, {"value"}).is_null()) continue;
       Row& point = Point(row, experiment, quantity);
       point["value"] = At(estimate, {"value"});
@@ -60,28 +60,28 @@ void HarvestAnalysis(const Json& results, Row& row) {
   row["values"]["limit_cycles"] = cycles;
 }
 
-void HarvestFit(const Json& results, Row& row) {
+void HarvestFit(const nlohmann::json& results, Row& row) {
   row["values"]["fit_converged"] = At(results, {"converged"});
   row["values"]["fit_cost"] = At(results, {"cost"});
   row["values"]["fit_health_findings"] = At(results, {"health"}).size();
-  for (const Json& experiment : At(results, {"experiments"})) {
+  for (const nlohmann::json& experiment : At(results, {"experiments"})) {
     for (const char* const quantity : {"omega_hz", "xi", "N", "M", "tau_s", "loop_gain"}) {
       Point(row, experiment, quantity)["value"] = At(experiment, {quantity});
     }
   }
 }
 
-void HarvestFamily(const Json& results, Row& row) {
+void HarvestFamily(const nlohmann::json& results, Row& row) {
   row["values"]["members"] = At(results, {"counts", "members"});
   std::optional<bool> closed;  // an empty family has no bounds
-  for (const Json& experiment : At(results, {"experiments"})) {
+  for (const nlohmann::json& experiment : At(results, {"experiments"})) {
     const std::string name = TextAt(experiment, "name");
-    const Json bounds = At(results, {"bounds", name.c_str()});
+    const nlohmann::json bounds = At(results, {"bounds", name.c_str()});
     if (!bounds.is_object()) continue;
     for (const auto& [quantity, bound] : bounds.items()) {
       Row& point = Point(row, experiment, quantity);
-      const Json outer = At(bound, {"outer"});
-      const Json inner = At(bound, {"inner"});
+      const nlohmann::json outer = At(bound, {"outer"});
+      const nlohmann::json inner = At(bound, {"inner"});
       closed = closed.value_or(true) && At(bound, {"closed"}) == true;
       if (outer.is_array() && outer.size() == 2) {
         point["outer_lo"] = outer[0];
@@ -96,14 +96,14 @@ void HarvestFamily(const Json& results, Row& row) {
   if (closed) row["values"]["bounds_closed"] = *closed;
 }
 
-void HarvestDiagnosis(const Json& results, Row& row) {
-  const Json verdict = At(results, {"verdict"});
+void HarvestDiagnosis(const nlohmann::json& results, Row& row) {
+  const nlohmann::json verdict = At(results, {"verdict"});
   Row& values = row["values"];
   values["verdict"] = At(verdict, {"kind"});
   values["effect"] = At(verdict, {"effect"});
   std::string first;
   double largest = -1.0;
-  const Json probabilities = At(verdict, {"probability"});
+  const nlohmann::json probabilities = At(verdict, {"probability"});
   for (const auto& [answer, probability] : probabilities.items()) {
     if (!probability.is_number() || probability.get<double>() <= largest) continue;
     largest = probability.get<double>();
@@ -113,19 +113,19 @@ void HarvestDiagnosis(const Json& results, Row& row) {
     values["most_probable"] = first;
     values["probability"] = largest;
   }
-  const Json where = At(results, {"where"});
+  const nlohmann::json where = At(results, {"where"});
   if (where.is_array() && !where.empty()) values["block"] = At(where[0], {"block"});
   values["gap_before"] = At(results, {"gap", "before"});
   values["gap_after"] = At(results, {"gap", "after"});
   values["gap_floor"] = At(results, {"gap", "floor"});
 }
 
-void HarvestSimulation(const Json&, Row&) {}
+void HarvestSimulation(const nlohmann::json&, Row&) {}
 
 struct Harvest {
   std::string file;
   std::vector<std::string> columns;
-  void (*read)(const Json& results, Row& row);
+  void (*read)(const nlohmann::json& results, Row& row);
 };
 
 const Harvest& HarvestOf(const std::string& command) {
@@ -154,7 +154,7 @@ void HarvestResults(const std::string& command, const std::filesystem::path& fol
   const Harvest& harvest = HarvestOf(command);
   const std::filesystem::path path = folder / harvest.file;
   const std::optional<std::string> text = ReadWholeFile(path);
-  const Json results = ParseJsonOrNone<Json>(text.value_or(""));
+  const nlohmann::json results = ParseJsonOrNone<nlohmann::json>(text.value_or(""));
   if (!results.is_object()) {
     throw UserError(path.string(), 0, "",
                     "is missing or damaged, expected howl " + command + " to have written it");

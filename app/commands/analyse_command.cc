@@ -18,11 +18,11 @@
 #include "io/results/health_json.h"
 #include "io/user_error.h"
 #include "io/whole_file.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
 
-constexpr double kPerCent = 100.0;
 constexpr std::size_t kShownLines = 4;
 constexpr int kMostFurtherDecimals = 3;
 constexpr const char* kSound =
@@ -151,7 +151,7 @@ bool AnyHeatRelease(const AnalysisSet& set) {
   return false;
 }
 
-int Run(const Options& options) {
+int RunAnalyseCommand(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   const std::vector<NamedRecord> records = LoadRecords(config);
   if (records.empty()) {
@@ -207,7 +207,7 @@ Command AnalyseCommand() {
       "a ± is half of a 95 % interval; the files' columns _std are standard deviations, that\n"
       "half width over 1.96.",
       {},
-      Run};
+      RunAnalyseCommand};
 }
 
 }  // namespace howl

@@ -31,7 +31,9 @@ constexpr const char* kTableOption = "--table";
 
 std::string KeyOf(const CampaignRig& rig) { return "rig#" + rig.name; }
 
-std::filesystem::path StatePath(const Options& options) { return options.out / "campaign.state"; }
+std::filesystem::path CampaignStatePath(const Options& options) {
+  return options.out / "campaign.state";
+}
 
 // Each row says itself of which inputs it is, so that a campaign that grows, or of which a record
 // has changed, runs only what is new.
@@ -84,7 +86,7 @@ void RunRigs(const CampaignSpec& spec, const std::vector<const CampaignRig*>& ri
   for (std::size_t k = 0; k < left.size(); ++k) rows[KeyOf(*left[k])] = std::move(made[k]);
 }
 
-int RunShard(const Options& options, const Shard& shard) {
+int RunCampaignShard(const Options& options, const Shard& shard) {
   const CampaignSpec spec = LoadCampaign(options.config);
   const CampaignRigs all = MakeRigs(spec, options.seed, options.out);
   CheckFirst(all);
@@ -113,28 +115,28 @@ Units ValidRows(const CampaignSpec& spec, const CampaignRigs& all, const Units& 
 }
 
 Units RowsOf(const CampaignSpec& spec, const CampaignRigs& all, const Options& options) {
-  const StoredUnits stored = ReadUnits(StatePath(options));
+  const StoredUnits stored = ReadUnits(CampaignStatePath(options));
   const bool is_ours = stored.header == StateHeader() && !stored.repeats_a_key;
   Units rows = ValidRows(spec, all, is_ours ? stored.units : Units());
   if (options.Has(kTableOption)) return rows;
   // What failed may have failed for want of memory or of room on the disk.
   std::erase_if(rows, [](const auto& row) { return HasError(row.second); });
   if (!rows.empty() && !options.quiet) {
-    std::fprintf(stderr, "going on from %s: %zu of %zu rigs are done\n", StatePath(options).c_str(),
-                 rows.size(), all.rigs.size());
+    std::fprintf(stderr, "going on from %s: %zu of %zu rigs are done\n",
+                 CampaignStatePath(options).c_str(), rows.size(), all.rigs.size());
   }
   if (rows.size() != stored.units.size() || !is_ours) {
-    WriteWholeFile(StatePath(options), StoreText(StateHeader(), rows));
+    WriteWholeFile(CampaignStatePath(options), StoreText(StateHeader(), rows));
   }
   std::vector<const CampaignRig*> rigs;
   for (const CampaignRig& rig : all.rigs) rigs.push_back(&rig);
-  UnitStore store(StatePath(options), StateHeader());
+  UnitStore store(CampaignStatePath(options), StateHeader());
   RunRigs(spec, rigs, options, store, rows);
   return rows;
 }
 
-int Run(const Options& options) {
-  if (const std::optional<Shard> shard = ShardOf(options)) return RunShard(options, *shard);
+int RunCampaignCommand(const Options& options) {
+  if (const std::optional<Shard> shard = ShardOf(options)) return RunCampaignShard(options, *shard);
   const CampaignSpec spec = LoadCampaign(options.config);
   const CampaignRigs all = MakeRigs(spec, options.seed, options.out);
   if (!options.Has(kTableOption)) CheckFirst(all);
@@ -152,12 +154,12 @@ int Run(const Options& options) {
   return summary["failed"] == 0 && summary["missing"].empty() ? kDone : kNegativeAnswer;
 }
 
-std::string InputsOf(const Options& options) {
+std::string CampaignInputsOf(const Options& options) {
   return CampaignSha256(LoadCampaign(options.config));
 }
 
-void Adopt(const Options& options, const Units& units) {
-  WriteWholeFile(StatePath(options), StoreText(StateHeader(), units));
+void AdoptCampaignUnits(const Options& options, const Units& units) {
+  WriteWholeFile(CampaignStatePath(options), StoreText(StateHeader(), units));
 }
 
 }  // namespace
@@ -172,10 +174,10 @@ Command CampaignCommand() {
           "each experiment; campaign.json. Exits with 1 where a rig has an error, which stands\n"
           "in its row.",
           {{kTableOption, "", "run nothing: the tables of what is stored"}, ShardOption()},
-          Run,
+          RunCampaignCommand,
           false,
           "CAMPAIGN",
-          Sharding{InputsOf, Adopt, kTableOption},
+          Sharding{CampaignInputsOf, AdoptCampaignUnits, kTableOption},
           true};
 }
 

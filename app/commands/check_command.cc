@@ -81,7 +81,7 @@ void PrintAbility(const Ability& ability) {
   }
 }
 
-void Print(const CheckReport& report) {
+void PrintFindings(const CheckReport& report) {
   PrintExperiments(report);
   if (!report.errors.empty()) std::printf("%s\n", Bold("errors:").c_str());
   for (const UserError& error : report.errors) {
@@ -99,7 +99,7 @@ void Print(const CheckReport& report) {
               Count(report.warnings.size(), "warning").c_str());
 }
 
-int Run(const Options& options) {
+int RunCheckCommand(const Options& options) {
   const CheckReport report = RunCheck(options);
   if (options.out_is_given) {
     WriteWholeFile(options.out / "check.json", JsonText(CheckJson(report), 2) + "\n");
@@ -107,7 +107,7 @@ int Run(const Options& options) {
   if (options.quiet) {
     for (const UserError& error : report.errors) std::fprintf(stderr, "%s\n", error.what());
   } else {
-    Print(report);
+    PrintFindings(report);
   }
   return report.errors.empty() ? kDone : kBadInput;
 }
@@ -126,7 +126,7 @@ Command CheckCommand() {
       "and no search. With --out DIR also writes DIR/check.json. Exit status 2 for an error;\n"
       "warnings alone: 0.",
       {},
-      Run,
+      RunCheckCommand,
       false};
 }
 

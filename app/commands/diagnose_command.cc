@@ -55,21 +55,24 @@ std::optional<Shard> ShardOfReplicates(const Options& options) {
   return shard;
 }
 
-std::filesystem::path StatePath(const Options& options) { return options.out / "diagnosis.state"; }
+std::filesystem::path DiagnoseStatePath(const Options& options) {
+  return options.out / "diagnosis.state";
+}
 
 std::vector<DiagnosisExperiment> LoadReference(const Options& options) {
   const auto path = options.Text("--reference");
   return path ? LoadDiagnosisExperiments(LoadConfig(*path)) : std::vector<DiagnosisExperiment>();
 }
 
-std::string InputsOf(const Options& options) {
+std::string DiagnoseInputsOf(const Options& options) {
   const Config config = LoadConfig(options.config);
   return Sha256(InputBytes(config, Withheld(options), LoadDiagnosisExperiments(config),
                            LoadReference(options)));
 }
 
-void Adopt(const Options& options, const Units& units) {
-  WriteWholeFile(StatePath(options), StoreText(DiagnoseStateHeader(InputsOf(options)), units));
+void AdoptDiagnoseUnits(const Options& options, const Units& units) {
+  WriteWholeFile(DiagnoseStatePath(options),
+                 StoreText(DiagnoseStateHeader(DiagnoseInputsOf(options)), units));
 }
 
 // What the budget of several causes does not take: another simulator in the model's place,
@@ -98,7 +101,7 @@ bool RepairComesFirst(const std::vector<NamedRecord>& read, const Options& optio
   return !FindCutObstacle(experiments);
 }
 
-int Run(const Options& options) {
+int RunDiagnoseCommand(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   if (config.record_loop) return RunLoopDiagnosis(config, options, LoadRecords(config));
   const std::optional<Shard> shard = ShardOfReplicates(options);
@@ -147,7 +150,7 @@ int Run(const Options& options) {
       shard ? ShardHeader("diagnose", options, inputs, *shard) : DiagnoseStateHeader(inputs);
   if (shard && IsShardDone(options.out, "diagnose", *shard, header)) return kDone;
   const std::filesystem::path state_path =
-      shard ? ShardPartPath(options.out, "diagnose", *shard) : StatePath(options);
+      shard ? ShardPartPath(options.out, "diagnose", *shard) : DiagnoseStatePath(options);
   UnitStore store(state_path, header);
   if (!options.quiet) SayWhereItGoesOn(store, state_path);
   DiagnoseState state(store);
@@ -207,10 +210,10 @@ Command DiagnoseCommand() {
         "end a budget after N items: more than two make the verdict unknown in any case, and a rig "
         "that lacks many takes minutes for each further one (default: 6; at most 24)"},
        ShardOption()},
-      Run,
+      RunDiagnoseCommand,
       true,
       "CONFIG",
-      Sharding{InputsOf, Adopt}};
+      Sharding{DiagnoseInputsOf, AdoptDiagnoseUnits}};
 }
 
 }  // namespace howl

@@ -96,8 +96,8 @@ Json Export(const Options& options, const ExportedFlame& flame, const LoopModel&
   return json;
 }
 
-void Print(const std::vector<ExportedFlame>& flames, const std::vector<LoopModel>& models,
-           bool is_scaled) {
+void PrintExported(const std::vector<ExportedFlame>& flames, const std::vector<LoopModel>& models,
+                   bool is_scaled) {
   TextTable table({"experiment", "flame", "slope at rest", "gain n", "tau ms"});
   for (std::size_t i = 0; i < flames.size(); ++i) {
     const ExportedFlame& flame = flames[i];
@@ -116,7 +116,7 @@ void Print(const std::vector<ExportedFlame>& flames, const std::vector<LoopModel
   }
 }
 
-int Run(const Options& options) {
+int RunExportCommand(const Options& options) {
   const std::vector<double> frequencies_hz =
       Values(options, "--frequencies", "0:1000:5", kMostFrequencies);
   const std::vector<double> ratios = Values(options, "--ratios", "0:1:0.1", kMostRatios);
@@ -138,7 +138,7 @@ int Run(const Options& options) {
                      {"experiments", experiments}};
   WriteWholeFile(options.out / "export.json", json.dump(2) + "\n");
   if (!options.quiet) {
-    Print(flames, models, stated.has_value());
+    PrintExported(flames, models, stated.has_value());
     std::printf("written: export.json, and tables of %zu experiments in %s\n", flames.size(),
                 (options.out / "export").c_str());
   }
@@ -163,7 +163,7 @@ Command ExportCommand() {
             "by 100 %"},
            {"--frequencies", "FROM:TO:STEP", "of the tables, in Hz (default: 0:1000:5)"},
            {"--ratios", "FROM:TO:STEP", "velocity ratios u' / mean u (default: 0:1:0.1)"}},
-          Run};
+          RunExportCommand};
 }
 
 }  // namespace howl

@@ -14,7 +14,7 @@
 namespace howl {
 namespace {
 
-int Run(const Options& options) {
+int RunFamilyCommand(const Options& options) {
   const Config config = WithoutConditions(LoadConfig(options.config), options);
   if (const std::optional<Shard> shard = ShardOf(options)) {
     RunFamilyShard(config, options, *shard);
@@ -38,7 +38,7 @@ int Run(const Options& options) {
   return run.members.empty() ? kNegativeAnswer : kDone;
 }
 
-std::string InputsOf(const Options& options) {
+std::string FamilyInputsOf(const Options& options) {
   return FamilyInputsSha256(LoadConfig(options.config), options);
 }
 
@@ -62,10 +62,10 @@ Command FamilyCommand() {
         "the best fit along exp1.tau_s, exp1.loop_gain, a prediction or any expression"},
        {"--save-every", "SECONDS", "how often the search for bounds saves its state (default: 2)"},
        ShardOption()},
-      Run,
+      RunFamilyCommand,
       true,
       "CONFIG",
-      Sharding{InputsOf, AdoptBounds}};
+      Sharding{FamilyInputsOf, AdoptBounds}};
 }
 
 }  // namespace howl

@@ -21,12 +21,12 @@
 #include "io/results/health_json.h"
 #include "io/results/solution_json.h"
 #include "io/whole_file.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
 
-constexpr double kPerCent = 100.0;
-constexpr const char* kSound =
+constexpr const char* kSoundFit =
     "no parameter at a bound, no residual beyond 3 standard deviations, and no mistake of sign, "
     "order or unit would fit much better undone";
 
@@ -118,7 +118,7 @@ Health CheckAll(const Config& config, const Options& options, const ProblemInput
   return health;
 }
 
-int Run(const Options& options) {
+int RunFitCommand(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   if (config.record_loop) return RunRecordFit(config, options);
   const ProblemInput input = LoadInput(config, options);
@@ -148,7 +148,7 @@ int Run(const Options& options) {
     std::printf("%s", VanishingText(vanishing_phi, config.operating_parameter).c_str());
     PrintIdentifiability(fit);
     std::printf("written: %s\n", path.c_str());
-    std::printf("%s", HealthText(health, kSound, "solution.json").c_str());
+    std::printf("%s", HealthText(health, kSoundFit, "solution.json").c_str());
   }
   return fit.converged ? kDone : kNegativeAnswer;
 }
@@ -166,7 +166,7 @@ Command FitCommand() {
       "solution.json. Exit status 1 when no start converged, or a parameter stands where the\n"
       "search ends.",
       {},
-      Run};
+      RunFitCommand};
 }
 
 }  // namespace howl

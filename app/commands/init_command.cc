@@ -67,7 +67,7 @@ void RequireNew(const std::filesystem::path& path) {
                             : "is there already and is not overwritten, expected another path");
 }
 
-int Run(const Options& options) {
+int RunInitCommand(const Options& options) {
   const InitOptions init = ReadOptions(options);
   if (options.out_is_given) RequireNew(options.out);
   std::vector<RecordLook> looks;
@@ -102,7 +102,7 @@ Command InitCommand() {
           {{kParameter, "NAME", "key of the operating parameter, such as air_slpm (default: phi)"},
            {kValues, "V1,V2,...", "its values, one a file, in place of FILL_IN"},
            {kSamplingHz, "HZ", "samples a second, of files that do not tell theirs"}},
-          Run,
+          RunInitCommand,
           false,
           "FILE..."};
 }

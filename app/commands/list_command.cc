@@ -78,7 +78,7 @@ std::vector<std::string> ShownColumns(const FamilyTable& table, const Options& o
   return columns;
 }
 
-int Run(const Options& options) {
+int RunListCommand(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   FamilyTable table = ReadFamilyCsv(options.out / kFamilyCsv);
   const std::size_t all = table.rows.size();
@@ -138,7 +138,7 @@ Command ListCommand() {
            {"--columns", "NAMES", "columns to show, joined by commas"},
            {"--experiment", "NAME", "show all parameters of one experiment"},
            {"--rows", "N", "rows to show (default: 20; 0: all)"}},
-          Run,
+          RunListCommand,
           false};
 }
 

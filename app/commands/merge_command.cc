@@ -63,7 +63,7 @@ int MergeOne(ShardSet set) {
   return status;
 }
 
-int Run(const Options& merge) {
+int RunMergeCommand(const Options& merge) {
   Options at = merge;
   if (!at.out_is_given) at.out = merge.config;
   // Of a folder that is not there ReadShards says so.
@@ -86,7 +86,7 @@ Command MergeCommand() {
       "were run. Shards that are missing are named (exit 1); of a campaign, the table then has\n"
       "those rigs that are there. Of other jobs' shards nothing is taken (exit 2).",
       {},
-      Run,
+      RunMergeCommand,
       false,
       "FOLDER"};
 }

@@ -108,7 +108,7 @@ std::vector<double> AskedPoints(const Options& options, const std::optional<Aske
                    std::to_string(points.phi(0)));
 }
 
-int Run(const Options& options) {
+int RunPredictCommand(const Options& options) {
   if (const auto at = options.Text("--at")) ParseAskedPoints("--at", *at);
   const Config as_it_is = LoadConfig(options.config, LoopsTaken::kAny);
   if (as_it_is.record_loop) return RunRecordPrediction(as_it_is, options);
@@ -179,7 +179,7 @@ Command PredictCommand() {
         "flame_slope"},
        {"--map-x", "FROM:TO:STEP", "values of X (default: 41 over what was measured or listed)"},
        {"--map-y", "FROM:TO:STEP", "values of Y"}},
-      Run};
+      RunPredictCommand};
 }
 
 }  // namespace howl

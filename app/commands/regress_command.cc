@@ -96,7 +96,7 @@ std::optional<Config> LoadUnlessAbsent(const Options& options) {
   }
 }
 
-int Run(const Options& options) {
+int RunRegressCommand(const Options& options) {
   const std::filesystem::path path = ReferencePath(options);
   const double tolerance = options.Number("--tolerance").value_or(kDefaultTolerance);
   const bool updates = options.Has("--update");
@@ -149,7 +149,7 @@ Command RegressCommand() {
           {{"--tolerance", "T", "relative difference that counts as moved (default: 1e-6)"},
            {"--reference", "DIR", "folder of the stored results"},
            {"--update", "", "store the fresh results as the reference instead"}},
-          Run,
+          RunRegressCommand,
           false};
 }
 

@@ -25,7 +25,7 @@ void StopIfAsked() {
   if (IsInterrupted()) throw Interrupted("interrupted: no report written");
 }
 
-int Run(const Options& options) {
+int RunReportCommand(const Options& options) {
   const std::filesystem::path folder = Folder(options);
   RenderOptions render{.threads = options.threads, .stopped = IsInterrupted};
   render.longest_s = options.Number("--figure-seconds").value_or(render.longest_s);
@@ -63,7 +63,7 @@ Command ReportCommand() {
           "missing is named on the page, and the rest shown.",
           {{"--figure-seconds", "SECONDS",
             "how long gnuplot may take for a figure before it is ended (default: 60)"}},
-          Run,
+          RunReportCommand,
           false};
 }
 

@@ -45,7 +45,8 @@ std::string LoopsText(const Options& options, const std::vector<Experiment>& exp
   return SimulationJson(AskedMember(options), loops).dump(2) + "\n";
 }
 
-void Print(const std::vector<Experiment>& experiments, const std::vector<SimulatedRig>& rigs) {
+void PrintSimulated(const std::vector<Experiment>& experiments,
+                    const std::vector<SimulatedRig>& rigs) {
   TextTable table({"experiment", "loop gain", "flame", "starts", "file"});
   bool any_raised = false;
   for (std::size_t i = 0; i < rigs.size(); ++i) {
@@ -61,7 +62,7 @@ void Print(const std::vector<Experiment>& experiments, const std::vector<Simulat
   }
 }
 
-int Run(const Options& options) {
+int RunSimulateCommand(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   if (config.record_loop) return RunRecordSimulation(config, options);
   const ProblemInput input = LoadInput(config, options);
@@ -90,7 +91,7 @@ int Run(const Options& options) {
     WriteWholeFile(options.out / kSweepCsv, SweepCsv(*config.simulation.sweep, sweeps));
   }
   if (!options.quiet) {
-    Print(experiments, rigs);
+    PrintSimulated(experiments, rigs);
     // Effects may put a stronger line there on purpose, so the note is printed for the bare loop
     // only.
     for (std::size_t i = 0; i < records.size() && config.simulation.effects.empty(); ++i) {
@@ -126,7 +127,7 @@ Command SimulateCommand() {
       "With `sweep:` a parameter goes slowly there and back in one more run: sweep.csv, and where\n"
       "the loop jumps on the way up and on the way down.",
       {{"--member", "K", "member K of family.csv, which howl family wrote to DIR, not the fit"}},
-      Run};
+      RunSimulateCommand};
 }
 
 }  // namespace howl

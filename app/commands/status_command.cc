@@ -14,6 +14,7 @@
 #include "app/process/interruption.h"
 #include "app/process/progress_line.h"
 #include "io/user_error.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {
@@ -80,7 +81,7 @@ void PrintMerge(const fs::path& out, const SubmittedJob& job, const ShardStates&
   if (!states.missing.empty()) std::printf("howl submit, run again, submits what is missing\n");
 }
 
-int Run(const Options& options) {
+int RunStatusCommand(const Options& options) {
   const fs::path out = fs::absolute(FolderOf(options)).lexically_normal();
   const std::optional<SubmittedJob> job = ReadJob(out);
   if (!job) {
@@ -119,7 +120,7 @@ Command StatusCommand() {
           "Reads FOLDER/shards and Slurm's queue: how many shards are there, running, waiting or\n"
           "missing, and why. Exits with 1 where some are missing that nobody runs.",
           {{"--follow", "", "stay until none is in the queue, with a line of progress"}},
-          Run,
+          RunStatusCommand,
           false,
           "FOLDER"};
 }

@@ -83,7 +83,7 @@ SubmittedJob JobOf(const JobSpec& spec, const Options& options, const fs::path& 
   return *before;
 }
 
-int Run(const Options& options) {
+int RunSubmitCommand(const Options& options) {
   const fs::path out = fs::absolute(options.out).lexically_normal();
   const JobSpec spec = LoadJob(options.config);
   SubmittedJob job = JobOf(spec, options, out);
@@ -131,7 +131,7 @@ Command SubmitCommand() {
           "there nor in the queue, requeued where a node fails, and a merge that runs after\n"
           "them. Submitted again, it submits what is missing.",
           {{kShardsOption, "N", "how many shards (default: the job's `shards`)"}},
-          Run,
+          RunSubmitCommand,
           false,
           "JOB"};
 }

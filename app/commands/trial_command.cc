@@ -14,6 +14,7 @@
 #include "io/json_fields.h"
 #include "io/results/trial_sheet.h"
 #include "io/user_error.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {
@@ -78,7 +79,7 @@ std::optional<std::string> SealAndDiagnose(const TrialFolder& folder, const Tria
 // The first entry of a log is that of the sealing: a log that has others alone was changed.
 bool IsSealed(const TrialLog& log) { return !log.entries().empty(); }
 
-int RunShard(const Options& options, const Shard& shard) {
+int RunTrialShard(const Options& options, const Shard& shard) {
   TrialRequest request = MakeTrialRequest(options);
   request.shard = shard;
   const std::string header = ShardHeader("trial", options, TrialInputsSha256(request), shard);
@@ -94,8 +95,8 @@ int RunShard(const Options& options, const Shard& shard) {
   return kDone;
 }
 
-int Run(const Options& options) {
-  if (const std::optional<Shard> shard = ShardOf(options)) return RunShard(options, *shard);
+int RunTrialCommand(const Options& options) {
+  if (const std::optional<Shard> shard = ShardOf(options)) return RunTrialShard(options, *shard);
   const TrialFolder folder{options.out, options.out};
   TrialLog log(folder.Log());
   if (IsSealed(log) && !ReportChanges(folder, log)) return kNegativeAnswer;
@@ -112,7 +113,7 @@ int Run(const Options& options) {
   return Finish(folder, options, log);
 }
 
-std::string InputsOf(const Options& options) {
+std::string TrialInputsOf(const Options& options) {
   return TrialInputsSha256(MakeTrialRequest(options));
 }
 
@@ -138,10 +139,10 @@ Command TrialCommand() {
        {"--combustion-noise", "R", "rms over the flame's saturation (default: drawn)"},
        {"--sensor-noise", "R", "rms over the cycle's amplitude (default: drawn)"},
        ShardOption()},
-      Run,
+      RunTrialCommand,
       true,
       "CONFIG",
-      Sharding{InputsOf, AdoptTrialShards}};
+      Sharding{TrialInputsOf, AdoptTrialShards}};
 }
 
 }  // namespace howl

@@ -36,11 +36,9 @@ std::filesystem::path StatePath(const Options& options) { return options.out / "
 
 // Identifies what the state belongs to: this config, test, seed and program.
 std::string Key(const Options& options) {
-  std::ifstream file(options.config, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  text << options.Text("--without").value_or("");
-  const std::uint64_t hash = UnitSeed(options.seed, text.str());
+  const std::string text =
+      ReadWholeFile(options.config).value_or("") + options.Text("--without").value_or("");
+  const std::uint64_t hash = UnitSeed(options.seed, text);
   return "howl.bounds " + std::string(Version()) + " " + std::to_string(hash);
 }
 

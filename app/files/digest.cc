@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <memory>
-#include <sstream>
+
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {
@@ -42,17 +42,6 @@ std::string Sha256(std::string_view text) {
     out += kDigits[byte & 15];
   }
   return out;
-}
-
-std::optional<std::string> ReadWholeFile(const std::filesystem::path& path) {
-  // A device may never end.
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
 }
 
 std::optional<std::string> Sha256OfFile(const std::filesystem::path& path) {

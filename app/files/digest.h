@@ -14,8 +14,6 @@ std::string Sha256(std::string_view text);  // 64 hexadecimal digits
 // Empty where the file cannot be read.
 std::optional<std::string> Sha256OfFile(const std::filesystem::path& path);
 
-std::optional<std::string> ReadWholeFile(const std::filesystem::path& path);
-
 // The cipher's key is the passphrase's SHA-256; the passphrase is to be as long as a random one.
 std::string SealText(std::string_view text, std::string_view passphrase);
 // Empty where the passphrase is another, or the sealed text has changed.

@@ -88,7 +88,7 @@ Completion OptionNames(const Typed& typed) {
   return names;
 }
 
-Completion CommandNames() {
+Completion CompletedCommands() {
   Completion names;
   for (const Command& command : Commands()) {
     names.words.push_back({command.name, command.summary});
@@ -100,10 +100,10 @@ Completion CommandNames() {
 Completion AfterHelp(const std::vector<std::string>& words) {
   Completion names;
   if (words.size() == 1) {
-    names = CommandNames();
+    names = CompletedCommands();
     for (const std::string& topic : HelpTopics()) names.words.push_back({topic, ""});
   } else if (words.size() == 2 && words[1] == "man") {
-    names = CommandNames();
+    names = CompletedCommands();
   } else if (words.size() == 2 && words[1] == "completion") {
     for (const char* const shell : {"bash", "zsh", "fish"}) names.words.push_back({shell, ""});
   }
@@ -112,7 +112,7 @@ Completion AfterHelp(const std::vector<std::string>& words) {
 
 Completion Operands(const Typed& typed) {
   if (typed.command == nullptr && typed.operands.empty()) {
-    Completion first = CommandNames();
+    Completion first = CompletedCommands();
     first.words.push_back({"help", "explain a command"});
     return first;
   }

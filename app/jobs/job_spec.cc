@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSchema = R"({
+constexpr const char* kSpecSchema = R"({
   "type": "object",
   "additionalProperties": false,
   "required": ["command"],
@@ -78,7 +78,7 @@ JobSpec LoadJob(const fs::path& path) {
   if (tree.kind != LocatedNode::Kind::kMapping) {
     throw UserError(file, tree.line, "", "is no job, expected command, shards and slurm");
   }
-  CheckSchema(file, tree, nlohmann::json::parse(kSchema));
+  CheckSchema(file, tree, nlohmann::json::parse(kSpecSchema));
   const ConfigCursor root(file, tree);
   JobSpec job;
   job.folder = fs::absolute(path).lexically_normal().parent_path();

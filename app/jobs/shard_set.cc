@@ -14,8 +14,6 @@ namespace howl {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
 std::vector<fs::path> FindShards(const fs::path& out) {
   std::vector<fs::path> paths;
   std::error_code ignored;
@@ -26,8 +24,8 @@ std::vector<fs::path> FindShards(const fs::path& out) {
   return paths;
 }
 
-Json ParseHeader(const fs::path& path, const std::string& header) {
-  Json parsed = ParseJsonOrNone<Json>(header);
+nlohmann::json ParseHeader(const fs::path& path, const std::string& header) {
+  nlohmann::json parsed = ParseJsonOrNone<nlohmann::json>(header);
   const bool is_shard =
       parsed.is_object() && parsed.contains("schema") && parsed["schema"] == "howl.shard/1" &&
       parsed.contains("command") && parsed["command"].is_string() && parsed.contains("config") &&
@@ -37,7 +35,7 @@ Json ParseHeader(const fs::path& path, const std::string& header) {
       parsed.contains("inputs_sha256") && parsed["inputs_sha256"].is_string() &&
       parsed.contains("shards") && parsed["shards"].is_number_unsigned() &&
       parsed.contains("shard") && parsed["shard"].is_number_unsigned();
-  const auto is_text = [](const Json& value) { return value.is_string(); };
+  const auto is_text = [](const nlohmann::json& value) { return value.is_string(); };
   const bool is_whole = is_shard && std::ranges::all_of(parsed["options"], is_text) &&
                         parsed["shards"] <= kMostShards;
   if (!is_whole) throw UserError(path.string(), 1, "", "no shard, expected one of howl.shard/1");
@@ -45,13 +43,13 @@ Json ParseHeader(const fs::path& path, const std::string& header) {
 }
 
 // The first shard says what the job is; the others must agree.
-void RequireSameJob(const fs::path& path, const Json& header, const fs::path& first_path,
-                    const Json& first) {
+void RequireSameJob(const fs::path& path, const nlohmann::json& header, const fs::path& first_path,
+                    const nlohmann::json& first) {
   for (const auto& [key, value] : first.items()) {
-    if (key == "shard" || header.value(key, Json()) == value) continue;
+    if (key == "shard" || header.value(key, nlohmann::json()) == value) continue;
     throw UserError(path.string(), 1, key,
-                    "is " + header.value(key, Json()).dump() + ", expected " + value.dump() +
-                        " as in " + first_path.filename().string() +
+                    "is " + header.value(key, nlohmann::json()).dump() + ", expected " +
+                        value.dump() + " as in " + first_path.filename().string() +
                         ": it is a shard of another job");
   }
 }
@@ -65,7 +63,7 @@ void Join(const fs::path& path, const Units& found, Units& all) {
   }
 }
 
-ShardSet SetOf(const Options& merge, const Json& header) {
+ShardSet SetOf(const Options& merge, const nlohmann::json& header) {
   ShardSet set;
   set.command = header.at("command").get<std::string>();
   set.program = header.at("program").get<std::string>();
@@ -81,7 +79,8 @@ ShardSet SetOf(const Options& merge, const Json& header) {
 }
 
 // Adds a shard to the set of its job.
-void AddShard(const fs::path& path, StoredUnits stored, const Json& header, ShardSet& set) {
+void AddShard(const fs::path& path, StoredUnits stored, const nlohmann::json& header,
+              ShardSet& set) {
   const auto index = header.at("shard").get<std::size_t>();
   if (!IsWhole(stored) || index < 1 || index > set.count) {
     throw UserError(path.string(), 0, "",
@@ -97,13 +96,13 @@ void AddShard(const fs::path& path, StoredUnits stored, const Json& header, Shar
 std::vector<ShardSet> ReadShards(const Options& merge) {
   struct Job {
     fs::path path;  // of its first shard
-    Json header;
+    nlohmann::json header;
     ShardSet set;
   };
   std::map<std::string, Job> jobs;  // by the command
   for (const fs::path& path : FindShards(merge.out)) {
     StoredUnits stored = ReadUnits(path);
-    const Json header = ParseHeader(path, stored.header);
+    const nlohmann::json header = ParseHeader(path, stored.header);
     const auto [job, is_first] = jobs.try_emplace(header.at("command").get<std::string>());
     if (is_first) job->second = {path, header, SetOf(merge, header)};
     RequireSameJob(path, header, job->second.path, job->second.header);

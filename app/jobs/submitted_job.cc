@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "howl.job/1";
+constexpr const char* kJobSchema = "howl.job/1";
 
 // A job's number is a word of a command line of Slurm's: what could be an option is none.
 bool IsNumberOfSlurm(const std::string& text) {
@@ -39,7 +39,7 @@ std::optional<SubmittedJob> ReadJob(const fs::path& out) {
   if (!text) return std::nullopt;
   try {
     const Json json = ParseJson<Json>(*text);
-    if (json.at("schema") != kSchema) throw std::invalid_argument("schema");
+    if (json.at("schema") != kJobSchema) throw std::invalid_argument("schema");
     SubmittedJob job{
         json.at("folder").get<std::string>(), json.at("command").get<std::vector<std::string>>(),
         json.at("shards").get<std::size_t>(), json.at("arrays").get<std::vector<std::string>>(),
@@ -52,14 +52,14 @@ std::optional<SubmittedJob> ReadJob(const fs::path& out) {
     }
     return job;
   } catch (const std::exception&) {
-    throw UserError(
-        JobPath(out).string(), 0, "",
-        std::string("is damaged, expected the schema ") + kSchema + ": remove it and submit again");
+    throw UserError(JobPath(out).string(), 0, "",
+                    std::string("is damaged, expected the schema ") + kJobSchema +
+                        ": remove it and submit again");
   }
 }
 
 void WriteJob(const fs::path& out, const SubmittedJob& job) {
-  const Json json = {{"schema", kSchema},    {"command", job.words}, {"folder", job.folder},
+  const Json json = {{"schema", kJobSchema}, {"command", job.words}, {"folder", job.folder},
                      {"shards", job.shards}, {"arrays", job.arrays}, {"merge", job.merge}};
   WriteWholeFile(JobPath(out), JsonText(json, 2) + "\n");
 }

@@ -1,11 +1,11 @@
 #include "app/text/delay_text.h"
 
 #include "app/text/text_table.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
 
-constexpr double kPerCent = 100.0;
 constexpr double kHardlyProbable = 0.05;
 
 std::string PeriodsText(int periods) {

@@ -8,11 +8,11 @@
 #include "app/text/budget_text.h"
 #include "app/text/text_table.h"
 #include "io/results/verdict_remarks.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
 
-constexpr double kPerCent = 100.0;
 constexpr std::size_t kShownCandidates = 5;
 constexpr std::size_t kShownMoved = 4;
 constexpr double kMovedShare = 0.03;

@@ -11,7 +11,8 @@ namespace howl {
 namespace {
 
 // "0.05 .. 0.07", or "0.05" where both print alike.
-std::string Range(const std::vector<LowLoopGain>& all, double LowLoopGain::*field, int decimals) {
+std::string RangeText(const std::vector<LowLoopGain>& all, double LowLoopGain::*field,
+                      int decimals) {
   const auto [low, high] = std::minmax_element(
       all.begin(), all.end(),
       [&](const LowLoopGain& a, const LowLoopGain& b) { return a.*field < b.*field; });
@@ -23,26 +24,26 @@ std::string Reason(LoopGainReason reason, const std::vector<LowLoopGain>& all) {
   switch (reason) {
     case LoopGainReason::kSteeperInCycle:
       return "the flame is steeper in the cycle than at rest (the third harmonic of q is " +
-             Range(all, &LowLoopGain::third_harmonic, 3) +
+             RangeText(all, &LowLoopGain::third_harmonic, 3) +
              " of the first and in phase with it; where a flame saturates it is negative). By "
              "(1b) the describing function's loop gain is 1 at the cycle; by this curve it would "
              "grow with the amplitude, as its power " +
-             Range(all, &LowLoopGain::stiffening, 2) +
+             RangeText(all, &LowLoopGain::stiffening, 2) +
              ": so something else limits the cycle (damping or a flame that change with its "
              "amplitude), or the q sensor is not linear";
     case LoopGainReason::kMemory:
-      return "the third harmonic of q is turned by " + Range(all, &LowLoopGain::turn_deg, 0) +
+      return "the third harmonic of q is turned by " + RangeText(all, &LowLoopGain::turn_deg, 0) +
              " degrees against a flame without memory: a flame or a q sensor with memory, or a "
              "dispersed delay; the curve of q over dp/dt is then not Phi";
     case LoopGainReason::kNoise:
       return "noise of p in the regressor (variance " +
-             Range(all, &LowLoopGain::regressor_noise, 3) +
+             RangeText(all, &LowLoopGain::regressor_noise, 3) +
              " of its own) flattens the curve by more than can be taken out";
     case LoopGainReason::kNotExplained:
       break;
   }
   return "the records do not show why (the mean cycle of q alone gives " +
-         Range(all, &LowLoopGain::shape_gain, 2) + ")";
+         RangeText(all, &LowLoopGain::shape_gain, 2) + ")";
 }
 
 }  // namespace

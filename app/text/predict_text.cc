@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "app/text/text_table.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
-
-constexpr double kPerCent = 100.0;
 
 // "219.9 (219.5 .. 220.3)"
 std::string WithRange(const SampledValue& value, int decimals) {

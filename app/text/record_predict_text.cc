@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "app/text/text_table.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
-
-constexpr double kPerCent = 100.0;
 
 std::string WithRange(const PredictedValue& value, int decimals) {
   if (!std::isfinite(value.value)) return "-";

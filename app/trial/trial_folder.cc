@@ -9,6 +9,7 @@
 #include "app/files/digest.h"
 #include "io/json_fields.h"
 #include "io/json_text.h"
+#include "io/whole_file.h"
 
 namespace howl {
 namespace {

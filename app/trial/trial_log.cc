@@ -13,6 +13,7 @@
 #include "io/json_fields.h"
 #include "io/json_text.h"
 #include "io/user_error.h"
+#include "io/whole_file.h"
 
 namespace howl {
 

@@ -17,8 +17,6 @@ namespace howl {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
 constexpr std::string_view kSeal = "seal#";
 constexpr std::string_view kKey = "key#";
 constexpr std::string_view kLog = "log#";
@@ -62,13 +60,13 @@ void AddCases(const TrialRequest& request, const std::string& name, const Units&
               const fs::path& folder, SealedCases& cases) {
   const std::string sealed_key = Required(units, KeyOf(kKey, name), folder);
   const std::string seal_text = Required(units, KeyOf(kSeal, name), folder);
-  const Json seal = ParseJsonOrNone<Json>(seal_text);
+  const nlohmann::json seal = ParseJsonOrNone<nlohmann::json>(seal_text);
   const std::optional<std::string> key = OpenText(sealed_key, request.Passphrase());
   if (!key || !seal.is_object() || TextAt(seal, "key_sha256") != Sha256(*key)) {
     throw UserError(folder.string(), 0, KeyOf(kKey, name),
                     "is not the key that its shard sealed: remove the shard and run it again");
   }
-  const Json withheld = Json::parse(*key).at("cases");
+  const nlohmann::json withheld = nlohmann::json::parse(*key).at("cases");
   for (const auto& [one, effects] : withheld.items()) cases.withheld[one] = effects;
   for (const auto& [one, sha256] : seal.at("cases").items()) {
     cases.sha256[one] = sha256.get<std::string>();
@@ -76,16 +74,16 @@ void AddCases(const TrialRequest& request, const std::string& name, const Units&
 }
 
 // The diagnoses' entries of all logs, as they were made one after another.
-std::vector<Json> DiagnosedEntries(const std::vector<TrialLog>& logs) {
-  std::vector<Json> entries;
+std::vector<nlohmann::json> DiagnosedEntries(const std::vector<TrialLog>& logs) {
+  std::vector<nlohmann::json> entries;
   for (const TrialLog& log : logs) {
-    for (Json entry : log.entries()) {
+    for (nlohmann::json entry : log.entries()) {
       if (TextAt(entry, "event") != "diagnosed") continue;
       entry.erase("previous");
       entries.push_back(std::move(entry));
     }
   }
-  std::ranges::stable_sort(entries, {}, [](const Json& entry) {
+  std::ranges::stable_sort(entries, {}, [](const nlohmann::json& entry) {
     return std::pair(TextAt(entry, "at"), TextAt(entry, "case"));
   });
   return entries;
@@ -107,7 +105,7 @@ Units UnitsOfShard(const TrialFolder& folder, const Shard& shard, const TrialLog
   units[KeyOf(kSeal, shard.Name())] = ReadWholeFile(folder.Seal()).value_or("");
   units[KeyOf(kKey, shard.Name())] = ReadWholeFile(folder.SealedKey()).value_or("");
   units[KeyOf(kLog, shard.Name())] = ReadWholeFile(folder.Log()).value_or("");
-  for (const Json& entry : log.entries()) {
+  for (const nlohmann::json& entry : log.entries()) {
     if (TextAt(entry, "event") != "diagnosed" || NumberAt(entry, "status", -1.0) != 0) continue;
     const std::string name = TextAt(entry, "case");
     units[KeyOf(kDiagnosis, name)] = ReadWholeFile(folder.Diagnosis(name)).value_or("");
@@ -122,11 +120,11 @@ void AdoptTrialShards(const Options& options, const Units& units) {
   const fs::path shards = ShardFolder(options.out);
   SealedCases cases;
   std::vector<TrialLog> logs;
-  Json seals = Json::array();
+  nlohmann::json seals = nlohmann::json::array();
   for (const std::string& name : ShardNames(units)) {
     AddCases(request, name, units, shards, cases);
     logs.push_back(TrialLog::Parse(Required(units, KeyOf(kLog, name), shards)));
-    const std::optional<Json> sealed = logs.back().Find("sealed");
+    const std::optional<nlohmann::json> sealed = logs.back().Find("sealed");
     if (logs.back().broken_line() > 0 || !sealed) {
       throw UserError(shards.string(), 0, KeyOf(kLog, name),
                       "is broken, expected its shard's log: remove the shard and run it again");
@@ -145,7 +143,7 @@ void AdoptTrialShards(const Options& options, const Units& units) {
   TrialLog log(unfinished);
   log.Append(
       {{"event", "sealed"}, {"at", TimeStamp()}, {"seal_sha256", seal_sha256}, {"shards", seals}});
-  for (const Json& entry : DiagnosedEntries(logs)) log.Append(entry);
+  for (const nlohmann::json& entry : DiagnosedEntries(logs)) log.Append(entry);
   fs::rename(unfinished, folder.Log());
 }
 

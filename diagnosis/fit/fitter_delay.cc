@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/fit/bin_gram.h"
 #include "diagnosis/fit/fitter.h"
-#include "diagnosis/numerics/real_gram.h"
 #include "diagnosis/numerics/scaled_solve.h"
 
 namespace howl {
@@ -14,11 +14,6 @@ constexpr double kRidge = 1e-10;
 constexpr double kLargestMove = 0.1;  // of log delay: as far as the phase of a cycle is linear
 constexpr int kDelayIterations = 3;
 
-Eigen::MatrixXd Gram(const Eigen::MatrixXcd& a, const Eigen::VectorXd& w,
-                     const Eigen::MatrixXcd& b) {
-  return RealGram(w, a, b) / kBinCorrelation;
-}
-
 }  // namespace
 
 OwnDelay Fitter::OwnDelayOf(const EffectFit& fit, std::size_t e) const {
@@ -26,11 +21,11 @@ OwnDelay Fitter::OwnDelayOf(const EffectFit& fit, std::size_t e) const {
   const Eigen::MatrixXcd j = tau_s * FlameJacobian(records_[e], effect_, fit.values, tau_s,
                                                    columns_[e], solutions_[e], Eigen::VectorXd());
   const Eigen::MatrixXcd& c = solutions_[e].columns;
-  const Eigen::MatrixXd mixed = Gram(c, weights_b_[e], j);
+  const Eigen::MatrixXd mixed = BinGram(c, weights_b_[e], j);
   const double curvature =
-      Gram(j, weights_b_[e], j)(0, 0) -
-      (mixed.transpose() * SolveScaled(Gram(c, weights_b_[e], c), mixed, kRidge))(0, 0);
-  const double gradient = Gram(j, weights_b_[e], fit.experiments[e].flame_residual)(0, 0);
+      BinGram(j, weights_b_[e], j)(0, 0) -
+      (mixed.transpose() * SolveScaled(BinGram(c, weights_b_[e], c), mixed, kRidge))(0, 0);
+  const double gradient = BinGram(j, weights_b_[e], fit.experiments[e].flame_residual)(0, 0);
   const double own = fit.experiments[e].log_delay;
   if (!(curvature > 0.0)) return {own, own, 0.0};
   // The cost is c + 2 g x + h x^2.

@@ -3,8 +3,8 @@
 #include <complex>
 #include <utility>
 
+#include "diagnosis/fit/bin_gram.h"
 #include "diagnosis/fit/fitter.h"
-#include "diagnosis/numerics/real_gram.h"
 #include "diagnosis/numerics/scaled_solve.h"
 
 namespace howl {
@@ -25,11 +25,6 @@ constexpr double kSecondModeGain = 20.0;
 constexpr int kSecondModeIterations = 8;  // the grid is farther from there
 
 double Span(const EffectParameter& p) { return p.high - p.low; }
-
-Eigen::MatrixXd Gram(const Eigen::MatrixXcd& a, const Eigen::VectorXd& w,
-                     const Eigen::MatrixXcd& b) {
-  return RealGram(w, a, b) / kBinCorrelation;
-}
 
 }  // namespace
 
@@ -81,8 +76,8 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
       Eigen::MatrixXcd j = AcousticJacobian(records_[e], effect_, fit.values, at.acoustics,
                                             at.acoustic_residual, steps);
       for (Eigen::Index i = 0; i < d; ++i) j.col(4 + i) *= to_u[i];
-      const Eigen::MatrixXd h = Gram(j, weights_a_[e], j);
-      const Eigen::VectorXd g = Gram(j, weights_a_[e], at.acoustic_residual);
+      const Eigen::MatrixXd h = BinGram(j, weights_a_[e], j);
+      const Eigen::VectorXd g = BinGram(j, weights_a_[e], at.acoustic_residual);
       out.local_curvature = h.topLeftCorner(4, 4);
       out.local_gradient = g.head(4);
       out.mixed = h.topRightCorner(4, d);
@@ -106,11 +101,11 @@ Fitter::System Fitter::Linearise(const EffectFit& fit) const {
                                          columns_[e], solutions_[e], steps);
       j.col(0) *= std::exp(at.log_delay);
       for (Eigen::Index i = 0; i < d; ++i) j.col(1 + i) *= to_u[i];
-      const Eigen::MatrixXd h = Gram(j, weights_b_[e], j);
-      const Eigen::VectorXd g = Gram(j, weights_b_[e], at.flame_residual);
+      const Eigen::MatrixXd h = BinGram(j, weights_b_[e], j);
+      const Eigen::VectorXd g = BinGram(j, weights_b_[e], at.flame_residual);
       const Eigen::MatrixXcd& c = solutions_[e].columns;
-      const Eigen::MatrixXd local = Gram(c, weights_b_[e], c);
-      const Eigen::MatrixXd mixed = Gram(c, weights_b_[e], j);
+      const Eigen::MatrixXd local = BinGram(c, weights_b_[e], c);
+      const Eigen::MatrixXd mixed = BinGram(c, weights_b_[e], j);
       Eigen::MatrixXd curvature = h - mixed.transpose() * SolveScaled(local, mixed, 1e-10);
       Eigen::VectorXd gradient = g;
       EliminateDelay(fit, e, &curvature, &gradient, &out);
@@ -207,8 +202,8 @@ double Fitter::DescendAcoustics(EffectFit* fit, std::size_t e, int iterations) c
   for (int i = 0; i < iterations; ++i) {
     const Eigen::MatrixXcd jacobian = AcousticJacobian(
         records_[e], effect_, fit->values, at.acoustics, at.acoustic_residual, Eigen::VectorXd());
-    const Eigen::MatrixXd h = Gram(jacobian, weights_a_[e], jacobian);
-    const Eigen::VectorXd g = Gram(jacobian, weights_a_[e], at.acoustic_residual);
+    const Eigen::MatrixXd h = BinGram(jacobian, weights_a_[e], jacobian);
+    const Eigen::VectorXd g = BinGram(jacobian, weights_a_[e], at.acoustic_residual);
     const ExperimentFit before = at;
     at.acoustics -= SolveScaled(h, g, 1e-8);
     const double moved = AcousticSquares(fit, e);

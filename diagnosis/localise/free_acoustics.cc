@@ -10,9 +10,9 @@ namespace {
 constexpr int kCausal = 4;
 constexpr int kAnticausal = 2;
 
-class Factor final : public NamedEffect {
+class AcousticFactor final : public NamedEffect {
  public:
-  explicit Factor(double centre_hz)
+  explicit AcousticFactor(double centre_hz)
       : NamedEffect("slack_acoustics_factor", LoopBlock::kAcoustics,
                     FactorParameters(kCausal + kAnticausal)),
         centre_hz_(centre_hz) {}
@@ -76,7 +76,7 @@ class Modulation final : public NamedEffect {
 }  // namespace
 
 std::vector<EffectPointer> FreeAcoustics(const SlackScale& scale) {
-  return {std::make_shared<Factor>(scale.centre_hz), std::make_shared<Modes>(),
+  return {std::make_shared<AcousticFactor>(scale.centre_hz), std::make_shared<Modes>(),
           std::make_shared<Modulation>()};
 }
 

@@ -8,8 +8,8 @@
 namespace howl {
 namespace {
 
-constexpr double kBandOfCycle = 0.4;  // width, of the cycle's frequency
-constexpr double kBandShare = 0.1;    // of the largest band's gain
+constexpr double kAdditiveBandOfCycle = 0.4;  // width, of the cycle's frequency
+constexpr double kAdditiveBandShare = 0.1;    // of the largest band's gain
 constexpr std::array kNoiseFactors = {1.0, 0.5, 0.2, 0.08, 0.03};
 constexpr int kPowers = 14;  // factors of three from a third of the noise
 
@@ -57,7 +57,7 @@ double BandGain(const std::vector<Bin>& bins, std::size_t place) {
 }  // namespace
 
 AdditiveGain FitFreeAdditive(const std::vector<CutRecord>& records, const EffectFit& base) {
-  const double width = kBandOfCycle * records[0].at.cycle_frequency_hz;
+  const double width = kAdditiveBandOfCycle * records[0].at.cycle_frequency_hz;
   const double low = records[0].frequency(0);
   std::vector<std::vector<Bin>> bands;
   for (std::size_t e = 0; e < records.size(); ++e) {
@@ -99,7 +99,7 @@ AdditiveGain FitFreeAdditive(const std::vector<CutRecord>& records, const Effect
   }
   const double most = *std::max_element(best.begin(), best.end());
   for (std::size_t b = 0; b < best.size(); ++b) {
-    if (best[b] < kBandShare * most) continue;
+    if (best[b] < kAdditiveBandShare * most) continue;
     const double from = low + static_cast<double>(b) * width;
     if (out.high_hz == 0.0) out.low_hz = from;
     out.high_hz = from + width;

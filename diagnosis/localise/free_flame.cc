@@ -8,9 +8,9 @@ namespace {
 
 constexpr int kFactorTerms = 4;
 
-class Factor final : public NamedEffect {
+class FlameFactor final : public NamedEffect {
  public:
-  explicit Factor(double centre_hz)
+  explicit FlameFactor(double centre_hz)
       : NamedEffect("slack_flame_factor", LoopBlock::kFlame, FactorParameters(kFactorTerms)),
         centre_hz_(centre_hz) {}
   bool ChangesFlameCut() const override { return true; }
@@ -90,7 +90,8 @@ class OnePoint final : public NamedEffect {
 }  // namespace
 
 std::vector<EffectPointer> FreeFlame(const SlackScale& scale) {
-  return {std::make_shared<Factor>(scale.centre_hz), std::make_shared<Section>(scale.cycle_hz)};
+  return {std::make_shared<FlameFactor>(scale.centre_hz),
+          std::make_shared<Section>(scale.cycle_hz)};
 }
 
 std::vector<EffectPointer> FreeDelay(const SlackScale& scale) {

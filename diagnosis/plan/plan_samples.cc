@@ -8,11 +8,11 @@
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/plan/sample_trial.h"
 #include "diagnosis/verdict/verdict.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kHalvings = 7;       // of a factor of four: to 1 %
 constexpr double kFarthest = 1e3;  // from the first trial size, to either side
 

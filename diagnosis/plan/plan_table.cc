@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/verdict/verdict.h"
 #include "estimation/parallel.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The size from rung to rung: the reference, twice the smallest size, is one rung up or two.
 constexpr double kWideStep = 2.0;
 constexpr double kNarrowStep = 1.4142135623730951;

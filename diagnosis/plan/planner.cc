@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -11,14 +10,9 @@
 #include "diagnosis/samples/coherent_lines.h"
 #include "estimation/parallel.h"
 #include "model/effects/catalogue.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
-namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 Planner::Planner(std::vector<DiagnosisExperiment> experiments, std::vector<double> scales,
                  const PlanOptions& options)
     : options_(options),

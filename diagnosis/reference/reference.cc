@@ -15,13 +15,11 @@ namespace {
 
 constexpr double kBand = 0.2;                 // of the cycle's frequency
 constexpr std::size_t kFewestSamples = 2048;  // of a half
-constexpr double kSamePhi = 1e-9;
 constexpr double kKnownLine = 0.25;
 
 bool Contains(const std::vector<DiagnosisExperiment>& reference, const DiagnosisExperiment& rig) {
   return std::any_of(reference.begin(), reference.end(), [&](const DiagnosisExperiment& each) {
-    return each.name == rig.name ||
-           std::abs(each.phi - rig.phi) <= kSamePhi * (1.0 + std::abs(rig.phi));
+    return each.name == rig.name || IsSamePhi(each.phi, rig.phi);
   });
 }
 

@@ -18,12 +18,16 @@
 #ifndef HOWL_DIAGNOSIS_REFERENCE_REFERENCE_H_
 #define HOWL_DIAGNOSIS_REFERENCE_REFERENCE_H_
 
+#include <cmath>
 #include <vector>
 
 #include "diagnosis/fit/effect_fit.h"
 #include "diagnosis/samples/coherent_lines.h"
 
 namespace howl {
+
+// Operating parameters that two files state alike, digit by digit.
+inline bool IsSamePhi(double a, double b) { return std::abs(a - b) <= 1e-9 * (1.0 + std::abs(b)); }
 
 // Of one operating point, on the even grid u = i kReferenceStep.
 inline constexpr double kReferenceStep = 0.01;

@@ -13,7 +13,6 @@ namespace {
 constexpr double kKernelWidth = 0.04;      // standard deviation, of the cycle's frequency
 constexpr double kKernelReach = 3.0;       // standard deviations
 constexpr Eigen::Index kPooledReach = 10;  // grid points on each side
-constexpr double kSamePhi = 1e-9;
 
 // Sums over the bins near each grid point: add(weight, bin).
 void Smooth(const CutRecord& record, Eigen::Index count, Eigen::Index grid,
@@ -199,7 +198,7 @@ ReferencePoint PointAt(const std::vector<ReferencePoint>& points, const std::str
   const ReferencePoint* below = nullptr;
   const ReferencePoint* above = nullptr;
   for (const ReferencePoint& point : points) {
-    if (point.name == name || std::abs(point.phi - phi) <= kSamePhi * (1.0 + std::abs(phi))) {
+    if (point.name == name || IsSamePhi(point.phi, phi)) {
       return point;
     }
     if (point.phi < phi && (!below || point.phi > below->phi)) below = &point;

@@ -7,6 +7,7 @@
 #include <complex>
 #include <functional>
 
+#include "model/numerics/constants.h"
 #include "model/numerics/units.h"
 
 namespace howl {
@@ -20,7 +21,6 @@ constexpr int kXis = 16;
 constexpr int kSecondModes = 12;
 constexpr int kOmegas = 48;
 constexpr double kOmegaMost = 1.8;  // over f
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Complex64 UnitMode(double omega_hz, double xi, double f) {
   const Complex<double> u = UnitModeResponse(kRadPerSPerHz * omega_hz, xi, kRadPerSPerHz * f);

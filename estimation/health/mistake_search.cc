@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "estimation/health/mistakes.h"
 #include "estimation/health/number_words.h"
 #include "estimation/parallel.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
 
 constexpr std::size_t kWorst = 3;  // experiments that are tried alone
 constexpr int kStarts = 3;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Trial {
   const Mistake* mistake = nullptr;

@@ -14,7 +14,7 @@ namespace howl {
 namespace {
 
 // Nats of all points together: odds of 20 to 1.
-constexpr double kFound = 3.0;
+constexpr double kGainFound = 3.0;
 // On 2, 4 and 13 points of a measured combustor none went on for more than two.
 constexpr int kMostRounds = 4;
 
@@ -91,7 +91,7 @@ std::optional<RecordsFit> BetterByHalves(const std::vector<OperatingPoint>& poin
     gain[e] = best.log_posterior - before;
     starts[0][e] = std::move(best.parameters);
   });
-  if (SumOf(gain) < kFound) return std::nullopt;
+  if (SumOf(gain) < kGainFound) return std::nullopt;
   RecordsFitOptions again = options;
   again.other_maxima = false;
   return FitRecordsFrom(points, fit.structure, starts, again);

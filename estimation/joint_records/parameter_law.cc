@@ -21,8 +21,8 @@ constexpr double kTypicalError = 0.01;
 // its own.
 constexpr double kLargestError = 1.0;
 constexpr double kPriorDegrees = 1.0;  // of freedom, of s^2
-constexpr int kIterations = 300;
-constexpr double kConverged = 1e-4;  // of the largest change of ln s, and of m and b over s
+constexpr int kLawIterations = 300;
+constexpr double kLawConverged = 1e-4;  // of the largest change of ln s, and of m and b over s
 
 }  // namespace
 
@@ -82,7 +82,7 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
       law.widest[i] = kLargestError;
     }
   }
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < kLawIterations; ++iteration) {
     // What is expected of each point, given the law.
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);
     Eigen::VectorXd sum_z = Eigen::VectorXd::Zero(size);
@@ -143,7 +143,7 @@ ParameterLaw FitParameterLaw(const std::vector<ParameterEvidence>& points, const
       change = std::max(change, std::abs(std::log(spread / law.spread[i])));
       law.spread[i] = spread;
     }
-    if (change < kConverged) break;
+    if (change < kLawConverged) break;
   }
   return law;
 }

@@ -13,9 +13,9 @@ namespace {
 
 using C = std::complex<double>;
 
-constexpr int kIterations = 60;
+constexpr int kNewtonSteps = 60;
 constexpr double kDifference = 1e-5;
-constexpr double kConverged = 1e-10;
+constexpr double kRootFound = 1e-10;
 
 struct Root {
   C s;
@@ -31,7 +31,7 @@ class Loop {
 
   std::optional<Root> Find() const {
     C s(0.0, 1.0);
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < kNewtonSteps; ++i) {
       const C value = At(s) - 1.0;
       const C rise = (At(s + kDifference) - At(s - kDifference)) / (2.0 * kDifference);
       C step = -value / rise;
@@ -39,7 +39,7 @@ class Loop {
       if (std::abs(step) > longest) step *= longest / std::abs(step);
       s += step;
       if (!std::isfinite(std::abs(s))) return std::nullopt;
-      if (std::abs(step) > kConverged) continue;
+      if (std::abs(step) > kRootFound) continue;
       // No logarithm of a root on the real axis is within it.
       if (!(std::abs(std::log2(s.imag())) <= 0.5)) return std::nullopt;
       return Root{s, std::abs(At(C(0.0, s.imag())))};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kDelays = 8;
 constexpr double kSame = 0.25;  // radians of the cycle: a quarter of a period at the band's end
-constexpr int kMostScans = 3;
+constexpr int kMostDelayScans = 3;
 constexpr std::size_t kMostFollowed = 2;
 
 // The maxima of different delays, that of `parameters` with them, the most likely first. Each delay
@@ -60,7 +60,7 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
 
 PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structure,
                      const PointPrior& prior, PointFit fit) {
-  for (int scan = 0; scan < kMostScans; ++scan) {
+  for (int scan = 0; scan < kMostDelayScans; ++scan) {
     const PointFit next = FitsByDelay(record, structure, prior, fit.parameters, kMostFollowed)[0];
     if (next.log_posterior - fit.log_posterior < kWorthAnother) break;
     fit = FitPoint(record, structure, prior, next.parameters, kToTheMaximum);

@@ -10,7 +10,7 @@
 namespace howl {
 namespace {
 
-constexpr int kMostScans = 4;
+constexpr int kMostModeScans = 4;
 
 // Parameters with one of the modes that are tied to no other elsewhere.
 std::vector<Eigen::VectorXd> Elsewhere(const RecordSpectra& record, const PointStructure& structure,
@@ -39,7 +39,7 @@ PointFit BestByModes(const RecordSpectra& record, const PointStructure& structur
                      const PointPrior& prior, PointFit fit) {
   if (structure.ratio && structure.further_modes == 0) return fit;
   const PoleStarts starts(record, structure);
-  for (int scan = 0; scan < kMostScans; ++scan) {
+  for (int scan = 0; scan < kMostModeScans; ++scan) {
     const double before = fit.log_posterior;
     const std::vector<Eigen::VectorXd> elsewhere =
         Elsewhere(record, structure, prior, starts, fit.parameters);

@@ -25,7 +25,7 @@ struct ConstantPrior {
 };
 
 template <ParameterKind kind>
-void AddAcross(ResidualAdder& problem, const std::vector<int>& experiments) {
+void AddConstantPrior(ResidualAdder& problem, const std::vector<int>& experiments) {
   if (problem.Model()[kind].scope == ParameterScope::kShared) return;
   if (experiments.size() < 2) return;  // one value scatters about nothing
   double log_sum = 0.0;
@@ -47,14 +47,14 @@ ResidualDefinition OmegaPriorDefinition() {
   return {.text = "omega_hz nearly constant over the experiments",
           .equation = "section 3.3",
           .std = {"std_relative", 0.05, "relative standard deviation of omega_hz"},
-          .add_across = &AddAcross<ParameterKind::kOmega>};
+          .add_across = &AddConstantPrior<ParameterKind::kOmega>};
 }
 
 ResidualDefinition TauPriorDefinition() {
   return {.text = "tau_s nearly constant over the experiments",
           .equation = "section 3.1",
           .std = {"std_relative", 0.03, "relative standard deviation of tau_s"},
-          .add_across = &AddAcross<ParameterKind::kTau>};
+          .add_across = &AddConstantPrior<ParameterKind::kTau>};
 }
 
 }  // namespace howl

@@ -25,7 +25,7 @@ struct DampingPrior {
   double std_relative;
 };
 
-void AddTo(ResidualAdder& problem, int i) {
+void AddDampingPrior(ResidualAdder& problem, int i) {
   problem.Add(i,
               new ceres::AutoDiffCostFunction<DampingPrior, 1, 1>(
                   new DampingPrior{problem.Spec().center, problem.Spec().std}),
@@ -39,7 +39,7 @@ ResidualDefinition DampingPriorDefinition() {
           .equation = "section 3.3",
           .std = {"std_relative", 1.0, "relative standard deviation of xi about xi_typical"},
           .center = {"xi_typical", 0.1, "damping ratio that counts as small"},
-          .add_to = &AddTo};
+          .add_to = &AddDampingPrior};
 }
 
 }  // namespace howl

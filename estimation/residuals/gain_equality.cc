@@ -22,7 +22,7 @@ struct GainEquality {
   double std_relative;
 };
 
-void AddTo(ResidualAdder& problem, int i) {
+void AddGainEquality(ResidualAdder& problem, int i) {
   const Experiment& e = problem.ExperimentAt(i);
   const double std_relative = e.gain_std ? *e.gain_std / e.gain : problem.Spec().std;
   AddAcoustic(problem, i, GainEquality{e.frequency_hz, e.gain, std_relative});
@@ -35,7 +35,7 @@ ResidualDefinition GainEqualityDefinition() {
           .equation = "(5a), (5c)",
           .std = {"std_relative", 0.01, "relative standard deviation of gain"},
           .has_form = true,
-          .add_to = &AddTo};
+          .add_to = &AddGainEquality};
 }
 
 }  // namespace howl

@@ -25,13 +25,13 @@ struct LoopGain {
   double std;
 };
 
-void AddAtCycle(ResidualAdder& problem, int i) {
+void AddLoopGain(ResidualAdder& problem, int i) {
   const Experiment& e = problem.ExperimentAt(i);
   if (!e.flame_slope) return;
   AddAcoustic(problem, i, LoopGain{e.frequency_hz, *e.flame_slope, problem.Spec().std});
 }
 
-void AddAtLines(ResidualAdder& problem, int i) {
+void AddLoopGainAtLines(ResidualAdder& problem, int i) {
   const Experiment& e = problem.ExperimentAt(i);
   if (!e.flame_slope) return;
   for (const ObservedLine& line : e.lines) {
@@ -47,7 +47,7 @@ ResidualDefinition LimitCycleGainDefinition() {
           .equation = "(1b)",
           .std = {"std", 0.05, "standard deviation of the loop gain"},
           .reliable_only = true,
-          .add_to = &AddAtCycle};
+          .add_to = &AddLoopGain};
 }
 
 ResidualDefinition SecondCrossingGainDefinition() {
@@ -56,7 +56,7 @@ ResidualDefinition SecondCrossingGainDefinition() {
           .std = {"std", 0.05, "standard deviation of the loop gain"},
           .needs_two_modes = true,
           .reliable_only = true,
-          .add_to = &AddAtLines};
+          .add_to = &AddLoopGainAtLines};
 }
 
 }  // namespace howl

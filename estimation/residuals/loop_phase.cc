@@ -33,12 +33,12 @@ LoopPhase At(const ResidualAdder& problem, int i, double frequency_hz, double fr
   return {frequency_hz, std::hypot(problem.Spec().std, 360.0 * tau_s * frequency_std_hz)};
 }
 
-void AddAtCycle(ResidualAdder& problem, int i) {
+void AddLoopPhase(ResidualAdder& problem, int i) {
   const Experiment& e = problem.ExperimentAt(i);
   AddLoop(problem, i, At(problem, i, e.frequency_hz, e.frequency_std_hz.value_or(0.0)));
 }
 
-void AddAtLines(ResidualAdder& problem, int i) {
+void AddLoopPhaseAtLines(ResidualAdder& problem, int i) {
   for (const ObservedLine& line : problem.ExperimentAt(i).lines) {
     AddLoop(problem, i, At(problem, i, line.frequency_hz, line.frequency_std_hz),
             FrequencySuffix(line.frequency_hz));
@@ -51,7 +51,7 @@ ResidualDefinition LimitCyclePhaseDefinition() {
   return {.text = "arg L is 180 degrees, L = s G e^(-tau s)",
           .equation = "(1a)",
           .std = {"std_deg", 1.0, "standard deviation in degrees"},
-          .add_to = &AddAtCycle};
+          .add_to = &AddLoopPhase};
 }
 
 ResidualDefinition SecondCrossingDefinition() {
@@ -59,7 +59,7 @@ ResidualDefinition SecondCrossingDefinition() {
           .equation = "section 4",
           .std = {"std_deg", 5.0, "standard deviation in degrees"},
           .needs_two_modes = true,
-          .add_to = &AddAtLines};
+          .add_to = &AddLoopPhaseAtLines};
 }
 
 }  // namespace howl

@@ -22,7 +22,7 @@ struct PhaseEquality {
   double std_deg;
 };
 
-void AddTo(ResidualAdder& problem, int i) {
+void AddPhaseEquality(ResidualAdder& problem, int i) {
   const Experiment& e = problem.ExperimentAt(i);
   AddAcoustic(
       problem, i,
@@ -36,7 +36,7 @@ ResidualDefinition PhaseEqualityDefinition() {
           .equation = "(5a), (5c)",
           .std = {"std_deg", 0.5, "standard deviation in degrees"},
           .has_form = true,
-          .add_to = &AddTo};
+          .add_to = &AddPhaseEquality};
 }
 
 }  // namespace howl

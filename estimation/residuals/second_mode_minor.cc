@@ -22,7 +22,7 @@ struct SecondModeMinor {
   double std;
 };
 
-void AddTo(ResidualAdder& problem, int i) {
+void AddSecondModeMinor(ResidualAdder& problem, int i) {
   AddAcoustic(problem, i,
               SecondModeMinor{problem.ExperimentAt(i).frequency_hz, problem.Spec().center,
                               problem.Spec().std});
@@ -37,7 +37,7 @@ ResidualDefinition SecondModeMinorDefinition() {
           .center = {"share_max", kSecondModeShareMax,
                      "up to which the second mode hardly matters at the limit cycle"},
           .needs_two_modes = true,
-          .add_to = &AddTo};
+          .add_to = &AddSecondModeMinor};
 }
 
 }  // namespace howl

@@ -43,7 +43,7 @@ void AddPoint(ResidualAdder& problem, int i, int q_noise, TransferPoint point) {
 }
 
 // Across the experiments, so that these parameters come after those of all models.
-void AddAcross(ResidualAdder& problem, const std::vector<int>& experiments) {
+void AddTransfer(ResidualAdder& problem, const std::vector<int>& experiments) {
   for (const int i : experiments) {
     const Experiment& experiment = problem.ExperimentAt(i);
     if (experiment.transfer.empty()) continue;
@@ -63,7 +63,7 @@ ResidualDefinition TransferDefinition() {
           .equation = "(5a)",
           .std = {"std_relative", 0.02,
                   "relative standard deviation of the model, on top of the data's"},
-          .add_across = &AddAcross};
+          .add_across = &AddTransfer};
 }
 
 }  // namespace howl

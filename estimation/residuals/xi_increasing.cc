@@ -27,7 +27,7 @@ struct XiIncreasing {
   double std;
 };
 
-void AddAcross(ResidualAdder& problem, const std::vector<int>& experiments) {
+void AddXiIncreasing(ResidualAdder& problem, const std::vector<int>& experiments) {
   if (problem.Model()[ParameterKind::kXi].scope == ParameterScope::kShared) return;
   std::vector<int> order = experiments;
   std::ranges::stable_sort(order, {}, [&](int i) { return problem.ExperimentAt(i).phi; });
@@ -50,7 +50,7 @@ ResidualDefinition XiIncreasingDefinition() {
   return {.text = "xi does not fall as phi grows (one-sided)",
           .equation = "section 3.3",
           .std = {"std", 0.02, "standard deviation of xi"},
-          .add_across = &AddAcross};
+          .add_across = &AddXiIncreasing};
 }
 
 }  // namespace howl

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <functional>
 #include <limits>
-#include <sstream>
 
 #include "io/config/reading/config_reading.h"
 #include "io/json_text.h"
@@ -23,13 +22,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kMostHarmonic = 1000.0;
-
-std::string FileText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 // Runs `read` where the file is there; a fault becomes a note, an absent file is left to `absent`.
 void Try(ReportInput& input, const char* file, const char* command,
@@ -74,7 +66,7 @@ void ReadConfig(ReportInput& input) {
   const RunFile& run = *input.run;
   try {
     if (std::filesystem::is_regular_file(run.config)) {
-      if (FileText(run.config) != run.config_text) {
+      if (ReadWholeFile(run.config).value_or("") != run.config_text) {
         input.missing.push_back(
             "the config has changed since the last command ran: what the "
             "files hold may belong to its former text");

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <chrono>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "estimation/parallel.h"
@@ -25,13 +24,6 @@ namespace {
 constexpr int kNoSuchCommand = 127;
 constexpr int kHung = -1;
 constexpr int kStopped = -2;
-
-std::string FileText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 // A working folder of its own, removed with it.
 class WorkFolder {
@@ -144,7 +136,8 @@ std::map<std::string, std::string> RenderFigures(const std::vector<Figure>& figu
         faults[i] = "it took too long, and was ended; figures after it were not tried";
         std::filesystem::remove(work.path() / (figure.name + "." + format));
       } else if (status != 0) {
-        faults[i] = FirstLine(FileText(work.path() / (figure.name + "." + format + ".log")));
+        faults[i] = FirstLine(
+            ReadWholeFile(work.path() / (figure.name + "." + format + ".log")).value_or(""));
         std::filesystem::remove(work.path() / (figure.name + "." + format));
       }
     }
@@ -155,7 +148,7 @@ std::map<std::string, std::string> RenderFigures(const std::vector<Figure>& figu
       const auto made = work.path() / (figures[i].name + ending);
       const auto target = folder / (figures[i].name + ending);
       if (std::filesystem::exists(made)) {
-        const std::string text = FileText(made);
+        const std::string text = ReadWholeFile(made).value_or("");
         WriteWholeFile(target, text);
         if (ending == std::string(".svg")) svgs[figures[i].name] = text;
       } else {

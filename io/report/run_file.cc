@@ -14,13 +14,6 @@ namespace {
 
 constexpr const char* kSchema = "howl.run/1";
 
-std::string FileText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 RunFile ReadRunFile(const std::filesystem::path& folder) {
@@ -53,7 +46,7 @@ void NoteRun(const std::filesystem::path& folder, const std::filesystem::path& c
   const std::filesystem::path absolute = std::filesystem::absolute(config).lexically_normal();
   if (run.config != absolute) run.commands.clear();
   run.config = absolute;
-  run.config_text = FileText(absolute);
+  run.config_text = ReadWholeFile(absolute).value_or("");
   run.commands[command] = {seed, std::string(Version())};
   nlohmann::ordered_json commands = nlohmann::ordered_json::object();
   for (const auto& [name, entry] : run.commands) {

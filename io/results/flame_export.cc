@@ -6,10 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <numbers>
-#include <sstream>
 #include <system_error>
 
 #include "io/results/csv_writer.h"
@@ -33,13 +31,6 @@ bool AddTable(mat_t* file, const char* name, const std::vector<double>& frequenc
       Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, sizes.data(), table.data(), 0),
       Mat_VarFree);
   return variable && Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) == 0;
-}
-
-std::string FileBytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
 }
 
 }  // namespace
@@ -74,7 +65,7 @@ void WriteOscilosLongFlame(const std::filesystem::path& path, double gain, doubl
                     std::vector<double>(frequencies_hz.size(), gain)) &&
            AddTable(file.get(), "Phase", frequencies_hz, phases_rad);
   }
-  const std::string bytes = good ? FileBytes(draft) : std::string();
+  const std::string bytes = good ? ReadWholeFile(draft).value_or("") : std::string();
   std::error_code ignored;
   std::filesystem::remove(draft, ignored);
   if (!good) throw UserError(path.string(), 0, "", "cannot be written");

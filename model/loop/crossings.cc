@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "model/loop/loop_phase.h"
+#include "model/numerics/constants.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
@@ -19,9 +18,6 @@ using internal::LoopPhase;
 using internal::MakeLoopPhase;
 using internal::PhaseRange;
 using internal::Quadratic;
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // The root of phase(w) = target in [a, b], on which the phase is monotonic: Newton inside a
 // bracket.
@@ -165,7 +161,6 @@ std::vector<GainCrossing> GainCrossings(const LoopParameters<double>& loop, doub
 
 LoopMargins Margins(const LoopParameters<double>& loop, double flame_slope,
                     double frequency_max_hz) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   LoopMargins margins{kInfinity, kInfinity, kInfinity, false};
   const auto crossings = PhaseCrossings(loop, flame_slope, frequency_max_hz);
   for (const PhaseCrossing& crossing : crossings) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <boost/math/special_functions/bessel.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "model/numerics/constants.h"
 #include "model/simulation/lane_loop.h"
 
 namespace howl {
@@ -21,7 +21,6 @@ constexpr double kStopBand = 0.6;
 Decimator::Decimator(int ratio) : ratio_(ratio), half_length_(0), taps_{1.0} {
   CHECK_GE(ratio, 1);
   if (ratio == 1) return;
-  constexpr double kPi = std::numbers::pi;
   const double transition = 2.0 * kPi * (kStopBand - kPassBand) / ratio;  // rad a sample
   const auto half =
       static_cast<std::size_t>(std::ceil(0.5 * (kAttenuationDb - 7.95) / (2.285 * transition)));

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace howl {
+namespace howl::budget_text_test {
 namespace {
 
 BudgetEntry Entry(const char* item, double first_half, double second_half) {
@@ -39,4 +39,4 @@ TEST(BudgetText, NamesTheFormOfAnEffect) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::budget_text_test

@@ -8,7 +8,7 @@
 #include "io/report/csv_table.h"
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::campaign_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST_F(Campaign, TheReportHasASection) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::campaign_test

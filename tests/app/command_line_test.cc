@@ -17,7 +17,7 @@
 #include "model/effects/catalogue.h"
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::command_line_test {
 namespace {
 
 using testing::HasSubstr;
@@ -274,4 +274,4 @@ TEST(CommandLine, QuietPrintsNothing) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::command_line_test

@@ -9,7 +9,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::completion_test {
 namespace {
 
 using testing::AllOf;
@@ -121,4 +121,4 @@ TEST(CompletionScript, IsPrintedForThreeShells) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::completion_test

@@ -15,7 +15,7 @@
 #include "model/effects/catalogue.h"
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::diagnose_test {
 namespace {
 
 constexpr const char* kRig =
@@ -366,4 +366,4 @@ TEST(Diagnose, TheBootstrapsGainsAreWritten) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::diagnose_test

@@ -12,7 +12,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::effects_test {
 namespace {
 
 using testing::HasSubstr;
@@ -104,4 +104,4 @@ TEST(DiagnoseTable, ATableWithoutLinesSaysNothing) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::effects_test

@@ -8,7 +8,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::export_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -123,4 +123,4 @@ TEST(Export, WithoutAnyFlameSlopeTheAnswerIsNegative) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::export_test

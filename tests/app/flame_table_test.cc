@@ -8,7 +8,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::flame_table_test {
 namespace {
 
 using ::testing::AllOf;
@@ -78,4 +78,4 @@ TEST(KingsLaw, CyclesOutOfRest) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::flame_table_test

@@ -12,7 +12,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::hard_input_test {
 namespace {
 
 using testing::HasSubstr;
@@ -255,4 +255,4 @@ TEST_F(HardInput, AHangingGnuplotIsEnded) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::hard_input_test

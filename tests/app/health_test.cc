@@ -13,7 +13,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::health_test {
 namespace {
 
 using testing::HasSubstr;
@@ -190,4 +190,4 @@ TEST(MeasuredHealth, PublicRecordsAreNotAccused) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::health_test

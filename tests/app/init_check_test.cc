@@ -10,7 +10,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::init_check_test {
 namespace {
 
 using testing::HasSubstr;
@@ -200,4 +200,4 @@ TEST(CheckCommand, SaysThatRecordsAreTooShortForDiagnose) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::init_check_test

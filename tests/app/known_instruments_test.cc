@@ -13,7 +13,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::known_instruments_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -194,4 +194,4 @@ TEST(KnownInstruments, AMistakeIsOneLineAndStatusTwo) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::known_instruments_test

@@ -7,7 +7,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::loop_diagnosis_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -86,4 +86,4 @@ TEST_F(LoopDiagnosis, RefusesWhatItDoesNotTake) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::loop_diagnosis_test

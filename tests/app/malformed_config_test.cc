@@ -9,7 +9,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::malformed_config_test {
 namespace {
 
 struct Malformed {
@@ -90,4 +90,4 @@ TEST(MalformedConfigs, EachIsOneLineWithFileLineAndKeyAndStatusTwo) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::malformed_config_test

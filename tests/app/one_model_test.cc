@@ -9,7 +9,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::one_model_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -138,4 +138,4 @@ TEST(OwnParameter, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::one_model_test

@@ -13,7 +13,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::oscillations_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -132,4 +132,4 @@ TEST(NoiseSources, AreOfTheConfigAndNullIsNull) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::oscillations_test

@@ -11,7 +11,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::plus_minus_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -91,4 +91,4 @@ TEST(PlusMinus, AnalysePrintsHalfOfTheInterval) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::plus_minus_test

@@ -10,7 +10,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::predict_map_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -146,4 +146,4 @@ TEST(WithoutCondition, IsNullInTheConfig) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::predict_map_test

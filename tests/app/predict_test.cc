@@ -8,7 +8,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::predict_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -173,4 +173,4 @@ TEST(Predict, RecordsGiveTheAmplitudeOfThePressure) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::predict_test

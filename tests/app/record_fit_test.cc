@@ -11,7 +11,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::record_fit_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -167,4 +167,4 @@ TEST(RecordFit, NeedsFiftyPeriods) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::record_fit_test

@@ -13,7 +13,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::record_loop_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -222,4 +222,4 @@ TEST(LongRecordLoop, AFitFindsTheLoopThatWasSimulated) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::record_loop_test

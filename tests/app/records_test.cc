@@ -13,7 +13,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::records_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -208,4 +208,4 @@ TEST(BadRecords, EachIsOneLineStatusTwoAndNoOutput) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::records_test

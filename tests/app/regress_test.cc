@@ -10,7 +10,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::regress_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -219,4 +219,4 @@ TEST(Regress, DamagedReferencesAreOneLineAndStatusTwo) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::regress_test

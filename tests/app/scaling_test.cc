@@ -10,7 +10,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::scaling_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -137,4 +137,4 @@ TEST(Scaling, SimulatedRecordsAreAnalysedAtAnyFrequency) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::scaling_test

@@ -10,7 +10,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::shard_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST(LongDiagnoseShards, JoinToTheBytesOfOneMachine) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::shard_test

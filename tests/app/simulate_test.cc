@@ -15,7 +15,7 @@
 #include "model/loop/crossings.h"
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::simulate_test {
 namespace {
 
 using testing::HasSubstr;
@@ -284,4 +284,4 @@ TEST(Section4, ASweepDependsOnTheSeedAlone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::simulate_test

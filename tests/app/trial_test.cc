@@ -9,7 +9,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::trial_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -208,4 +208,4 @@ TEST(TrialMistakes, AreOneLine) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::trial_test

@@ -7,7 +7,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::two_modes_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -68,4 +68,4 @@ TEST(TwoModes, ReportTakesTheNewFields) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::two_modes_test

@@ -5,15 +5,14 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "diagnosis/cuts/acoustic_cut.h"
 #include "diagnosis/cuts/make_cut_records.h"
+#include "model/numerics/constants.h"
 
-namespace howl {
+namespace howl::acoustic_modulation_test {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSampling_hz = 5000.0;
 constexpr int kSamples = 8000;
 constexpr double kDuration_s = kSamples / kSampling_hz;
@@ -145,4 +144,4 @@ TEST(AcousticModulation, AmplitudeLagsBehindTheSignal) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::acoustic_modulation_test

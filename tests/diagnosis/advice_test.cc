@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace howl {
+namespace howl::advice_test {
 namespace {
 
 Diagnosis Named(double gain) {
@@ -46,4 +46,4 @@ TEST(Advice, SaturationCallsForAWiderRange) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::advice_test

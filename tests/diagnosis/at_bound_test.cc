@@ -10,7 +10,7 @@
 #include "tests/diagnosis/declare.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::at_bound_test {
 namespace {
 
 // A first-order low-pass on recorded q that is searched from low_hz on.
@@ -57,4 +57,4 @@ TEST(AtBound, TheEndsOfTheSearchAreItsBoundsInTheParametersOwnScale) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::at_bound_test

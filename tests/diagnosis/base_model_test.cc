@@ -12,7 +12,7 @@
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::base_model_test {
 namespace {
 
 constexpr double kOtherRatio = 2.8;
@@ -129,4 +129,4 @@ TEST(BaseModel, TheRatioIsTheNullOfItsDetuning) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::base_model_test

@@ -16,7 +16,7 @@
 #include "model/loop/instrument.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::bootstrap_test {
 namespace {
 
 double Rms(const Eigen::VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
@@ -173,4 +173,4 @@ TEST(FitMemory, AKeyThatComesTwiceIsAProgrammersMistake) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::bootstrap_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace howl {
+namespace howl::calibration_test {
 namespace {
 
 Diagnosis Sure(VerdictKind kind, double none, double unknown,
@@ -53,4 +53,4 @@ TEST(Calibration, NoVerdictIsCertain) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::calibration_test

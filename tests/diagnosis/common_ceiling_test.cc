@@ -5,7 +5,7 @@
 
 #include "model/noise/random_stream.h"
 
-namespace howl {
+namespace howl::common_ceiling_test {
 namespace {
 
 constexpr std::size_t kBands = 60;  // of p, then of q
@@ -55,4 +55,4 @@ TEST(CommonCeiling, IsThatOfTheStructureWhoseFreeTransfersLeaveLeast) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::common_ceiling_test

@@ -15,7 +15,7 @@
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::cut_bias_test {
 namespace {
 
 std::vector<DiagnosisExperiment> NoisyRig(std::uint64_t seed) {
@@ -87,4 +87,4 @@ TEST(Clipping, RepeatedExtremesAreSeenHoweverFewAreCutOff) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::cut_bias_test

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -14,13 +13,12 @@
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
 #include "model/effects/catalogue.h"
+#include "model/numerics/constants.h"
 #include "tests/diagnosis/declare.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::declared_effect_test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 EffectPointer Make(EffectDeclaration declaration) {
   return std::make_shared<DeclaredEffect>(std::move(declaration));
@@ -143,4 +141,4 @@ TEST(DeclaredEffects, NamesALineByItsPlace) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::declared_effect_test

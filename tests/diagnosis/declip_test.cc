@@ -15,7 +15,7 @@
 #include "diagnosis/samples/sample_limits.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::declip_test {
 namespace {
 
 constexpr double kPressureNoise = 0.02;  // of TestRig, in every sample
@@ -207,4 +207,4 @@ TEST(LongDiagnose, WhatIsNotInTheCatalogueIsUnknownGivenClippedPressure) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::declip_test

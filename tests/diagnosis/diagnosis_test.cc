@@ -12,7 +12,7 @@
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::diagnosis_test {
 namespace {
 
 const std::vector<DiagnosisExperiment>& CleanRig() {
@@ -169,4 +169,4 @@ TEST(LongDiagnose, TellsHumInPFromATone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::diagnosis_test

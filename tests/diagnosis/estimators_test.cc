@@ -15,7 +15,7 @@
 #include "diagnosis/records/cut_record.h"
 #include "estimation/record_fit/spectra/flame_basis.h"
 
-namespace howl {
+namespace howl::estimators_test {
 namespace {
 
 Eigen::VectorXcd Noise(const Eigen::VectorXd& variance, unsigned seed) {
@@ -147,4 +147,4 @@ TEST(NoiseFit, ALineDoesNotRaiseTheNoise) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::estimators_test

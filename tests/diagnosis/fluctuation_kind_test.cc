@@ -6,7 +6,7 @@
 
 #include "model/noise/random_stream.h"
 
-namespace howl {
+namespace howl::fluctuation_kind_test {
 namespace {
 
 constexpr int kExperiments = 4;
@@ -102,4 +102,4 @@ TEST(FluctuationKind, TheProcessOfFirstOrderIsUnbiased) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::fluctuation_kind_test

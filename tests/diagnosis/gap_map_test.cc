@@ -11,7 +11,7 @@
 #include "model/noise/random_stream.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::gap_map_test {
 namespace {
 
 constexpr double kWindowSquare = 70.0 / 256.0;
@@ -92,4 +92,4 @@ TEST(GapMap, FindsTheBandAndTheExperimentThatAreWrong) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::gap_map_test

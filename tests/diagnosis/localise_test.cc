@@ -15,7 +15,7 @@
 #include "diagnosis/localise/place.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::localise_test {
 namespace {
 
 std::vector<BlockSlack> LocaliseRig(const std::vector<DiagnosisExperiment>& experiments) {
@@ -115,4 +115,4 @@ TEST(FreeFactor, ClosedForm) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::localise_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace howl {
+namespace howl::octave_gaps_test {
 namespace {
 
 // Bands of p at 50, 90, 110 and 200 Hz, of q the same; errors over ceilings of one.
@@ -41,4 +41,4 @@ TEST(OctaveGaps, AreThoseOfTheirBands) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::octave_gaps_test

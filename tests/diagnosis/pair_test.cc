@@ -17,7 +17,7 @@
 #include "model/effects/combined.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::pair_test {
 namespace {
 
 EffectPointer Find(std::string_view id) {
@@ -317,4 +317,4 @@ TEST(FlameCut, JacobianAgreesWithCentralDifferences) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::pair_test

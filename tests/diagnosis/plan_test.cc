@@ -18,7 +18,7 @@
 #include "model/effects/declared_effect.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::plan_test {
 namespace {
 
 EffectPointer Named(const std::string& id) {
@@ -233,4 +233,4 @@ TEST(Plan, IsTheSameForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::plan_test

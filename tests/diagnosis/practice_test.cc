@@ -9,7 +9,7 @@
 
 #include "diagnosis/diagnosis.h"
 
-namespace howl {
+namespace howl::practice_test {
 namespace {
 
 std::string CaseName(int number) {
@@ -109,4 +109,4 @@ TEST(Practice, DISABLED_AllCases) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::practice_test

@@ -18,7 +18,7 @@
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::reference_test {
 namespace {
 
 // The fits that take longest, and are beside the point here.
@@ -205,4 +205,4 @@ TEST(LongReference, NamesKnownEffectsInMeasuredRecords) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::reference_test

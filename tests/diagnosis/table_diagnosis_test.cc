@@ -11,7 +11,7 @@
 #include "model/loop/loop.h"
 #include "model/numerics/units.h"
 
-namespace howl {
+namespace howl::table_diagnosis_test {
 namespace {
 
 Experiment Row(const char* name, double f, double phase_deg, double gain) {
@@ -128,4 +128,4 @@ TEST(TableDiagnosis, OneModeInClosedForm) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::table_diagnosis_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace howl {
+namespace howl::verdict_test {
 namespace {
 
 TEST(Verdict, FollowsTheEvidence) {
@@ -59,4 +59,4 @@ TEST(Verdict, WhatNoiseReachesIsNoDetection) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::verdict_test

@@ -5,7 +5,7 @@
 
 #include "tests/estimation/fit_rows.h"
 
-namespace howl {
+namespace howl::fit_intervals_test {
 namespace {
 
 // Twenty draws of the noise for each rig. With the level of q's noise a doubt of every point by
@@ -13,10 +13,10 @@ namespace {
 TEST(LongFitIntervals, HoldTheTruthOfSimulatedRigs) {
   constexpr int kDraws = 20;
   int count = 0, covered = 0;
-  for (const testing::StudiedRig& rig : testing::StudiedRigs()) {
-    const testing::FitStudy study = testing::StudyFits(rig, kDraws, 5, 0.001, 0.001);
+  for (const fixtures::StudiedRig& rig : fixtures::StudiedRigs()) {
+    const fixtures::FitStudy study = fixtures::StudyFits(rig, kDraws, 5, 0.001, 0.001);
     EXPECT_EQ(study.not_converged, 0) << rig.name;
-    const testing::FitScore all = testing::FitStudy::All(study.fit);
+    const fixtures::FitScore all = fixtures::FitStudy::All(study.fit);
     count += all.count;
     covered += all.covered;
     // The truth's square distance over its degrees of freedom is one on average, and no true model
@@ -71,4 +71,4 @@ TEST(FitIntervals, DoubtOfTheNoiseFloorDoesNotAverageOut) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::fit_intervals_test

@@ -23,7 +23,7 @@
 #include "model/simulation/cycle_scale.h"
 #include "model/simulation/simulate.h"
 
-namespace howl::testing {
+namespace howl::fixtures {
 
 struct StudiedRig {
   const char* name;
@@ -225,6 +225,6 @@ inline FitStudy StudyFits(const StudiedRig& rig, int draws, std::uint64_t seed, 
   return study;
 }
 
-}  // namespace howl::testing
+}  // namespace howl::fixtures
 
 #endif  // HOWL_TESTS_ESTIMATION_FIT_ROWS_H_

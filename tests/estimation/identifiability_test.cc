@@ -8,7 +8,7 @@
 #include <Eigen/SVD>
 #include <random>
 
-namespace howl {
+namespace howl::identifiability_test {
 namespace {
 
 constexpr int kOwn = 3;     // parameters of an experiment
@@ -177,4 +177,4 @@ TEST(Identifiability, AParameterThatNoResidualTouchesIsFree) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::identifiability_test

@@ -7,17 +7,15 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/problem/membership.h"
+#include "model/numerics/constants.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::joint_fit_test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 ResidualSet WithoutPriors() {
   ResidualSet residuals = DefaultResidualSet();
@@ -317,4 +315,4 @@ TEST(JointFit, RecoversDrawnParameters) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::joint_fit_test

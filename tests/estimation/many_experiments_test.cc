@@ -11,7 +11,7 @@
 #include "estimation/fit/joint_fit.h"
 #include "tests/known_loops.h"
 
-namespace howl {
+namespace howl::many_experiments_test {
 namespace {
 
 JointFit Fit(const std::vector<Experiment>& experiments,
@@ -136,4 +136,4 @@ TEST(ManyExperiments, TwoAndSixtyHaveAFitAndAFamily) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::many_experiments_test

@@ -10,7 +10,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::mode_branch_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
@@ -96,4 +96,4 @@ TEST(LoopCrossings, LieWhereTheLoopIsRealAndNegative) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::mode_branch_test

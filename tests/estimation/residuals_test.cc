@@ -7,7 +7,6 @@
 #include <cmath>
 #include <complex>
 #include <map>
-#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -15,12 +14,12 @@
 
 #include "estimation/fit/joint_problem.h"
 #include "estimation/residuals/registry.h"
+#include "model/numerics/constants.h"
 #include "tests/residual_jacobian.h"
 
-namespace howl {
+namespace howl::residuals_test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kRandomPoints = 100;
 
 double Draw(std::mt19937_64& generator, double lo, double hi) {
@@ -412,4 +411,4 @@ TEST(Residuals, TransferIsTheWhitenedDifferenceAndItsNoiseHasAPrior) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::residuals_test

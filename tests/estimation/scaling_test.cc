@@ -14,7 +14,7 @@
 #include "tests/estimation/analysis/synthetic_record.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::scaling_test {
 namespace {
 
 struct Units {
@@ -208,12 +208,12 @@ void ExpectSame(const Estimate& got, const Estimate& expected, double unit, cons
 }
 
 TEST(Scaling, AnalysisOfARecord) {
-  testing::SyntheticOptions options;
+  fixtures::SyntheticOptions options;
   options.loop_gain = 1.4;
   options.diffusion_rad2_per_s = 0.5;
   options.breathing = 0.05;
   options.line_ratio = 3.45;
-  const Record record = testing::Synthesise(options, 7).record;
+  const Record record = fixtures::Synthesise(options, 7).record;
   AnalysisOptions analysis;
   analysis.model = TwoModes();
   const auto analyse = [&](const Units& u) {
@@ -262,4 +262,4 @@ TEST(Scaling, AnalysisOfARecord) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::scaling_test

@@ -6,7 +6,7 @@
 
 #include "tests/faults/faults.h"
 
-namespace howl {
+namespace howl::bomb_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -186,4 +186,4 @@ TEST_F(Bomb, OfHdf5) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::bomb_test

@@ -9,7 +9,7 @@
 
 #include "tests/faults/faults.h"
 
-namespace howl {
+namespace howl::cut_record_test {
 namespace {
 
 using testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST_F(CutRecord, AFileThatChangesWhileItIsRead) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::cut_record_test

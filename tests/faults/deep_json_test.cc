@@ -9,7 +9,7 @@
 #include "io/user_error.h"
 #include "tests/faults/faults.h"
 
-namespace howl {
+namespace howl::deep_json_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -42,4 +42,4 @@ TEST_F(DeepResults, AreRefused) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::deep_json_test

@@ -4,7 +4,7 @@
 
 #include "tests/faults/faults.h"
 
-namespace howl {
+namespace howl::full_disk_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST_F(FullDisk, AFileThatMayNotGrow) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::full_disk_test

@@ -4,7 +4,7 @@
 
 #include "tests/faults/faults.h"
 
-namespace howl {
+namespace howl::hostile_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -121,4 +121,4 @@ TEST_F(Hostile, AVariableOfTheEnvironmentIsReadWhereTheConfigNamesAFileAlone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::hostile_test

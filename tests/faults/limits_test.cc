@@ -1,7 +1,7 @@
 // Little memory, few descriptors, another language's numbers: an answer that is right, or one line.
 #include "tests/faults/faults.h"
 
-namespace howl {
+namespace howl::limits_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST_F(Limits, OtherLocales) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::limits_test

@@ -5,7 +5,7 @@
 
 #include "tests/faults/faults.h"
 
-namespace howl {
+namespace howl::output_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ TEST_F(OutputFolder, ThatVanishesIsMadeAgain) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::output_folder_test

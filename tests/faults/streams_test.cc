@@ -1,7 +1,7 @@
 // Standard streams that are closed, full, or read by nobody.
 #include "tests/faults/faults.h"
 
-namespace howl {
+namespace howl::streams_test {
 namespace {
 
 class Streams : public Faults {
@@ -43,4 +43,4 @@ TEST_F(Streams, AReaderThatHasGone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::streams_test

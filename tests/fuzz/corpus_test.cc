@@ -10,7 +10,7 @@
 
 #include "tests/fuzz/target.h"
 
-namespace howl {
+namespace howl::corpus_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,4 +52,4 @@ INSTANTIATE_TEST_SUITE_P(Fuzz, Corpus, testing::ValuesIn(AllTargets()),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::corpus_test

@@ -4,7 +4,7 @@
 #include "io/report/figures/catalogue.h"
 #include "io/results/diagnosis_json.h"
 
-namespace howl {
+namespace howl::budget_output_test {
 namespace {
 
 Diagnosis Example() {
@@ -88,4 +88,4 @@ TEST(BudgetOutput, TheFigureHasARowForEachItemAndForWhatIsLeft) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::budget_output_test

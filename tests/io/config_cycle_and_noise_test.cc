@@ -7,7 +7,7 @@
 #include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::config_cycle_and_noise_test {
 namespace {
 
 using testing::AllOf;
@@ -104,4 +104,4 @@ TEST(ConfigNoise, Mistakes) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::config_cycle_and_noise_test

@@ -14,7 +14,7 @@
 #include "io/config/sections/config_sections.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::config_defaults_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -224,4 +224,4 @@ TEST(NearestKey, OfCandidatesThatShareAStemTheFewestEditsWin) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::config_defaults_test

@@ -8,7 +8,7 @@
 #include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::config_effects_test {
 namespace {
 
 const std::string kExperiments =
@@ -154,4 +154,4 @@ TEST(ConfigEffects, MistakesInParameters) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::config_effects_test

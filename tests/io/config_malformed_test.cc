@@ -8,7 +8,7 @@
 #include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::config_malformed_test {
 namespace {
 
 using testing::HasSubstr;
@@ -335,4 +335,4 @@ TEST(MissingConfig, IsNamedWithoutALine) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::config_malformed_test

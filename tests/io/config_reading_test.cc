@@ -6,7 +6,7 @@
 #include "io/records/record_faults.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::config_reading_test {
 namespace {
 
 using testing::ElementsAre;
@@ -124,4 +124,4 @@ TEST(RecordReading, EachFaultOfARecordIsTold) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::config_reading_test

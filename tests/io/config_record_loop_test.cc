@@ -8,7 +8,7 @@
 #include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::config_record_loop_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -119,4 +119,4 @@ TEST(ConfigRecordLoop, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::config_record_loop_test

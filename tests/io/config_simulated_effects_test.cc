@@ -9,7 +9,7 @@
 #include "model/effects/catalogue.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::config_simulated_effects_test {
 namespace {
 
 using testing::AllOf;
@@ -81,4 +81,4 @@ TEST(ConfigSimulatedEffects, MistakesNameTheNearest) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::config_simulated_effects_test

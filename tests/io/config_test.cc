@@ -11,7 +11,7 @@
 #include "io/config/reading/config_reading.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::config_test {
 namespace {
 
 using testing::ElementsAre;
@@ -304,4 +304,4 @@ TEST(Config, TwoThousandExperiments) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::config_test

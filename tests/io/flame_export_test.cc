@@ -7,15 +7,14 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <sstream>
 
+#include "model/numerics/constants.h"
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::flame_export_test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Number = std::complex<double>;
 
 constexpr double kSlope = -6.5e-5, kSaturation = 20.0, kTau = 3.4e-3;
@@ -148,4 +147,4 @@ TEST(FlameExport, TheTablesAreTheModelInNaturalUnits) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::flame_export_test

@@ -11,7 +11,7 @@
 #include "io/records/columns/number_text.h"
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::inspect_test {
 namespace {
 
 TEST(Inspect, NamesOfColumns) {
@@ -219,4 +219,4 @@ TEST(Inspect, MeasuredRecordsComeOutRight) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::inspect_test

@@ -8,7 +8,7 @@
 #include "tests/io/config_file.h"
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::known_instruments_test {
 namespace {
 
 using testing::HasSubstr;
@@ -189,4 +189,4 @@ TEST(KnownInstrumentsMistakes, OfHeatReleaseWithoutItsColumn) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::known_instruments_test

@@ -9,7 +9,7 @@
 #include "io/results/family/family_csv.h"
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::operating_parameter_test {
 namespace {
 
 AnalysisSet OnePoint() {
@@ -57,4 +57,4 @@ TEST(OperatingParameter, AFamilyIsReadWithAndWithoutIt) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::operating_parameter_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-namespace howl {
+namespace howl::parse_number_test {
 namespace {
 
 std::optional<double> Fast(const std::string& text) {
@@ -119,4 +119,4 @@ TEST(ParseNumber, RefusesWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::parse_number_test

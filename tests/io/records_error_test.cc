@@ -8,7 +8,7 @@
 
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::records_error_test {
 namespace {
 
 constexpr int kSamples = 10000;
@@ -382,4 +382,4 @@ TEST_F(ArrayErrors, Hdf5) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::records_error_test

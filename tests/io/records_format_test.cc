@@ -3,7 +3,7 @@
 
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::records_format_test {
 namespace {
 
 constexpr std::size_t kSamples = 400;
@@ -302,4 +302,4 @@ TEST_F(Formats, WriterLeavesNothingHalfDone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::records_format_test

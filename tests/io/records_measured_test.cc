@@ -3,7 +3,7 @@
 
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::records_measured_test {
 namespace {
 
 class Measured : public testing::Test {
@@ -49,4 +49,4 @@ TEST_F(Measured, RijkeTube) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::records_measured_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace howl {
+namespace howl::spelled_interval_test {
 namespace {
 
 // The half width is given; 1.96 standard deviations of the normal distribution.
@@ -36,4 +36,4 @@ TEST(SpelledInterval, WithoutAnErrorTheValueAlone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::spelled_interval_test

@@ -9,7 +9,7 @@
 #include "io/records/columns/number_text.h"
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::text_formats_test {
 namespace {
 
 constexpr std::size_t kRows = 400;
@@ -330,4 +330,4 @@ TEST(TextFormats, SkippingMoreThanThereIsIsSaid) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::text_formats_test

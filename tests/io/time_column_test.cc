@@ -4,7 +4,7 @@
 
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::time_column_test {
 namespace {
 
 // p at 10 kHz beside times printed by `format` from `epoch`; `time_of` may bend them.
@@ -127,4 +127,4 @@ TEST(TimeResolution, OfDecimalAndSinglePrecisionTimes) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::time_column_test

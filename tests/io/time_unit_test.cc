@@ -5,7 +5,7 @@
 
 #include "tests/io/record_files.h"
 
-namespace howl {
+namespace howl::time_unit_test {
 namespace {
 
 TEST(TimeUnit, NamesEndWithTheirUnit) {
@@ -84,4 +84,4 @@ TEST_F(TimeUnits, AFaultIsToldInSeconds) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::time_unit_test

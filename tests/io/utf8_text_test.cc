@@ -8,7 +8,7 @@
 #include "io/user_error.h"
 #include "tests/io/config_file.h"
 
-namespace howl {
+namespace howl::utf8_text_test {
 namespace {
 
 using testing::HasSubstr;
@@ -65,4 +65,4 @@ TEST(Utf8Text, AConfigWithHalfACharacterIsRefused) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::utf8_text_test

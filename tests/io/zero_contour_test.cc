@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace howl {
+namespace howl::zero_contour_test {
 namespace {
 
 std::vector<double> Grid(double from, double to, int steps) {
@@ -51,4 +51,4 @@ TEST(ZeroContour, WhatIsNotKnownHasNoLineAndASaddleHasTwo) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::zero_contour_test

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -16,12 +15,12 @@
 #include "model/cycles/harmonic_balance.h"
 #include "model/loop/crossings.h"
 #include "model/loop/poles.h"
+#include "model/numerics/constants.h"
 #include "model/simulation/simulate.h"
 
-namespace howl {
+namespace howl::agreement_test {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr int kRigs = 200;
 constexpr double kRateHz = 40000.0;
 using Complex64 = std::complex<double>;
@@ -254,4 +253,4 @@ TEST(Agreement, SimulatedCyclesAreThoseOfHarmonicBalanceWithItsFloquetVerdict) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::agreement_test

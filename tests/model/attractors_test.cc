@@ -3,19 +3,17 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <vector>
 
 #include "model/cycles/floquet.h"
 #include "model/cycles/harmonic_balance.h"
+#include "model/numerics/constants.h"
 #include "model/simulation/ramp.h"
 #include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::attractors_test {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // Amplitude of the line at f in the Hann-windowed span [begin, begin + n).
 double LineAmplitude(const SimulatedRecord& record, std::size_t begin, std::size_t n, double f) {
@@ -155,4 +153,4 @@ TEST(Attractors, SweepsUpAndDownSwitchAtDifferentPlaces) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::attractors_test

@@ -12,7 +12,7 @@
 #include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::continuation_test {
 namespace {
 
 int Count(const Branch& branch, BifurcationKind kind) {
@@ -165,4 +165,4 @@ TEST(Continuation, ThroughTheDelay) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::continuation_test

@@ -13,7 +13,7 @@
 #include "model/noise/random_stream.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::crossings_test {
 namespace {
 
 LoopParameters<double> RandomLoop(std::uint64_t index) {
@@ -135,4 +135,4 @@ TEST(Sensitivity, AgreesWithDifferences) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::crossings_test

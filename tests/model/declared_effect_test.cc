@@ -5,12 +5,11 @@
 
 #include <cmath>
 #include <complex>
-#include <limits>
 
-namespace howl {
+#include "model/numerics/constants.h"
+
+namespace howl::declared_effect_test {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 EffectDeclaration Declare(LoopPlace place, DeclaredForm form, const std::string& formula,
                           std::vector<EffectParameter> parameters) {
@@ -125,4 +124,4 @@ TEST(DeclaredFormula, NamesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::declared_effect_test

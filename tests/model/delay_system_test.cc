@@ -9,7 +9,7 @@
 
 #include "model/delay_systems/hopf_point.h"
 
-namespace howl {
+namespace howl::delay_system_test {
 namespace {
 
 // x'(t) = -lambda x(t - 1)
@@ -191,4 +191,4 @@ TEST_F(RijkeCycle, OutlivesTheHopfPointDownToAFold) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::delay_system_test

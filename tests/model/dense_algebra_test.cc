@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-namespace howl {
+namespace howl::dense_algebra_test {
 namespace {
 
 Eigen::MatrixXd Hilbert(Eigen::Index rows, Eigen::Index columns) {
@@ -92,4 +92,4 @@ TEST(OrthonormalColumns, SpanTheSame) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::dense_algebra_test

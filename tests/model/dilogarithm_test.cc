@@ -7,7 +7,9 @@
 #include <complex>
 #include <numbers>
 
-namespace howl {
+#include "model/numerics/constants.h"
+
+namespace howl::dilogarithm_test {
 namespace {
 
 using C = std::complex<double>;
@@ -28,11 +30,10 @@ TEST(Dilogarithm, IsTheSumOfItsSeries) {
 }
 
 TEST(Dilogarithm, HasTheValuesInClosedForm) {
-  constexpr double kPi = std::numbers::pi;
   EXPECT_NEAR(Dilogarithm(0.5).real(), kPi * kPi / 12.0 - 0.5 * std::pow(std::numbers::ln2, 2),
               1e-11);
   EXPECT_NEAR(Dilogarithm(-1.0).real(), -kPi * kPi / 12.0, 1e-11);
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::dilogarithm_test

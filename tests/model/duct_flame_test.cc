@@ -4,14 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "model/delay_systems/hopf_point.h"
+#include "model/numerics/constants.h"
 
-namespace howl {
+namespace howl::duct_flame_test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // One mode of 200 Hz; a flame with a falling slope of one.
 DuctFlame OneMode(FlameDrive drive) {
@@ -109,4 +107,4 @@ TEST(DuctFlame, RijkeTubeHasThePublishedHopfPointAndPeriod) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::duct_flame_test

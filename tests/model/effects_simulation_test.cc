@@ -15,7 +15,7 @@
 #include "model/effects/catalogue.h"
 #include "model/simulation/simulate.h"
 
-namespace howl {
+namespace howl::effects_simulation_test {
 namespace {
 
 constexpr double kTone_hz = 250.0;
@@ -415,4 +415,4 @@ TEST(EffectsInTime, NothingBurnsBeforeItIsFed) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::effects_simulation_test

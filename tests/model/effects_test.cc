@@ -9,7 +9,7 @@
 
 #include "model/effects/catalogue.h"
 
-namespace howl {
+namespace howl::effects_test {
 namespace {
 
 constexpr Acoustics<double> kAcoustics{213.7, 0.17, 6609.0, 1900.0, 3.0};
@@ -137,4 +137,4 @@ TEST(Effects, ModePeaksWhereItIsPut) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::effects_test

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <limits>
 
-namespace howl {
+namespace howl::fast_tanh_test {
 namespace {
 
 TEST(FastTanh, WithinThreeUnitsInTheLastPlace) {
@@ -42,4 +42,4 @@ TEST(FastTanh, Limits) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::fast_tanh_test

@@ -9,7 +9,7 @@
 
 #include "model/numerics/smooth_length.h"
 
-namespace howl {
+namespace howl::fft_test {
 namespace {
 
 using Spectrum = std::vector<std::complex<double>>;
@@ -72,4 +72,4 @@ TEST(FftDeathTest, SpectraHaveTheirLength) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::fft_test

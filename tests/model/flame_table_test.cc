@@ -10,7 +10,7 @@
 #include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::flame_table_test {
 namespace {
 
 TEST(FlameTable, PassesThroughItsPointsAndNeverOvershoots) {
@@ -72,4 +72,4 @@ TEST(FlameTable, HasTheCycleOfItsShape) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::flame_table_test

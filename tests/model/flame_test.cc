@@ -8,10 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-namespace howl {
+#include "model/numerics/constants.h"
+
+namespace howl::flame_test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr FlameShape kSaturating[] = {FlameShape::kTanh, FlameShape::kArctan, FlameShape::kCubic,
                                       FlameShape::kPiecewiseLinear, FlameShape::kAlgebraic};
 
@@ -124,4 +125,4 @@ TEST(Flame, OffsetMovesTheCurve) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::flame_test

@@ -4,19 +4,18 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include "model/cycles/floquet.h"
 #include "model/cycles/prediction.h"
 #include "model/loop/crossings.h"
+#include "model/numerics/constants.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::harmonic_balance_test {
 namespace {
 
 using Complex64 = std::complex<double>;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // The loop's two halves, each from its own header: V_k = L_k Q_k by the response at real
 // frequencies, Q_k by quadrature of Phi(v(t)) on a grid of its own.
@@ -120,4 +119,4 @@ TEST(Floquet, SmallCycleRelaxesAtTwiceItsExcessGrowth) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::harmonic_balance_test

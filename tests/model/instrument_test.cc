@@ -12,17 +12,17 @@
 #include "model/cycles/harmonic_balance.h"
 #include "model/cycles/prediction.h"
 #include "model/loop/crossings.h"
+#include "model/numerics/constants.h"
 #include "model/simulation/decimate.h"
 #include "model/simulation/ramp.h"
 #include "model/simulation/simulate.h"
 #include "tests/model/density.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::instrument_test {
 namespace {
 
 using Complex64 = std::complex<double>;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // Response at f from the last whole periods of the answer to a cosine.
 Complex64 MeasuredResponse(Instrument& instrument, double f, double rate_hz) {
@@ -258,4 +258,4 @@ TEST(Ramp, EndsOnTheCycleOfItsLastParameters) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::instrument_test

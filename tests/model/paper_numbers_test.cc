@@ -9,7 +9,7 @@
 #include "model/loop/sensitivity.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::paper_numbers_test {
 namespace {
 
 constexpr double kMOverN = 0.415;  // figures 12 and 13 fix it only through the second crossing
@@ -111,4 +111,4 @@ TEST(PaperNumbers, SecondCrossingIsSetByTheDelay) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::paper_numbers_test

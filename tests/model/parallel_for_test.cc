@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace howl {
+namespace howl::parallel_for_test {
 namespace {
 
 constexpr std::size_t kUnits = 200;
@@ -38,4 +38,4 @@ TEST(ParallelFor, UnitsRunUnitsOfTheirOwnOnTheCallersThreads) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::parallel_for_test

@@ -6,17 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include "model/cycles/floquet.h"
+#include "model/numerics/constants.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::poles_test {
 namespace {
 
 using Complex64 = std::complex<double>;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // 1 = k lambda^2 (N / D_1 + M / D_2) e^(-lambda tau): two real equations, linear in N and M.
 LoopParameters<double> LoopWithPole(Complex64 lambda, double tau_s, double slope) {
@@ -149,4 +148,4 @@ TEST(Floquet, OfALinearFlameAreTheExponentialsOfThePoles) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::poles_test

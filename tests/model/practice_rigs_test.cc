@@ -7,17 +7,16 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "model/cycles/harmonic_balance.h"
 #include "model/loop/crossings.h"
+#include "model/numerics/constants.h"
 
-namespace howl {
+namespace howl::practice_rigs_test {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSamplingHz = 5000.0;
 
 struct Recording {
@@ -113,4 +112,4 @@ TEST(PracticeRigs, CrossingsAndCyclesOfTheNulls) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::practice_rigs_test

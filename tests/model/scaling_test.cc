@@ -19,7 +19,7 @@
 #include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::scaling_test {
 namespace {
 
 struct Units {
@@ -154,4 +154,4 @@ TEST(Scaling, SimulationBitForBit) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::scaling_test

@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "rig/constants.h"
 #include "rig/delay_line.h"
 #include "rig/filters.h"
 
-namespace rig {
+namespace rig::duct_test {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 TEST(Duct, HasTheResponseOfTwoModes) {
   for (const double xi : {0.02, 0.06, 0.12, 0.2}) {
@@ -136,4 +134,4 @@ TEST(Filters, HaveTheirClosedForms) {
 }
 
 }  // namespace
-}  // namespace rig
+}  // namespace rig::duct_test

@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "rig/constants.h"
 #include "tests/rig/two_point_rig.h"
 
-namespace rig {
+namespace rig::effects_test {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 TEST(Effects, AtTheirNullsAreTheBase) {
   const std::vector<std::pair<std::string, Parameters>> nulls = {
@@ -229,4 +227,4 @@ TEST(Rig, ConfigSaysNothingOfTheEffect) {
 }
 
 }  // namespace
-}  // namespace rig
+}  // namespace rig::effects_test

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "rig/constants.h"
 #include "tests/rig/two_point_rig.h"
 
-namespace rig {
+namespace rig::loop_test {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // 1 = k s G(s) e^(-tau s), by Newton's method with a secant's slope.
 Complex ClosedLoopPole(const Duct& duct, const Point& point) {
@@ -141,4 +139,4 @@ TEST(Loop, MatchesTheConfigsTable) {
 }
 
 }  // namespace
-}  // namespace rig
+}  // namespace rig::loop_test

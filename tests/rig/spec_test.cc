@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace rig {
+namespace rig::spec_test {
 namespace {
 
 using ::testing::EndsWith;
@@ -84,4 +84,4 @@ TEST_F(SpecFile, NamesTheMistakesPlace) {
 }
 
 }  // namespace
-}  // namespace rig
+}  // namespace rig::spec_test

@@ -9,7 +9,7 @@
 #include "trial/case_plan.h"
 #include "trial/score.h"
 
-namespace howl {
+namespace howl::trial_test {
 namespace {
 
 std::vector<RigEffect> ThreeEffects() {
@@ -241,4 +241,4 @@ TEST(Power, FindsTheKnownThreshold) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::trial_test

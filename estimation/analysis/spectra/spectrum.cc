@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "model/numerics/constants.h"
 #include "model/numerics/fft.h"
 
 namespace howl {
 namespace {
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 int Hop(int segment) { return std::max(segment / 4, 1); }
 

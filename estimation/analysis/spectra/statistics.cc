@@ -11,15 +11,13 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <vector>
 
+#include "model/numerics/constants.h"
 #include "model/numerics/dense_algebra.h"
 
 namespace howl {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Mean of 1 + 2 c cos(pi j / n) over the K cosines, against its value at zero frequency.
 double OverlapCorrection(int n, int count, double c) {

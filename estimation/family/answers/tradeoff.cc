@@ -75,14 +75,14 @@ LocalLeast LeastXiLocally(FamilyProblem problem, const std::vector<Member>& star
 // Members from which local searches start, with the largest spread that is asked for.
 std::vector<Member> LocalStarts(const FamilyProblem& problem, double omega_spread,
                                 std::uint64_t seed) {
-  constexpr std::size_t kStarts = 6;
+  constexpr std::size_t kMembersBegunWith = 6;
   FamilyProblem wide = problem;
   wide.test.omega_spread_max = std::max(omega_spread, problem.test.omega_spread_max);
   if (problem.model.modes == 1 || !LocalSearch(wide).IsSupported()) return {};
-  std::vector<Member> starts = EnumerateMembers(wide, kStarts, seed, 1).members;
+  std::vector<Member> starts = EnumerateMembers(wide, kMembersBegunWith, seed, 1).members;
   if (starts.empty()) {
     wide.test.xi_max = std::numeric_limits<double>::infinity();
-    starts = EnumerateMembers(wide, kStarts, seed, 1).members;
+    starts = EnumerateMembers(wide, kMembersBegunWith, seed, 1).members;
   }
   return starts;
 }

@@ -7,6 +7,7 @@
 
 #include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/problem/transfer_limit.h"
+#include "model/numerics/constants.h"
 #include "model/numerics/units.h"
 
 namespace howl {
@@ -88,7 +89,6 @@ bool HasRoom(const LocalScale& scale) {
 // One coordinate for all experiments: from where the first of their loop phase errors is half a
 // turn to where the last is. Its unit moves the loop phase by about its tolerance.
 void ShareTheDelay(LocalCoordinates& c) {
-  constexpr double kPi = std::numbers::pi;
   const double n = static_cast<double>(c.targets.size());
   Range tau_s{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < c.targets.size(); ++i) {

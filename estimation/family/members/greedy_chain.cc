@@ -6,10 +6,11 @@
 #include <optional>
 #include <span>
 
+#include "model/numerics/constants.h"
+
 namespace howl {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInside = 1e-9;     // of a tolerance: what is built at its edge passes
 constexpr double kLargestXi = 20.0;  // where the search for a least xi gives up
 constexpr double kFarOff = 4.0;      // of a frequency: where there is no solution to be off by

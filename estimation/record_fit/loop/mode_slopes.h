@@ -15,26 +15,26 @@ namespace howl {
 template <typename Take>
 void ForEachSlope(const PointStructure& structure, const LoopPoint& point, Eigen::Index k,
                   std::complex<double> s, const Take& take) {
-  using C = std::complex<double>;
+  using Value = std::complex<double>;
   const LoopMode& mode = point.modes[static_cast<std::size_t>(k)];
   const Eigen::Index dampings = structure.Frequencies();
   const Eigen::Index residues = dampings + structure.Dampings();
   const Eigen::Index transients = structure.Transfer();
   const double omega = mode.omega;
-  const C damped = 2.0 * mode.xi * omega * s;
-  const C over = Reciprocal(Times(s, s) + damped + omega * omega);
-  const C r_over = Times(Times(mode.a * s + mode.b * omega, over), over);
-  const C t_over = Times(Times(mode.g * s + mode.h * omega, over), over);
-  const C by_omega = damped + 2.0 * omega * omega;
+  const Value damped = 2.0 * mode.xi * omega * s;
+  const Value over = Reciprocal(Times(s, s) + damped + omega * omega);
+  const Value r_over = Times(Times(mode.a * s + mode.b * omega, over), over);
+  const Value t_over = Times(Times(mode.g * s + mode.h * omega, over), over);
+  const Value by_omega = damped + 2.0 * omega * omega;
   take(structure.Frequency(k), mode.b * omega * over - Times(r_over, by_omega),
        mode.h * omega * over - Times(t_over, by_omega));
   take(dampings + structure.Damping(k), -Times(r_over, damped), -Times(t_over, damped));
-  const C by_rate = Times(s, over);
-  const C by_level = omega * over;
-  take(residues + k, by_rate, C(0.0));
-  if (structure.complex_residues) take(residues + structure.modes + k, by_level, C(0.0));
-  take(transients + k, C(0.0), by_rate);
-  take(transients + structure.modes + k, C(0.0), by_level);
+  const Value by_rate = Times(s, over);
+  const Value by_level = omega * over;
+  take(residues + k, by_rate, Value(0.0));
+  if (structure.complex_residues) take(residues + structure.modes + k, by_level, Value(0.0));
+  take(transients + k, Value(0.0), by_rate);
+  take(transients + structure.modes + k, Value(0.0), by_level);
 }
 
 }  // namespace howl

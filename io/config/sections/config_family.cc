@@ -1,6 +1,6 @@
-#include <limits>
 
 #include "io/config/sections/config_sections.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
@@ -13,7 +13,6 @@ void ReadLimit(const ConfigCursor& test, const char* key, double off, double& li
 }
 
 void ReadTest(const ConfigCursor& cursor, MembershipTest& test) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   ReadLimit(cursor, "gain_tolerance", kInfinity, test.gain_tolerance);
   ReadLimit(cursor, "phase_tolerance_deg", kInfinity, test.phase_tolerance_deg);
   ReadLimit(cursor, "loop_phase_tolerance_deg", kInfinity, test.loop_phase_tolerance_deg);

@@ -7,7 +7,7 @@
 namespace howl {
 namespace {
 
-std::string Number(double value) {
+std::string BoundText(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.6g", value);
   return text.data();
@@ -24,15 +24,16 @@ void ReadParameter(const ConfigCursor& cursor, ParameterSpec& spec) {
   cursor.Read("fixed", spec.fixed);
   if (!(spec.min < spec.max)) {
     const char* const key = cursor.Find("min") ? "min" : "max";
-    cursor.FailAt(key, "min " + Number(spec.min) + (cursor.Find("min") ? "" : " (default)") +
-                           " is not below max " + Number(spec.max) +
+    cursor.FailAt(key, "min " + BoundText(spec.min) + (cursor.Find("min") ? "" : " (default)") +
+                           " is not below max " + BoundText(spec.max) +
                            (cursor.Find("max") ? "" : " (default)") + ", expected min < max");
   }
   if (spec.initial && !(*spec.initial >= spec.min && *spec.initial <= spec.max)) {
-    const std::string bounds = std::isinf(spec.max) ? "at least " + Number(spec.min) + " (min)"
-                                                    : "from " + Number(spec.min) + " to " +
-                                                          Number(spec.max) + " (min, max)";
-    cursor.FailAt("initial", Number(*spec.initial) + " is outside the bounds, expected " + bounds);
+    const std::string bounds = std::isinf(spec.max) ? "at least " + BoundText(spec.min) + " (min)"
+                                                    : "from " + BoundText(spec.min) + " to " +
+                                                          BoundText(spec.max) + " (min, max)";
+    cursor.FailAt("initial",
+                  BoundText(*spec.initial) + " is outside the bounds, expected " + bounds);
   }
   if (spec.fixed && !spec.initial) {
     cursor.FailAt("initial", "is missing, expected the value to hold, as fixed is true");

@@ -9,7 +9,7 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kLooked = 64;
-constexpr std::size_t kBlockBytes = std::size_t{1} << 16;
+constexpr std::size_t kDecodedBytes = std::size_t{1} << 16;
 
 enum class Encoding : std::uint8_t { kOther, kLittleEndian, kBigEndian };
 
@@ -77,9 +77,9 @@ class Utf16Bytes final : public ByteSource {
   void Convert() {
     ready_.erase(0, given_);
     given_ = 0;
-    std::string block(kBlockBytes, '\0');
+    std::string block(kDecodedBytes, '\0');
     block.resize(bytes_->Read(block.data(), block.size()));
-    at_end_ = block.size() < kBlockBytes;
+    at_end_ = block.size() < kDecodedBytes;
     if (block.size() % 2 != 0) throw ByteError("UTF-16 text that ends within a character");
     for (std::size_t i = 0; i < block.size(); i += 2) {
       const auto first = static_cast<unsigned char>(block[i]);

@@ -11,7 +11,7 @@
 namespace howl {
 namespace {
 
-constexpr int kGridPoints = 120;
+constexpr int kFrequencies = 120;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::optional<Figure> AllBodeFigure(const ReportInput& input) {
     low = std::min(low, point->frequency_hz.value);
     high = std::max(high, point->frequency_hz.value);
   }
-  const std::vector<double> grid = LinearGrid(0.6 * low, 1.5 * high, kGridPoints);
+  const std::vector<double> grid = LinearGrid(0.6 * low, 1.5 * high, kFrequencies);
   // In addition to the fit, the member whose omega varies least, by the paper's first qualitative
   // condition.
   std::optional<std::size_t> steady;

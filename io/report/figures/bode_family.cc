@@ -11,8 +11,8 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kDrawnMembers = 40;
-constexpr int kGridPoints = 140;
+constexpr std::size_t kResponsesDrawn = 40;
+constexpr int kFamilyFrequencies = 140;
 
 void AddCurve(CsvWriter& csv, const std::string& curve, const LoopModel& model,
               const std::vector<double>& grid) {
@@ -31,10 +31,10 @@ std::optional<Figure> FamilyBodeFigure(const ReportInput& input) {
   if (experiment < 0) return std::nullopt;
   const auto index = static_cast<std::size_t>(experiment);
   const double f = reference->frequency_hz.value;
-  std::vector<double> grid = LogarithmicGrid(f / 4.0, ShownFrequencyMax(f), kGridPoints);
+  std::vector<double> grid = LogarithmicGrid(f / 4.0, ShownFrequencyMax(f), kFamilyFrequencies);
   grid.insert(std::ranges::upper_bound(grid, f), f);  // where all members meet
   CsvWriter csv("curve,frequency_hz,gain,phase_deg");
-  const auto drawn = input.members->Thinned(kDrawnMembers);
+  const auto drawn = input.members->Thinned(kResponsesDrawn);
   for (const std::size_t member : drawn) {
     AddCurve(csv, "member " + std::to_string(member + 1), input.members->models[member][index],
              grid);

@@ -13,21 +13,21 @@
 namespace howl {
 namespace {
 
-struct Panel {
+struct QuantityPanel {
   const char* quantity;
   const char* label;
   double scale;
 };
 
 // The first four that the campaign has.
-constexpr Panel kPanels[] = {{"omega_hz", "ω (Hz)", 1.0},
-                             {"xi", "ξ", 1.0},
-                             {"tau_s", "τ (ms)", 1e3},
-                             {"loop_gain", "loop gain", 1.0},
-                             {"frequency_hz", "cycle (Hz)", 1.0},
-                             {"phase_deg", "q to p (deg)", 1.0},
-                             {"gain", "gain p/q", 1.0},
-                             {"loop_gain_measured", "loop gain", 1.0}};
+constexpr QuantityPanel kQuantityPanels[] = {{"omega_hz", "ω (Hz)", 1.0},
+                                             {"xi", "ξ", 1.0},
+                                             {"tau_s", "τ (ms)", 1e3},
+                                             {"loop_gain", "loop gain", 1.0},
+                                             {"frequency_hz", "cycle (Hz)", 1.0},
+                                             {"phase_deg", "q to p (deg)", 1.0},
+                                             {"gain", "gain p/q", 1.0},
+                                             {"loop_gain_measured", "loop gain", 1.0}};
 constexpr std::size_t kMostPanels = 4;
 
 struct Span {
@@ -63,7 +63,7 @@ std::map<std::string, Bars> BarsByQuantity(const CsvTable& points) {
   return bars;
 }
 
-void AddRows(const Panel& panel, const Bars& bars, CsvWriter& csv) {
+void AddRows(const QuantityPanel& panel, const Bars& bars, CsvWriter& csv) {
   for (const auto& [place, bar] : bars) {
     const auto scaled = [&](const Span& span, double end) {
       return span.IsEmpty() ? NAN : panel.scale * end;
@@ -76,7 +76,8 @@ void AddRows(const Panel& panel, const Bars& bars, CsvWriter& csv) {
   }
 }
 
-std::string BarPlot(const Panel& panel, int first_column, const char* colour, double width) {
+std::string BarPlot(const QuantityPanel& panel, int first_column, const char* colour,
+                    double width) {
   const std::string lo = std::to_string(first_column);
   const std::string hi = std::to_string(first_column + 1);
   return "data using (pick('" + std::string(panel.quantity) + "',2)):" + lo + ":(0):($" + hi +
@@ -89,10 +90,10 @@ std::string BarPlot(const Panel& panel, int first_column, const char* colour, do
 std::optional<Figure> CampaignQuantitiesFigure(const ReportInput& input) {
   if (!input.campaign_points) return std::nullopt;
   const std::map<std::string, Bars> bars = BarsByQuantity(*input.campaign_points);
-  std::vector<const Panel*> panels;
+  std::vector<const QuantityPanel*> panels;
   CsvWriter csv("curve,rig,outer_lo,outer_hi,value_lo,value_hi");
   std::size_t rigs = 0;
-  for (const Panel& panel : kPanels) {
+  for (const QuantityPanel& panel : kQuantityPanels) {
     const auto found = bars.find(panel.quantity);
     if (found == bars.end() || panels.size() == kMostPanels) continue;
     panels.push_back(&panel);
@@ -115,7 +116,7 @@ std::optional<Figure> CampaignQuantitiesFigure(const ReportInput& input) {
       .Line("unset key")
       .Line("set xrange [0.4:" + Number(static_cast<double>(rigs) + 0.6) + "]")
       .Line("set xlabel 'rig'");
-  for (const Panel* panel : panels) {
+  for (const QuantityPanel* panel : panels) {
     script.Line("set ylabel '" + std::string(panel->label) + "'")
         .Plot(BarPlot(*panel, 3, colour::kSky, width))
         .Plot(BarPlot(*panel, 5, colour::kBlue, 0.6 * width))

@@ -14,7 +14,7 @@
 namespace howl {
 namespace {
 
-constexpr int kMostPoints = 1200;
+constexpr int kMostSamples = 1200;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ std::optional<Figure> FlameScatterFigure(const ReportInput& input) {
   const FlameRegressor regressor(record, analysis.characteristics, tau.value, 1);
 
   CsvWriter csv("curve,delayed_derivative,q,q_std");
-  const int step = std::max(1, (regressor.last() - regressor.first()) / kMostPoints);
+  const int step = std::max(1, (regressor.last() - regressor.first()) / kMostSamples);
   for (int i = regressor.first(); i < regressor.last(); i += step) {
     csv.Cell("samples").Cell(regressor.Fundamental(i).real());
     csv.Cell(record.heat_release[static_cast<std::size_t>(i)]).Cell(NAN).EndRow();

@@ -13,7 +13,7 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kDrawnMembers = 12;
+constexpr std::size_t kCurvesDrawn = 12;
 constexpr double kMemberStepDeg = 4.0;
 constexpr double kMinGain = 0.05;  // crossings nearer to the origin are not named
 
@@ -53,7 +53,7 @@ std::optional<Figure> NyquistFigure(const ReportInput& input) {
   std::vector<std::size_t> drawn;
   const int experiment = input.members ? input.members->Experiment(reference->name) : -1;
   if (experiment >= 0) {
-    drawn = input.members->Thinned(kDrawnMembers);
+    drawn = input.members->Thinned(kCurvesDrawn);
     for (const std::size_t member : drawn) {
       add("member " + std::to_string(member + 1),
           input.members->models[member][static_cast<std::size_t>(experiment)], kMemberStepDeg);

@@ -10,8 +10,8 @@
 namespace howl {
 namespace {
 
-constexpr double kStep = 0.075;  // the paper's 185, 200 and 215 Hz
-constexpr int kGridPoints = 240;
+constexpr double kFrequencyStep = 0.075;  // the paper's 185, 200 and 215 Hz
+constexpr int kSensitivityFrequencies = 240;
 
 }  // namespace
 
@@ -20,10 +20,11 @@ std::optional<Figure> OmegaSensitivityFigure(const ReportInput& input) {
   if (reference == nullptr || input.Fitted(reference->name) == nullptr) return std::nullopt;
   const LoopModel base = input.Fitted(reference->name)->model;
   const double f = reference->frequency_hz.value;
-  const std::vector<double> grid = LinearGrid(0.25 * f, ShownFrequencyMax(f), kGridPoints);
+  const std::vector<double> grid =
+      LinearGrid(0.25 * f, ShownFrequencyMax(f), kSensitivityFrequencies);
   CsvWriter csv("curve,frequency_hz,gain_db,phase_deg");
   std::vector<std::string> names;
-  for (const double factor : {1.0 - kStep, 1.0, 1.0 + kStep}) {
+  for (const double factor : {1.0 - kFrequencyStep, 1.0, 1.0 + kFrequencyStep}) {
     LoopModel model = base;
     model.omega_hz *= factor;
     char name[32];

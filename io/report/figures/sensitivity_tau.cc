@@ -12,7 +12,7 @@
 namespace howl {
 namespace {
 
-constexpr double kStep = 0.03;  // the paper's 3.37, 3.47 and 3.57 ms
+constexpr double kDelayStep = 0.03;  // the paper's 3.37, 3.47 and 3.57 ms
 
 // The crossing above the fundamental with the largest gain.
 std::optional<PhaseCrossing> SecondCrossing(const LoopModel& model, double slope, double f) {
@@ -33,7 +33,7 @@ std::optional<Figure> DelaySensitivityFigure(const ReportInput& input) {
   const double max_hz = ShownFrequencyMax(f);
   CsvWriter csv("curve,frequency_hz,phase_deg");
   std::vector<std::string> names;
-  for (const double factor : {1.0 - kStep, 1.0, 1.0 + kStep}) {
+  for (const double factor : {1.0 - kDelayStep, 1.0, 1.0 + kDelayStep}) {
     char name[32];
     std::snprintf(name, sizeof name, "τ = %.3f ms", 1e3 * base.tau_s * factor);
     names.emplace_back(name);
@@ -60,7 +60,7 @@ std::optional<Figure> DelaySensitivityFigure(const ReportInput& input) {
         std::abs(sensitivity[LoopParameter::kOmega].phase_deg) * 0.01 * base.omega_hz,
         std::abs(sensitivity.CrossingShiftHz(LoopParameter::kOmega)) * 0.01 * base.omega_hz);
     figure.caption += text;
-    for (const double phase : {0.0, -360.0 * max_hz * base.tau_s * (1.0 + kStep)}) {
+    for (const double phase : {0.0, -360.0 * max_hz * base.tau_s * (1.0 + kDelayStep)}) {
       csv.Cell("second crossing").Cell(crossing->frequency_hz).Cell(phase).EndRow();
     }
   }

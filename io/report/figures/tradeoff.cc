@@ -12,7 +12,7 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kDrawnMembers = 800;
+constexpr std::size_t kPointsDrawn = 800;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::optional<Figure> TradeoffFigure(const ReportInput& input) {
     top = std::max(top, input.tradeoff->Number(row, "xi_max"));
   }
   if (input.members) {
-    for (const std::size_t member : input.members->Thinned(kDrawnMembers)) {
+    for (const std::size_t member : input.members->Thinned(kPointsDrawn)) {
       csv.Cell("members").Cell(100.0 * input.members->omega_spread[member]);
       csv.Cell(input.members->xi_max[member]).Cell(static_cast<double>(member + 1)).EndRow();
     }

@@ -13,8 +13,8 @@ namespace howl {
 namespace {
 
 constexpr std::size_t kColumns = 3;
-constexpr std::size_t kMostPoints = 150;
-constexpr int kGridPoints = 300;
+constexpr std::size_t kMostTransferPoints = 150;
+constexpr int kTransferFrequencies = 300;
 
 // Experiments that the figure has room for: spread evenly over the operating range.
 std::vector<std::string> Chosen(const std::vector<std::string>& names) {
@@ -68,7 +68,7 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
       if (table.Text(row, "name") == name) rows.push_back(row);
     }
-    const std::size_t step = std::max<std::size_t>(1, rows.size() / kMostPoints);
+    const std::size_t step = std::max<std::size_t>(1, rows.size() / kMostTransferPoints);
     for (std::size_t k = 0; k < rows.size(); k += step) {
       const std::complex<double> h(table.Number(rows[k], "re"), table.Number(rows[k], "im"));
       const double half = HalfWidth95(std::sqrt(
@@ -84,8 +84,9 @@ std::optional<Figure> TransferFigure(const ReportInput& input) {
       csv.Cell(PhaseDeg(h) + phase_half).EndRow();
     }
     if (rows.empty()) continue;
-    const auto grid = LogarithmicGrid(table.Number(rows.front(), "frequency_hz"),
-                                      table.Number(rows.back(), "frequency_hz"), kGridPoints);
+    const auto grid =
+        LogarithmicGrid(table.Number(rows.front(), "frequency_hz"),
+                        table.Number(rows.back(), "frequency_hz"), kTransferFrequencies);
     const auto add = [&](const std::string& curve, const LoopModel& model) {
       for (const double frequency : grid) {
         const std::complex<double> value = AcousticsAt(model, frequency);

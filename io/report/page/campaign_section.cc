@@ -10,7 +10,7 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kMostRows = 50;  // what a reader looks through; the CSV has all
+constexpr std::size_t kMostRigs = 50;  // what a reader looks through; the CSV has all
 
 std::string Count(const nlohmann::json& json, const char* key) {
   return Spelled(NumberAt(json, key), 7);
@@ -42,7 +42,7 @@ std::string ColumnTable(const nlohmann::json& campaign) {
 std::string RigTable(const CsvTable& table) {
   const std::vector<std::string> columns = DifferingColumns(table);
   std::vector<TableRow> rows;
-  for (std::size_t row = 0; row < table.rows.size() && row < kMostRows; ++row) {
+  for (std::size_t row = 0; row < table.rows.size() && row < kMostRigs; ++row) {
     rows.emplace_back();
     for (const std::string& column : columns) {
       const double number = table.Number(row, column);
@@ -50,8 +50,8 @@ std::string RigTable(const CsvTable& table) {
                                                   : TableCell(table.Text(row, column)));
     }
   }
-  const std::string which = table.rows.size() > kMostRows
-                                ? "The first " + std::to_string(kMostRows) + " of " +
+  const std::string which = table.rows.size() > kMostRigs
+                                ? "The first " + std::to_string(kMostRigs) + " of " +
                                       std::to_string(table.rows.size()) + " rigs"
                                 : std::string("Rig by rig");
   return HtmlTable(which + ", what differs among them; all is in " + kCampaignCsv, columns, rows);

@@ -10,7 +10,7 @@
 namespace howl {
 namespace {
 
-constexpr std::size_t kMostRows = 40;
+constexpr std::size_t kMostPredictions = 40;
 
 // "205.8 (205.6 to 206.0)"
 TableCell Interval(const nlohmann::json& point, const char* key) {
@@ -32,7 +32,7 @@ std::string PredictionSummary(const ReportInput& input) {
   const bool relative = TextAt(input.prediction, "flame") == "assumed";
   std::vector<TableRow> rows;
   for (const auto& point : points) {
-    if (rows.size() == kMostRows) break;
+    if (rows.size() == kMostPredictions) break;
     rows.push_back({Spelled(NumberAt(point, "phi"), 6), TextAt(point, "status"),
                     Interval(point, "frequency_hz"), Interval(point, "growth_rate_1_s"),
                     Interval(point, relative ? "q_amplitude_relative" : "p_amplitude"),

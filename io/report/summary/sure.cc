@@ -66,7 +66,7 @@ void AddTolerances(const ReportInput& input, std::vector<std::string>& out) {
       "themselves, as the rig did.");
 }
 
-void AddPrediction(const ReportInput& input, std::vector<std::string>& out) {
+void AddHowSurePrediction(const ReportInput& input, std::vector<std::string>& out) {
   if (!input.prediction.is_object()) return;
   std::vector<std::string> far;
   for (const auto& point : ListAt(input.prediction, "points")) {
@@ -114,7 +114,7 @@ std::vector<std::string> HowSureItIs(const ReportInput& input) {
   AddUndetermined(input, out);
   AddBounds(input, out);
   AddTolerances(input, out);
-  AddPrediction(input, out);
+  AddHowSurePrediction(input, out);
   AddGap(input, out);
   return out;
 }

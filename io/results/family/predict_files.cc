@@ -4,22 +4,17 @@
 #include <cmath>
 
 #include "io/results/csv_writer.h"
+#include "io/results/family/sampled_value_json.h"
 
 namespace howl {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json Interval(const SampledValue& value) {
-  return {{"value", Number(value.median)}, {"lo", Number(value.lo)}, {"hi", Number(value.hi)}};
-}
-
 Json EndJson(const CycleEnd& end) {
-  return {{"value", Number(end.median)},
-          {"lo", Number(end.lo)},
-          {"hi", Number(end.hi)},
+  return {{"value", NumberOrNull(end.median)},
+          {"lo", NumberOrNull(end.lo)},
+          {"hi", NumberOrNull(end.hi)},
           {"share_crossing", end.share_crossing}};
 }
 
@@ -30,7 +25,8 @@ Json GuaranteedJson(const std::optional<GuaranteedPoint>& point) {
     json["frequency_hz"] = {point->frequency_hz->lo, point->frequency_hz->hi};
   }
   for (const auto& [parameter, range] : point->parameters) {
-    json[std::string(FamilyParameterName(parameter))] = {Number(range.lo), Number(range.hi)};
+    json[std::string(FamilyParameterName(parameter))] = {NumberOrNull(range.lo),
+                                                         NumberOrNull(range.hi)};
   }
   return json;
 }
@@ -86,11 +82,11 @@ Json PredictJson(const PredictReport& report) {
                       {"next_to_unreliable", point.rests_on_unreliable},
                       {"paths", point.members},
                       {"paths_without_loop", point.without},
-                      {"frequency_hz", Interval(point.frequency_hz)},
-                      {"growth_rate_1_s", Interval(point.growth_rate)},
-                      {"loop_gain", Interval(point.loop_gain)},
-                      {AmplitudeName(report), Interval(point.amplitude)},
-                      {"share_unstable", Number(point.share_unstable)},
+                      {"frequency_hz", SampledValueJson(point.frequency_hz)},
+                      {"growth_rate_1_s", SampledValueJson(point.growth_rate)},
+                      {"loop_gain", SampledValueJson(point.loop_gain)},
+                      {AmplitudeName(report), SampledValueJson(point.amplitude)},
+                      {"share_unstable", NumberOrNull(point.share_unstable)},
                       {"guaranteed", GuaranteedJson(guaranteed)}});
   }
   Json cycle = nullptr;

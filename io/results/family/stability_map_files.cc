@@ -5,17 +5,12 @@
 
 #include "io/result_files.h"
 #include "io/results/csv_writer.h"
+#include "io/results/family/sampled_value_json.h"
 
 namespace howl {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json Interval(const SampledValue& value) {
-  return {{"value", Number(value.median)}, {"lo", Number(value.lo)}, {"hi", Number(value.hi)}};
-}
 
 Json AxisJson(const MapAxis& axis) {
   return {{"quantity", std::string(MapQuantityName(axis.quantity))},
@@ -52,13 +47,14 @@ std::string StabilityMapCsv(const MapReport& report) {
 Json StabilityMapJson(const MapReport& report) {
   Json marks = Json::array();
   for (const MapMark& mark : report.marks) {
-    marks.push_back({{"phi", mark.phi}, {"x", Interval(mark.x)}, {"y", Interval(mark.y)}});
+    marks.push_back(
+        {{"phi", mark.phi}, {"x", SampledValueJson(mark.x)}, {"y", SampledValueJson(mark.y)}});
   }
   const auto count = [&](auto&& test) { return std::ranges::count_if(report.map.cells, test); };
   return {{"file", kPredictionMapCsv},
           {"x", AxisJson(report.map.x)},
           {"y", AxisJson(report.map.y)},
-          {"phi", Number(report.phi)},
+          {"phi", NumberOrNull(report.phi)},
           {"paths", report.map.paths},
           {"interval", "95 % of the members"},
           {"points", report.map.cells.size()},

@@ -1,14 +1,12 @@
 // Heat release follows Phi through a first-order lag, 1 / (1 + s / w_c), inside the loop.
 #include <cmath>
-#include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/numerics/constants.h"
 #include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class FlameLag final : public LoopEffect {
  public:

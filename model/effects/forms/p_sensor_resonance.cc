@@ -1,15 +1,13 @@
 // Recorded p is true p through a second-order resonance, the line or the cavity of a transducer:
 // 1 / (1 + 2 zeta s / w_0 + (s / w_0)^2).
 #include <cmath>
-#include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/numerics/constants.h"
 #include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Resonance final : public NamedEffect {
  public:

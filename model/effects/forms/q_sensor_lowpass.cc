@@ -1,15 +1,13 @@
 // Recorded q is true q through a low-pass of first order, 1 / (1 + s / w_c), or of second order
 // (Butterworth), 1 / (1 + sqrt(2) s / w_c + (s / w_c)^2).
 #include <cmath>
-#include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/numerics/constants.h"
 #include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Filter final : public NamedEffect {
  public:

@@ -1,14 +1,12 @@
 // p is recorded with few levels.
 #include <cmath>
-#include <limits>
 
 #include "model/effects/catalogue.h"
+#include "model/numerics/constants.h"
 #include "model/simulation/simulate.h"
 
 namespace howl {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Simulated with the levels over +-1.2 amplitudes of the cycle, the converter's full scale, one of
 // them at zero; beyond it the converter goes on.

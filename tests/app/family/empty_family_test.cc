@@ -12,7 +12,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::empty_family_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -156,4 +156,4 @@ TEST(LongEmptyFamily, RecordsHaveLinesForTheLimitsAlone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::empty_family_test

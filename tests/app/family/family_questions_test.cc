@@ -6,7 +6,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::family_questions_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -130,4 +130,4 @@ TEST(Family, KilledAtRandomAndRunAgainGivesTheSameResult) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::family_questions_test

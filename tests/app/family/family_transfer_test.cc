@@ -9,7 +9,7 @@
 
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::family_transfer_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -181,4 +181,4 @@ TEST(FamilyPredictions, AmplitudeWhereAFlameIsStatedWhateverTheThreads) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::family_transfer_test

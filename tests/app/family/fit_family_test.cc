@@ -6,17 +6,16 @@
 #include <complex>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <vector>
 
+#include "model/numerics/constants.h"
 #include "tests/app/program.h"
 
-namespace howl {
+namespace howl::fit_family_test {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double kPi = std::numbers::pi;
 
 Json ReadJson(const std::filesystem::path& path) { return Json::parse(ReadFile(path)); }
 
@@ -220,4 +219,4 @@ TEST(List, WrongColumnIsOneLineAndStatusTwo) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::fit_family_test

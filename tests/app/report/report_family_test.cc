@@ -12,7 +12,7 @@
 #include "tests/app/program.h"
 #include "tests/app/report/figure_data.h"
 
-namespace howl {
+namespace howl::report_family_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -173,4 +173,4 @@ TEST(Report, AnEmptyFamilyNamesEachSetOfConditions) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::report_family_test

@@ -12,7 +12,7 @@
 #include "tests/app/program.h"
 #include "tests/app/report/figure_data.h"
 
-namespace howl {
+namespace howl::report_summary_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -205,4 +205,4 @@ TEST(ReportStabilityMap, TheBoundaryLiesBetweenGrowthAndDecay) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::report_summary_test

@@ -13,7 +13,7 @@
 #include "tests/app/program.h"
 #include "tests/app/report/figure_data.h"
 
-namespace howl {
+namespace howl::report_test {
 namespace {
 
 using testing::Test;
@@ -260,4 +260,4 @@ TEST(Report, NamesAreTextWhateverTheyHold) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::report_test

@@ -12,7 +12,7 @@
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::delay_scatter_test {
 namespace {
 
 constexpr BaseModel kOwnDelays = {.own_delays = true};
@@ -178,4 +178,4 @@ TEST(DelayScatter, FreedomThatTheEffectCostsItselfIsNotItsMerit) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::delay_scatter_test

@@ -4,7 +4,7 @@
 
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::moved_parameters_test {
 namespace {
 
 TEST(MovedParameters, TheFarthestComeFirst) {
@@ -34,4 +34,4 @@ TEST(MovedParameters, ALagOfQHadMovedTheDelayAndTheAcoustics) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::moved_parameters_test

@@ -19,7 +19,7 @@
 #include "model/numerics/units.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::starts_test {
 namespace {
 
 std::vector<DiagnosisExperiment> WithMode(double ratio, double share, double xi) {
@@ -118,4 +118,4 @@ TEST(Starts, OmegaIsFoundWhereAnotherModeCarriesTheCycle) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::starts_test

@@ -11,7 +11,7 @@
 #include "tests/diagnosis/declare.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::declared_item_test {
 namespace {
 
 const EffectParameter kShare{"share", "", 0.0, 0.0, 0.9, {0.1, 0.3}};
@@ -65,4 +65,4 @@ TEST(DeclaredItem, IsOneTransferAtAllPoints) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::declared_item_test

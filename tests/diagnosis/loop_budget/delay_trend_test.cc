@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace howl {
+namespace howl::delay_trend_test {
 namespace {
 
 // Points evenly spread over the operating parameter; the delays change by `rel_span` over it and
@@ -78,4 +78,4 @@ TEST(DelayTrend, IsNotFoundWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::delay_trend_test

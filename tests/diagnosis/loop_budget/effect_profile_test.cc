@@ -12,7 +12,7 @@
 #include "diagnosis/loop_budget/trials/loop_starts.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::effect_profile_test {
 namespace {
 
 constexpr double kLeak = 0.1;
@@ -78,4 +78,4 @@ TEST_F(EffectProfileTest, ComesToTheSameTopFromAfar) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::effect_profile_test

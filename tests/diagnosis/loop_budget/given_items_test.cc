@@ -7,7 +7,7 @@
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::given_items_test {
 namespace {
 
 constexpr double kCutoff_hz = 500.0;
@@ -43,4 +43,4 @@ TEST(GivenItems, LeaveTheRestToBeFound) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::given_items_test

@@ -11,7 +11,7 @@
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::lines_test {
 namespace {
 
 constexpr double kShare = 0.05;  // of the signal
@@ -109,4 +109,4 @@ TEST(LinesOfRecords, AreATone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::lines_test

@@ -15,7 +15,7 @@
 #include "estimation/record_fit/starts/point_starts.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::loop_budget_test {
 namespace {
 
 std::vector<LoopRecord> DuctsRecords() { return DuctsAt({1.2, 1.5, 1.8}); }
@@ -202,4 +202,4 @@ TEST(LoopItem, FurtherModesHaveTheirOwnPlaces) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::loop_budget_test

@@ -13,7 +13,7 @@
 #include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::loop_exchange_test {
 namespace {
 
 std::vector<LoopItem> ItemsOf(const std::string& id) {
@@ -57,4 +57,4 @@ TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::loop_exchange_test

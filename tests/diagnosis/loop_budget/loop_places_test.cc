@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace howl {
+namespace howl::loop_places_test {
 namespace {
 
 // Of a loop that nothing describes, with a gap left in the acoustics.
@@ -55,4 +55,4 @@ TEST(PlacesOf, AreThoseOfWhatIsNamed) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::loop_places_test

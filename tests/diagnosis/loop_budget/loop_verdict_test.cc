@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace howl {
+namespace howl::loop_verdict_test {
 namespace {
 
 Budget Path(double share, double extra_s) {
@@ -48,4 +48,4 @@ TEST(LoopVerdict, IsUnknownWhereMoreThanTheFloorIsLeft) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::loop_verdict_test

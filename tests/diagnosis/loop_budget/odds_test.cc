@@ -10,7 +10,7 @@
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::odds_test {
 namespace {
 
 // A low-pass of q with a further pole at so many times its cutoff.
@@ -39,4 +39,4 @@ TEST(FormErrors, AreNoFurtherCause) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::odds_test

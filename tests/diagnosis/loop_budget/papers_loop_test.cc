@@ -15,7 +15,7 @@
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl {
+namespace howl::papers_loop_test {
 namespace {
 
 constexpr double kCutoff_hz = 400.0;
@@ -121,4 +121,4 @@ TEST(LongPapersLoop, LacksBothOfTwoCauses) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::papers_loop_test

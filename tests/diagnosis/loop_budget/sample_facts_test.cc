@@ -11,7 +11,7 @@
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::sample_facts_test {
 namespace {
 
 std::vector<LoopRecord> Ducts() { return DuctsAt({1.2, 1.5, 1.8}); }
@@ -108,4 +108,4 @@ TEST(SampleFacts, FineStepsLeaveTheRestToBeFound) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::sample_facts_test

@@ -21,7 +21,7 @@
 #include "estimation/record_fit/whittle/noise_shape.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::shared_effect_test {
 namespace {
 
 std::vector<LoopRecord> Ducts(const ModalInstruments& instruments) {
@@ -304,4 +304,4 @@ TEST(SharedEffect, TurnsTheCycle) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::shared_effect_test

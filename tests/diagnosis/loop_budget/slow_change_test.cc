@@ -9,7 +9,7 @@
 #include "diagnosis/loop_budget/loop_budget.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
-namespace howl {
+namespace howl::slow_change_test {
 namespace {
 
 constexpr double kShort_s = 1.5;
@@ -140,4 +140,4 @@ TEST(SlowChanges, ThatFluctuateAreFound) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::slow_change_test

@@ -7,7 +7,7 @@
 
 #include "tests/estimation/analysis/coverage_rows.h"
 
-namespace howl {
+namespace howl::characteristics_test {
 namespace {
 
 Characteristics Analysed(const Record& record, const CharacteristicsOptions& options = {}) {
@@ -51,11 +51,11 @@ TEST(EstimateCharacteristics, NoisyResonanceIsNoLimitCycle) {
 }
 
 TEST(EstimateCharacteristics, BurstsAreIntermittent) {
-  testing::SyntheticOptions options;
+  fixtures::SyntheticOptions options;
   options.breathing = 0.35;
   options.breathing_time_s = 0.2;
   options.samples = 50000;
-  const Characteristics c = Analysed(testing::Synthesise(options, 3).record);
+  const Characteristics c = Analysed(fixtures::Synthesise(options, 3).record);
   EXPECT_EQ(c.state, CycleState::kIntermittent);
   EXPECT_FALSE(c.stationary);
 }
@@ -79,9 +79,9 @@ TEST(EstimateCharacteristics, DriftIsFoundAndMeasured) {
 }
 
 TEST(EstimateCharacteristics, PapersMethodAsPublished) {
-  testing::SyntheticOptions options;
+  fixtures::SyntheticOptions options;
   options.noise = 0.02;
-  const testing::SyntheticRecord truth = testing::Synthesise(options, 5);
+  const fixtures::SyntheticRecord truth = fixtures::Synthesise(options, 5);
   const Characteristics c = Analysed(truth.record, {.method = CharacteristicsMethod::kPaper});
   EXPECT_NEAR(c.frequency_hz.value, 210.0, 5000.0 / 16000.0);  // on a bin
   EXPECT_NEAR(std::remainder(c.frequency_hz.value, 5000.0 / 16000.0), 0.0, 1e-9);
@@ -93,22 +93,22 @@ TEST(EstimateCharacteristics, PapersMethodAsPublished) {
 // Coverage over kinds of records; bench/coverage_study prints the table for many more of them. With
 // 10 rows of 24 the share of a true 95 % has a standard error of 1.4 %.
 TEST(LongCoverage, IntervalsHoldTheTruthAndThePapersMethodIsWorse) {
-  std::array<testing::Tally, testing::kQuantities> all;
+  std::array<fixtures::Tally, fixtures::kQuantities> all;
   std::uint64_t seed = 77;
-  for (const testing::CoverageRow& row : testing::CoverageRows()) {
-    const testing::RowResult result = testing::RunCoverageRow(row, 24, seed += 1000);
+  for (const fixtures::CoverageRow& row : fixtures::CoverageRows()) {
+    const fixtures::RowResult result = fixtures::RunCoverageRow(row, 24, seed += 1000);
     EXPECT_EQ(result.cycles_missed, 0) << row.name;
     EXPECT_EQ(result.lines_missed, 0) << row.name;
-    EXPECT_LT(result.tally[testing::kPhase].Rms(), result.paper_phase_rms_deg) << row.name;
-    for (std::size_t k = 0; k < testing::kQuantities; ++k) {
+    EXPECT_LT(result.tally[fixtures::kPhase].Rms(), result.paper_phase_rms_deg) << row.name;
+    for (std::size_t k = 0; k < fixtures::kQuantities; ++k) {
       all[k].count += result.tally[k].count;
       all[k].covered += result.tally[k].covered;
     }
   }
-  for (std::size_t k = 0; k < testing::kQuantities; ++k) {
-    EXPECT_GE(all[k].Coverage(), 0.91) << testing::kQuantityNames[k];
+  for (std::size_t k = 0; k < fixtures::kQuantities; ++k) {
+    EXPECT_GE(all[k].Coverage(), 0.91) << fixtures::kQuantityNames[k];
   }
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::characteristics_test

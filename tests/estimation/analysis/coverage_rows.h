@@ -13,7 +13,7 @@
 #include "model/numerics/units.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 
-namespace howl::testing {
+namespace howl::fixtures {
 
 struct CoverageRow {
   std::string name;
@@ -114,6 +114,6 @@ inline RowResult RunCoverageRow(const CoverageRow& row, int records, std::uint64
   return result;
 }
 
-}  // namespace howl::testing
+}  // namespace howl::fixtures
 
 #endif  // HOWL_TESTS_ESTIMATION_ANALYSIS_COVERAGE_ROWS_H_

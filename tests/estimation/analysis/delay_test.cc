@@ -10,7 +10,7 @@
 #include "estimation/analysis/flame/flame_curve.h"
 #include "estimation/analysis/loop/vanishing_phi.h"
 
-namespace howl {
+namespace howl::delay_test {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -152,4 +152,4 @@ TEST(EstimateVanishingPhi, FiellersIntervalCovers) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::delay_test

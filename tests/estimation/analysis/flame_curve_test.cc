@@ -10,7 +10,7 @@
 #include "model/cycles/harmonic_balance.h"
 #include "model/simulation/simulate.h"
 
-namespace howl {
+namespace howl::flame_curve_test {
 namespace {
 
 // Two modes, so that p has a third harmonic that the flame feels.
@@ -65,4 +65,4 @@ TEST(FlameCurve, SlopeOfNoisyRigsLiesWithinItsInterval) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::flame_curve_test

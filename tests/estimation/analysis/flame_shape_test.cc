@@ -15,7 +15,7 @@
 #include "model/simulation/simulate.h"
 #include "tests/residual_jacobian.h"
 
-namespace howl {
+namespace howl::flame_shape_test {
 namespace {
 
 // The curve that a flame without noise would show: exact values of Phi in 40 bins.
@@ -101,4 +101,4 @@ TEST(FlameShape, AnOffsetRigsRecordGivesAFlameOfTheSameCycle) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::flame_shape_test

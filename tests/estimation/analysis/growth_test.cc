@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace howl {
+namespace howl::growth_test {
 namespace {
 
 // dA/dt = sigma A (1 - A^2) out of noise: exponential growth at sigma, then saturation at one.
@@ -56,4 +56,4 @@ TEST(EstimateGrowth, SteadyNoiseHasNone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::growth_test

@@ -12,7 +12,7 @@
 #include "model/numerics/units.h"
 #include "tests/estimation/analysis/measured_data.h"
 
-namespace howl {
+namespace howl::halves_test {
 namespace {
 
 struct Agreement {
@@ -152,13 +152,13 @@ std::vector<NamedRecord> CombustorRecords(const std::string& folder) {
   std::vector<NamedRecord> records;
   for (const int point : {1, 5, 8, 9, 11, 12, 14, 15, 17, 19, 21, 22, 24}) {
     records.push_back(
-        {"p" + std::to_string(point), 1.0 * point, testing::CombustorRecord(folder, point)});
+        {"p" + std::to_string(point), 1.0 * point, fixtures::CombustorRecord(folder, point)});
   }
   return records;
 }
 
 TEST(Halves, FitsOfTheCombustorsRecordsAgreeWithinTheirIntervals) {
-  const auto folder = testing::DataFolder("HOWL_DATA");
+  const auto folder = fixtures::DataFolder("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   const Agreement agreement = FitsOfHalvesAgree(CombustorRecords(*folder));
   EXPECT_GT(agreement.count, 30);
@@ -167,7 +167,7 @@ TEST(Halves, FitsOfTheCombustorsRecordsAgreeWithinTheirIntervals) {
 }
 
 TEST(Halves, OfTheCombustorsRecordsAgreeWithinTheirIntervals) {
-  const auto folder = testing::DataFolder("HOWL_DATA");
+  const auto folder = fixtures::DataFolder("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   const Agreement agreement = HalvesAgree(CombustorRecords(*folder));
   EXPECT_GT(agreement.count, 120);
@@ -176,12 +176,12 @@ TEST(Halves, OfTheCombustorsRecordsAgreeWithinTheirIntervals) {
 }
 
 TEST(Halves, OfTheRijkeTubesSteadyRecordsAgreeWithinTheirIntervals) {
-  const auto folder = testing::DataFolder("HOWL_DATA");
+  const auto folder = fixtures::DataFolder("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   std::vector<NamedRecord> records;
   for (const int volts : {2, 13, 15, 17, 19}) {
     const std::string name = "quasi_static/" + std::to_string(volts);
-    records.push_back({name, 1.0 * volts, testing::RijkeRecord(*folder, name)});
+    records.push_back({name, 1.0 * volts, fixtures::RijkeRecord(*folder, name)});
   }
   const Agreement agreement = HalvesAgree(records);
   EXPECT_GT(agreement.count, 10);
@@ -190,4 +190,4 @@ TEST(Halves, OfTheRijkeTubesSteadyRecordsAgreeWithinTheirIntervals) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::halves_test

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-namespace howl {
+namespace howl::instrument_response_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -118,4 +118,4 @@ TEST(InstrumentResponseTable, HoldsBeyondItsEnds) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::instrument_response_test

@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-namespace howl {
+namespace howl::joint_deviation_test {
 namespace {
 
 double Tail(double distance, int count) {
@@ -48,4 +48,4 @@ TEST(JointDeviation, TurnsBackAndGrowsWithoutLimit) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::joint_deviation_test

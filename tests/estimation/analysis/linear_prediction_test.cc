@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace howl {
+namespace howl::linear_prediction_test {
 namespace {
 
 TEST(LinearPrediction, FindsTheCoefficientsOfAnAutoregression) {
@@ -47,4 +47,4 @@ TEST(LinearPrediction, StaysFiniteAndWithinBounds) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::linear_prediction_test

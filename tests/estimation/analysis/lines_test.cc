@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace howl {
+namespace howl::lines_test {
 namespace {
 
 Record Noise(int samples, double pole, std::uint64_t seed) {
@@ -104,4 +104,4 @@ TEST(FindLines, ResonanceIsToldFromALineByItsWidth) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::lines_test

@@ -11,7 +11,7 @@
 #include "model/numerics/units.h"
 #include "model/simulation/simulate.h"
 
-namespace howl {
+namespace howl::loop_gain_test {
 namespace {
 
 // One mode at 110 Hz with the gain 1.2 and the phase 45 degrees of q to p, as at the points p14 to
@@ -97,4 +97,4 @@ TEST(LoopGain, BelowOneHasAReason) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::loop_gain_test

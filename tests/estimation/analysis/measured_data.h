@@ -15,7 +15,7 @@
 
 #include "estimation/analysis/spectra/record.h"
 
-namespace howl::testing {
+namespace howl::fixtures {
 
 inline std::optional<std::string> DataFolder(const char* variable) {
   const char* value = std::getenv(variable);
@@ -83,6 +83,6 @@ inline double PracticeTruth(const std::string& folder, const std::string& rig, i
   return at == std::string::npos ? 0.0 : std::strtod(line.c_str() + at + key.size() + 3, nullptr);
 }
 
-}  // namespace howl::testing
+}  // namespace howl::fixtures
 
 #endif  // HOWL_TESTS_ESTIMATION_ANALYSIS_MEASURED_DATA_H_

@@ -8,22 +8,22 @@
 #include "estimation/analysis/analyse.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 
-namespace howl {
+namespace howl::measured_flame_table_test {
 namespace {
 
 TEST(MeasuredFlameTable, IsTheCurveOfTheRecord) {
-  testing::SyntheticOptions options;
+  fixtures::SyntheticOptions options;
   options.loop_gain = 1.6;
   options.noise = 0.02;
   options.q_offset = 3.0;
-  const testing::SyntheticRecord truth = testing::Synthesise(options, 11);
+  const fixtures::SyntheticRecord truth = fixtures::Synthesise(options, 11);
   Analysis analysis = AnalyseRecord(truth.record);
   AddFlame(truth.record, {truth.tau_s, 0.0}, {}, &analysis);
   ASSERT_TRUE(analysis.flame_curve);
   const auto table = MeasuredFlameTable(*analysis.flame_curve, truth.flame_slope);
   ASSERT_TRUE(table);
   const double w = 2.0 * M_PI * options.frequency_hz;
-  const double drive = testing::DriveOverScale(options.loop_gain);
+  const double drive = fixtures::DriveOverScale(options.loop_gain);
   const double scale = w * options.p_amplitude / drive;           // S
   const double saturation = std::abs(truth.flame_slope) * scale;  // s S
   for (double over_scale = -0.95 * drive; over_scale < 0.95 * drive; over_scale += 0.07) {
@@ -48,4 +48,4 @@ TEST(MeasuredFlameTable, NeedsBinsAndAFallingCurve) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::measured_flame_table_test

@@ -8,7 +8,7 @@
 #include "estimation/analysis/analyse.h"
 #include "tests/estimation/analysis/measured_data.h"
 
-namespace howl {
+namespace howl::measured_test {
 namespace {
 
 const std::map<int, double> kAirSlpm = {{1, 400},  {5, 461},  {8, 496},  {9, 509},  {11, 537},
@@ -18,12 +18,12 @@ const std::map<int, double> kAirSlpm = {{1, 400},  {5, 461},  {8, 496},  {9, 509
 class TurbulentCombustor : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const auto folder = testing::DataFolder("HOWL_DATA");
+    const auto folder = fixtures::DataFolder("HOWL_DATA");
     if (!folder) return;
     std::vector<NamedRecord> records;
     for (const auto& [point, air] : kAirSlpm) {
       records.push_back(
-          {"p" + std::to_string(point), air, testing::CombustorRecord(*folder, point)});
+          {"p" + std::to_string(point), air, fixtures::CombustorRecord(*folder, point)});
       ASSERT_EQ(records.back().record.pressure.size(), 30000u) << point;
     }
     ModelSpec two_modes = DefaultModelSpec();
@@ -116,12 +116,12 @@ TEST_F(TurbulentCombustor, NonHarmonicLine) {
 // The line at 1.21 to 1.26 times the fundamental, "8 to 20 dB below it", is an oscillation of its
 // own, and a range picks it as the cycle.
 TEST_F(TurbulentCombustor, TheSecondOscillationCanBePicked) {
-  const auto folder = testing::DataFolder("HOWL_DATA");
+  const auto folder = fixtures::DataFolder("HOWL_DATA");
   for (int point : {14, 15, 17, 19}) {
     const Characteristics& first = At(point).characteristics;
     const double f = first.frequency_hz.value;
     const Analysis analysis =
-        AnalyseRecord(testing::CombustorRecord(*folder, point), {}, CycleBand{1.12 * f, 1.35 * f});
+        AnalyseRecord(fixtures::CombustorRecord(*folder, point), {}, CycleBand{1.12 * f, 1.35 * f});
     const Characteristics& c = analysis.characteristics;
     EXPECT_NE(c.state, CycleState::kNoLimitCycle) << point;
     EXPECT_NEAR(c.frequency_hz.value / f, 1.235, 0.04) << point;
@@ -165,10 +165,10 @@ TEST_F(TurbulentCombustor, TransferFitStatesItsMisfit) {
 }
 
 TEST(RijkeTube, RampsGrowAtTheStatedRates) {
-  const auto folder = testing::DataFolder("HOWL_DATA");
+  const auto folder = fixtures::DataFolder("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   for (const char* name : {"ramps/13", "ramps/14", "ramps/15"}) {
-    const Record record = testing::RijkeRecord(*folder, name);
+    const Record record = fixtures::RijkeRecord(*folder, name);
     ASSERT_GT(record.pressure.size(), 50000u) << name;
     const Analysis analysis = AnalyseRecord(record);
     ASSERT_TRUE(analysis.growth.has_value()) << name;
@@ -186,10 +186,10 @@ TEST(RijkeTube, RampsGrowAtTheStatedRates) {
 }
 
 TEST(RijkeTube, SteadyRecordsHoldTheCycle) {
-  const auto folder = testing::DataFolder("HOWL_DATA");
+  const auto folder = fixtures::DataFolder("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   for (const char* name : {"quasi_static/13", "quasi_static/15", "quasi_static/17"}) {
-    const Analysis analysis = AnalyseRecord(testing::RijkeRecord(*folder, name));
+    const Analysis analysis = AnalyseRecord(fixtures::RijkeRecord(*folder, name));
     EXPECT_EQ(analysis.characteristics.state, CycleState::kLimitCycle) << name;
     EXPECT_NEAR(analysis.characteristics.frequency_hz.value, 164.0, 2.0) << name;
     EXPECT_FALSE(analysis.growth.has_value()) << name;
@@ -197,4 +197,4 @@ TEST(RijkeTube, SteadyRecordsHoldTheCycle) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::measured_test

@@ -17,11 +17,11 @@
 #include "tests/estimation/analysis/coverage_rows.h"
 #include "tests/estimation/analysis/two_oscillation_record.h"
 
-namespace howl {
+namespace howl::oscillations_test {
 namespace {
 
-using testing::Tally;
-using testing::TwoOscillations;
+using fixtures::Tally;
+using fixtures::TwoOscillations;
 
 struct Row {
   std::string name;
@@ -75,7 +75,7 @@ Tallies TallyOf(const Row& row, int records, std::uint64_t seed) {
     const double factor = uniform(0.97, 1.03);
     o.frequency_hz *= factor;
     o.other_hz *= factor;
-    const Record record = testing::Synthesise(o, random());
+    const Record record = fixtures::Synthesise(o, random());
     const Analysis analysis = AnalyseRecord(record, {}, BandOf(row, o.frequency_hz));
     const Characteristics& c = analysis.characteristics;
     if (c.state != CycleState::kLimitCycle) {
@@ -134,7 +134,7 @@ const Oscillation* Near(const Analysis& analysis, double hz, double within_hz) {
 
 TEST(TwoOscillations, BothAreReported) {
   const TwoOscillations o{.slow_in_p = 0.5, .slow_in_q = 4.0, .slow_diffusion_rad2_per_s = 0.05};
-  const Analysis analysis = AnalyseRecord(testing::Synthesise(o, 5));
+  const Analysis analysis = AnalyseRecord(fixtures::Synthesise(o, 5));
   ASSERT_EQ(analysis.oscillations.size(), 2U);
   const Oscillation* const slow = Near(analysis, 10.0, 0.3);
   const Oscillation* const cycle = Near(analysis, 250.0, 1.0);
@@ -154,7 +154,7 @@ TEST(TwoOscillations, BothAreReported) {
 
 TEST(TwoOscillations, TheRangePicksEither) {
   const TwoOscillations o{.other_hz = 305.0, .other_in_p = 1.0};
-  const Record record = testing::Synthesise(o, 6);
+  const Record record = fixtures::Synthesise(o, 6);
   const Analysis first = AnalyseRecord(record, {}, CycleBand{200.0, 280.0});
   const Analysis second = AnalyseRecord(record, {}, CycleBand{290.0, 400.0});
   EXPECT_NEAR(first.characteristics.frequency_hz.value, 250.0, 0.5);
@@ -168,7 +168,7 @@ TEST(TwoOscillations, TheRangePicksEither) {
 // In a range without an oscillation the skirt of a stronger neighbour is highest: that is no cycle.
 TEST(TwoOscillations, ASkirtIsNoCycle) {
   const TwoOscillations o{.diffusion_rad2_per_s = 10.0};
-  const Record record = testing::Synthesise(o, 10);
+  const Record record = fixtures::Synthesise(o, 10);
   const Analysis analysis = AnalyseRecord(record, {}, CycleBand{256.0, 300.0});
   EXPECT_EQ(analysis.characteristics.state, CycleState::kNoLimitCycle);
   ASSERT_EQ(analysis.oscillations.size(), 1U);
@@ -179,7 +179,7 @@ TEST(TwoOscillations, ASkirtIsNoCycle) {
 // Sidebands of a modulation are the cycle's, no oscillations of their own.
 TEST(TwoOscillations, SidebandsAreNone) {
   const TwoOscillations o{.slow_hz = 15.0, .slow_in_q = 5.0, .amplitude_modulation = 0.9};
-  const Analysis analysis = AnalyseRecord(testing::Synthesise(o, 7));
+  const Analysis analysis = AnalyseRecord(fixtures::Synthesise(o, 7));
   EXPECT_EQ(analysis.oscillations.size(), 2U);
 }
 
@@ -207,7 +207,7 @@ TEST(TwoOscillations, ASlowOneMakesNoCycleOfAResonance) {
 // 30 s of a cycle whose line is 5 Hz wide: as wide as the running median of the finest spectrum.
 TEST(TwoOscillations, AWideLineStandsOutInALongRecord) {
   const TwoOscillations o{.duration_s = 30.0, .diffusion_rad2_per_s = 30.0, .slow_in_q = 5.0};
-  const Analysis analysis = AnalyseRecord(testing::Synthesise(o, 9));
+  const Analysis analysis = AnalyseRecord(fixtures::Synthesise(o, 9));
   const Characteristics& c = analysis.characteristics;
   EXPECT_EQ(c.state, CycleState::kLimitCycle);
   EXPECT_NEAR(c.frequency_hz.value, 250.0, kNormal95 * c.frequency_hz.std + 0.2);
@@ -236,4 +236,4 @@ TEST(Notch, TakesOutASteadyToneAndLeavesTheCycle) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::oscillations_test

@@ -12,16 +12,16 @@
 #include <unsupported/Eigen/FFT>
 
 #include "estimation/analysis/cycle/characteristics.h"
+#include "model/numerics/constants.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 
-namespace howl {
+namespace howl::remove_instruments_test {
 namespace {
 
 using Complex = std::complex<double>;
 using ResponseFunction = std::function<Complex(double frequency_hz)>;
 
 constexpr double kSamplingHz = 5000.0;
-constexpr double kPi = M_PI;
 
 InstrumentResponse Formula(const std::string& text) {
   FormulaError error;
@@ -153,7 +153,7 @@ TEST(RemoveInstruments, AProbeWithoutAMeanLeavesItAndGivesNumbers) {
 }
 
 TEST(RemoveInstruments, WithoutAnyNoBitChanges) {
-  const Record before = testing::Synthesise({.samples = 3000}, 8).record;
+  const Record before = fixtures::Synthesise({.samples = 3000}, 8).record;
   Record after = before;
   ASSERT_FALSE(RemoveInstruments({}, after).has_value());
   EXPECT_EQ(after.pressure, before.pressure);
@@ -161,7 +161,7 @@ TEST(RemoveInstruments, WithoutAnyNoBitChanges) {
 }
 
 TEST(RemoveInstruments, NamesAResponseWithoutAValue) {
-  const Record before = testing::Synthesise({.samples = 3000}, 8).record;
+  const Record before = fixtures::Synthesise({.samples = 3000}, 8).record;
   Record after = before;
   const auto infinite = RemoveInstruments({.heat_release = Formula("1 / (s - s)")}, after);
   ASSERT_TRUE(infinite.has_value());
@@ -209,14 +209,14 @@ TEST(RemoveInstruments, AnalysesAgreeWithThoseOfIdealInstruments) {
   constexpr std::size_t kMargin = 4000;
   constexpr double kDelay = 0.0004;
   const Instruments known = {Formula(kResonance), Formula(kLowPass), kDelay};
-  testing::SyntheticOptions options;
+  fixtures::SyntheticOptions options;
   options.samples = 24000;
   options.diffusion_rad2_per_s = 0.5;
   options.noise = 0.05;
   double phase_sum = 0.0, phase_squares = 0.0, gain_sum = 0.0, gain_squares = 0.0;
   int phase_inside = 0, gain_inside = 0, agree = 0, unlike = 0;
   for (int seed = 1; seed <= kRecords; ++seed) {
-    const Record whole = testing::Synthesise(options, static_cast<std::uint64_t>(seed)).record;
+    const Record whole = fixtures::Synthesise(options, static_cast<std::uint64_t>(seed)).record;
     const Record ideal = {kSamplingHz, Middle(whole.pressure, kMargin),
                           Middle(whole.heat_release, kMargin)};
     Record made = {kSamplingHz, Middle(Recorded(whole.pressure, Resonance), kMargin),
@@ -265,4 +265,4 @@ TEST(RemoveInstruments, AnalysesAgreeWithThoseOfIdealInstruments) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::remove_instruments_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace howl {
+namespace howl::second_crossing_test {
 namespace {
 
 // A cycle at 200 Hz with the delay 3.5 ms, and a line whose phase is that of a closed loop, less
@@ -62,4 +62,4 @@ TEST(SecondCrossing, AStrongerLineThatDoesNotCloseTheLoopLeavesNone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::second_crossing_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace howl {
+namespace howl::spectrum_test {
 namespace {
 
 TEST(WelchSpectrum, WhiteNoiseHasItsLevelAndDegreesOfFreedom) {
@@ -69,4 +69,4 @@ TEST(Demodulate, ToneHasItsAmplitudeAndPhaseInEveryBlock) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::spectrum_test

@@ -8,7 +8,7 @@
 
 #include "estimation/analysis/spectra/spectrum.h"
 
-namespace howl {
+namespace howl::statistics_test {
 namespace {
 
 TEST(StudentInflation, MatchesTables) {
@@ -111,4 +111,4 @@ TEST(FitTrend, NeighbouringStretchesOfAWanderingFrequencyAgree) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::statistics_test

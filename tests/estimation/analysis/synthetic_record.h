@@ -12,7 +12,7 @@
 
 #include "estimation/analysis/spectra/record.h"
 
-namespace howl::testing {
+namespace howl::fixtures {
 
 struct SyntheticOptions {
   double sampling_hz = 5000.0;
@@ -120,6 +120,6 @@ inline SyntheticRecord Synthesise(const SyntheticOptions& o, std::uint64_t seed)
   return out;
 }
 
-}  // namespace howl::testing
+}  // namespace howl::fixtures
 
 #endif  // HOWL_TESTS_ESTIMATION_ANALYSIS_SYNTHETIC_RECORD_H_

@@ -9,7 +9,7 @@
 #include "model/numerics/units.h"
 #include "tests/estimation/analysis/synthetic_record.h"
 
-namespace howl {
+namespace howl::table2_test {
 namespace {
 
 struct Published {
@@ -30,7 +30,7 @@ std::vector<NamedRecord> Records() {
   std::vector<NamedRecord> records;
   for (std::size_t i = 0; i < kTables.size(); ++i) {
     const Published& row = kTables[i];
-    testing::SyntheticOptions options;
+    fixtures::SyntheticOptions options;
     options.frequency_hz = row.frequency_hz;
     options.phase_deg = row.phase_deg;
     options.gain = row.gain;
@@ -43,7 +43,7 @@ std::vector<NamedRecord> Records() {
     options.noise_pole = 0.5;
     options.diffusion_rad2_per_s = 0.05;
     records.push_back(
-        {"exp" + std::to_string(i + 1), row.phi, testing::Synthesise(options, 100 + i).record});
+        {"exp" + std::to_string(i + 1), row.phi, fixtures::Synthesise(options, 100 + i).record});
   }
   return records;
 }
@@ -118,4 +118,4 @@ TEST(AnalyseRecord, PressureAloneGivesWhatItCan) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::table2_test

@@ -7,7 +7,7 @@
 
 #include "tests/residual_jacobian.h"
 
-namespace howl {
+namespace howl::transfer_point_residual_test {
 namespace {
 
 TEST(TransferPointResidual, HasExactDerivatives) {
@@ -53,4 +53,4 @@ TEST(TransferPointResidual, IsTheWhitenedDifference) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::transfer_point_residual_test

@@ -11,7 +11,7 @@
 #include "estimation/family/problem/membership.h"
 #include "tests/estimation/analysis/measured_data.h"
 
-namespace howl {
+namespace howl::transfer_test {
 namespace {
 
 const Acoustics<double> kRig{204.0, 0.15, 5500.0, 2000.0, kPaperHarmonicRatio};
@@ -143,16 +143,16 @@ TEST(FitTransfer, ModelErrorIsReportedPointByPoint) {
 
 // Practice rigs without any effect: a simulator that shares no code with this project.
 TEST(PracticeRigs, TransferGivesOmegaXiNAndM) {
-  const auto folder = testing::DataFolder("HOWL_PRACTICE");
+  const auto folder = fixtures::DataFolder("HOWL_PRACTICE");
   if (!folder) GTEST_SKIP() << "HOWL_PRACTICE is not set";
   for (const char* rig : {"case002", "case022", "case023"}) {
     double xi = 0, n = 0, ratio = 0, ratio_weight = 0;
     for (int e = 1; e <= 6; ++e) {
-      const Record record = testing::PracticeRecord(*folder, rig, e);
+      const Record record = fixtures::PracticeRecord(*folder, rig, e);
       ASSERT_EQ(record.pressure.size(), 16000u) << rig;
       const Analysis analysis = AnalyseRecord(record, {.model = TwoModes()});
       const auto truth = [&](const char* key) {
-        return testing::PracticeTruth(*folder, rig, e, key);
+        return fixtures::PracticeTruth(*folder, rig, e, key);
       };
       ASSERT_TRUE(analysis.transfer_fit.has_value());
       const TransferFit& fit = *analysis.transfer_fit;
@@ -177,7 +177,7 @@ TEST(PracticeRigs, TransferGivesOmegaXiNAndM) {
 // Rigs whose effect leaves p = G q alone: the true model's squared distance is chi-square with four
 // degrees of freedom, of mean 4 and below 9.49 in 95 % of the records.
 TEST(PracticeRigs, TrueModelsLieWithinTheTransfersEllipsoids) {
-  const auto folder = testing::DataFolder("HOWL_PRACTICE");
+  const auto folder = fixtures::DataFolder("HOWL_PRACTICE");
   if (!folder) GTEST_SKIP() << "HOWL_PRACTICE is not set";
   double mean = 0.0;
   int count = 0, within = 0, beyond_default = 0;
@@ -185,12 +185,12 @@ TEST(PracticeRigs, TrueModelsLieWithinTheTransfersEllipsoids) {
        {"case002", "case006", "case008", "case015", "case019", "case022", "case023"}) {
     for (int e = 1; e <= 6; ++e) {
       const Analysis analysis =
-          AnalyseRecord(testing::PracticeRecord(*folder, rig, e), {.model = TwoModes()});
+          AnalyseRecord(fixtures::PracticeRecord(*folder, rig, e), {.model = TwoModes()});
       ASSERT_TRUE(analysis.transfer_fit.has_value());
       const auto ellipsoid = MakeTransferEllipsoid(*analysis.transfer_fit);
       ASSERT_TRUE(ellipsoid.has_value()) << rig << e;
       const auto truth = [&](const char* key) {
-        return testing::PracticeTruth(*folder, rig, e, key);
+        return fixtures::PracticeTruth(*folder, rig, e, key);
       };
       const LoopModel loop{
           .omega_hz = truth("omega_hz"), .xi = truth("xi"), .N = truth("N"), .M = truth("M")};
@@ -209,4 +209,4 @@ TEST(PracticeRigs, TrueModelsLieWithinTheTransfersEllipsoids) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::transfer_test

@@ -15,7 +15,7 @@
 
 #include "estimation/analysis/spectra/record.h"
 
-namespace howl::testing {
+namespace howl::fixtures {
 
 struct TwoOscillations {
   double sampling_hz = 5000.0;
@@ -65,6 +65,6 @@ inline Record Synthesise(const TwoOscillations& o, std::uint64_t seed) {
   return record;
 }
 
-}  // namespace howl::testing
+}  // namespace howl::fixtures
 
 #endif  // HOWL_TESTS_ESTIMATION_ANALYSIS_TWO_OSCILLATION_RECORD_H_

@@ -10,7 +10,7 @@
 #include "estimation/family/members/enumerate.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::carrying_mode_test {
 namespace {
 
 FamilyProblem UndampedTwoModes() {
@@ -62,4 +62,4 @@ TEST(CarryingModeTest, MembersLieWithinAndComeNear) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::carrying_mode_test

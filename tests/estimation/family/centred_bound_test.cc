@@ -14,7 +14,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::centred_bound_test {
 namespace {
 
 constexpr double kLine = 750.0;
@@ -223,4 +223,4 @@ TEST(CentredBoundTest, WhatIsLeftIsLittleMoreThanTheModelsFill) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::centred_bound_test

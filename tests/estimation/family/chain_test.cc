@@ -12,7 +12,7 @@
 #include "tests/known_loops.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::chain_test {
 namespace {
 
 // In no order, and with experiments of equal phi.
@@ -209,4 +209,4 @@ TEST(MemberDrawer, PreviewsWhatItDraws) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::chain_test

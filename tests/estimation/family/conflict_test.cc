@@ -10,7 +10,7 @@
 #include "estimation/family/members/enumerate.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::conflict_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -132,4 +132,4 @@ TEST(ConflictTest, DisjointBoundsOfTwoParametersAreAProof) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::conflict_test

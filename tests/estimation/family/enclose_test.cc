@@ -14,7 +14,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::enclose_test {
 namespace {
 
 FamilyProblem Problem(std::size_t experiments, int modes) {
@@ -374,4 +374,4 @@ TEST(EncloseTest, LoadRefusesWhatSaveDidNotWrite) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::enclose_test

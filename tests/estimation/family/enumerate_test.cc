@@ -10,7 +10,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::enumerate_test {
 namespace {
 
 FamilyProblem Problem(std::vector<Experiment> experiments, int modes) {
@@ -192,4 +192,4 @@ TEST(EnumerateTest, MembersSpreadOverTheSet) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::enumerate_test

@@ -9,7 +9,7 @@
 #include "estimation/family/members/enumerate.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::expression_test {
 namespace {
 
 double Value(const std::string& text) {
@@ -138,4 +138,4 @@ TEST(ExpressionTest, GuaranteedBoundsOfAnExpression) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::expression_test

@@ -18,7 +18,7 @@
 #include <boost/multiprecision/mpfi.hpp>
 #endif
 
-namespace howl {
+namespace howl::interval_test {
 namespace {
 
 // The root of x in the rounding mode itself.
@@ -184,4 +184,4 @@ TEST(ContractTest, NoModelIsLost) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::interval_test

@@ -12,7 +12,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::local_search_test {
 namespace {
 
 constexpr double kRad = M_PI / 180;
@@ -195,4 +195,4 @@ TEST(FamilyProfileTest, NamesThatAreNoQuantityAreRefused) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::local_search_test

@@ -15,7 +15,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::member_chart_test {
 namespace {
 
 FamilyProblem OnBranch(int delay_periods, bool shared_tau = false) {
@@ -75,4 +75,4 @@ TEST(MemberChart, EveryWayToAMemberKeepsTheBranch) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::member_chart_test

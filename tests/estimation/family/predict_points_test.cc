@@ -12,7 +12,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::predict_points_test {
 namespace {
 
 PointPrediction PredictOne(const FamilyProblem& problem, double phi, std::size_t members,
@@ -354,4 +354,4 @@ TEST(PredictPointsTest, TheThreadsDoNotMatterAndOutsideHasNoNumber) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::predict_points_test

@@ -9,7 +9,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::predict_test {
 namespace {
 
 // The paper's nominal model: omega = 2 pi 215, xi = 0.2, tau = 3.46 ms, N = 6609, M / N = 0.415
@@ -147,4 +147,4 @@ TEST(AdviseTest, SecondFrequencyBeatsAnotherPhi) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::predict_test

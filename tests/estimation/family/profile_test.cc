@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace howl {
+namespace howl::profile_test {
 namespace {
 
 // cost(x, y) = x^2 - 1.6 x y + y^2, x held: y = 0.8 x, cost 0.36 x^2. The edge at cost 1 is
@@ -85,4 +85,4 @@ TEST(ProfileTest, AFailingSearchEndsTheWalkAndIsNamed) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::profile_test

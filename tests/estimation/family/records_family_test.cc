@@ -18,7 +18,7 @@
 #include "model/simulation/simulate.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::records_family_test {
 namespace {
 
 ModelSpec Modes(int modes) {
@@ -162,4 +162,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, RecordsFamilyTest, testing::Values(1), NumberOfM
 INSTANTIATE_TEST_SUITE_P(LongModes, RecordsFamilyTest, testing::Values(2), NumberOfModes);
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::records_family_test

@@ -13,7 +13,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::sample_test {
 namespace {
 
 // Two-sample Kolmogorov-Smirnov distance.
@@ -225,4 +225,4 @@ TEST(ConvergenceTest, EffectiveSizeOfAutoregression) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::sample_test

@@ -18,7 +18,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::second_mode_test {
 namespace {
 
 FamilyProblem Problem(std::size_t experiments) {
@@ -227,4 +227,4 @@ TEST(SecondModeTest, ConflictNamesTheGainAtTheLineAndWhatWouldDo) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::second_mode_test

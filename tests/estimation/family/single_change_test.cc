@@ -13,7 +13,7 @@
 #include "estimation/family/members/enumerate.h"
 #include "tests/estimation/family/drawn_empty.h"
 
-namespace howl {
+namespace howl::single_change_test {
 namespace {
 
 using reference::DrawnKind;
@@ -120,4 +120,4 @@ TEST(SingleChangeTest, ShortestDecimalBetween) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::single_change_test

@@ -4,20 +4,18 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <optional>
 #include <random>
 
 #include "estimation/family/answers/predict/leading_pole.h"
 #include "estimation/family/members/enumerate.h"
 #include "model/loop/poles.h"
+#include "model/numerics/constants.h"
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::stability_map_test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The delay nearest to `tau_s` at which a loop with one mode is neutral: |k s G| = 1 is
 //
@@ -179,4 +177,4 @@ TEST(StabilityMapTest, MoreDampingNeverMakesALoopGrowAndThreadsDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::stability_map_test

@@ -9,7 +9,7 @@
 #include "estimation/family/members/two_mode_tradeoff.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::tradeoff_test {
 namespace {
 
 // An independent formulation, from the test's own wording: each experiment has (omega, phase
@@ -141,4 +141,4 @@ TEST(TradeoffTest, TwoModesBySearchIsMarkedAndNeedsNoMoreXi) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::tradeoff_test

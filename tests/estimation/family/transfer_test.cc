@@ -24,7 +24,7 @@
 #include "tests/estimation/family/reference.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::transfer_test {
 namespace {
 
 // Correlated as transfers are: N goes with xi.
@@ -377,4 +377,4 @@ TEST(TransferVolumeTest, ContradictionIsMeasured) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::transfer_test

@@ -12,7 +12,7 @@
 #include "tests/estimation/analysis/measured_data.h"
 #include "tests/estimation/health/right_rig.h"
 
-namespace howl {
+namespace howl::analysis_health_test {
 namespace {
 
 using ::testing::AllOf;
@@ -211,12 +211,12 @@ TEST(AnalysisHealth, ADriftingCycleSaysHowFar) {
 }
 
 TEST(AnalysisHealth, MeasuredRecordsAreNotAccused) {
-  const auto folder = testing::DataFolder("HOWL_DATA");
+  const auto folder = fixtures::DataFolder("HOWL_DATA");
   if (!folder) GTEST_SKIP() << "HOWL_DATA is not set";
   std::vector<NamedRecord> records;
   for (const int point : {1, 5, 8, 9, 11, 12, 14, 15, 17, 19, 21, 22, 24}) {
     records.push_back({"p" + std::to_string(point), static_cast<double>(point),
-                       testing::CombustorRecord(*folder, point)});
+                       fixtures::CombustorRecord(*folder, point)});
   }
   for (const int modes : {1, 2}) {
     AnalysisOptions options = OneMode();
@@ -227,11 +227,11 @@ TEST(AnalysisHealth, MeasuredRecordsAreNotAccused) {
   // The heated tube: pressure alone, some records without a cycle.
   std::vector<NamedRecord> tube;
   for (const char* name : {"ramps/13", "quasi_static/2", "quasi_static/15"}) {
-    tube.push_back({name, 0.0, testing::RijkeRecord(*folder, name)});
+    tube.push_back({name, 0.0, fixtures::RijkeRecord(*folder, name)});
   }
   const Health health = Check(tube);
   EXPECT_EQ(std::ranges::count_if(health, IsAccusation), 0) << Texts(health);
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::analysis_health_test

@@ -7,7 +7,7 @@
 #include "tests/estimation/health/right_rig.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::fit_health_test {
 namespace {
 
 using testing::AllOf;
@@ -86,4 +86,4 @@ TEST(FitHealth, AResidualCountsByItsWeight) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::fit_health_test

@@ -9,7 +9,7 @@
 
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::gain_health_test {
 namespace {
 
 using testing::AllOf;
@@ -45,4 +45,4 @@ TEST(GainHealth, OneGainAloneSaysNothing) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::gain_health_test

@@ -9,7 +9,7 @@
 #include "tests/estimation/health/right_rig.h"
 #include "tests/r228.h"
 
-namespace howl {
+namespace howl::mistake_search_test {
 namespace {
 
 using Table = std::vector<Experiment>;
@@ -128,4 +128,4 @@ TEST(MistakeSearch, ABadTableIsNotAccused) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::mistake_search_test

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace howl {
+namespace howl::sample_health_test {
 namespace {
 
 constexpr double kRateHz = 10000.0;
@@ -96,4 +96,4 @@ TEST(SampleHealth, CoarseAndAppended) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::sample_health_test

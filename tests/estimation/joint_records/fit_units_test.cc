@@ -7,7 +7,7 @@
 #include <cstring>
 #include <map>
 
-namespace howl {
+namespace howl::fit_units_test {
 namespace {
 
 class Kept final : public FitUnits {
@@ -86,4 +86,4 @@ TEST(FitUnits, CountsAreWholeNumbers) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::fit_units_test

@@ -15,7 +15,7 @@
 #include "tests/estimation/record_fit/identified.h"
 #include "tests/model/density.h"
 
-namespace howl {
+namespace howl::fitted_rig_test {
 namespace {
 
 using C = std::complex<double>;
@@ -240,4 +240,4 @@ TEST(FittedRig, AFitFindsTheLoopThatWasSimulated) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::fitted_rig_test

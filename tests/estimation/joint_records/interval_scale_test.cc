@@ -15,7 +15,7 @@
 #include "estimation/joint_records/choose_loop.h"
 #include "tests/estimation/record_fit/modal_loop.h"
 
-namespace howl {
+namespace howl::interval_scale_test {
 namespace {
 
 FittedLoop LoopWith(const Estimate& tau_s, const Estimate& gain, const Estimate& omega_hz) {
@@ -136,4 +136,4 @@ TEST(IntervalScale, IntervalsOfARigThatChangesHoldItsMiddle) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::interval_scale_test

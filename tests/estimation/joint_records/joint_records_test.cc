@@ -15,7 +15,7 @@
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::joint_records_test {
 namespace {
 
 constexpr std::array<double, 4> kGains = {0.8, 1.2, 1.5, 1.8};
@@ -267,4 +267,4 @@ TEST(LongChooseModes, TakesAsManyAsThereAre) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::joint_records_test

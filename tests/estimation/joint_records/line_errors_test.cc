@@ -10,7 +10,7 @@
 #include "estimation/joint_records/records_fit.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::line_errors_test {
 namespace {
 
 using C = std::complex<double>;
@@ -103,4 +103,4 @@ TEST(LineErrors, OfAWrongModelDoNotMoveTheDelay) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::line_errors_test

@@ -14,7 +14,7 @@
 #include "tests/estimation/joint_records/known_flame.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::loop_prediction_test {
 namespace {
 
 using C = std::complex<double>;
@@ -196,4 +196,4 @@ TEST(LoopPrediction, OnePointTellsOfNoOther) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::loop_prediction_test

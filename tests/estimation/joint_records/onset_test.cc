@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace howl {
+namespace howl::onset_test {
 namespace {
 
 // Gain one at 0.6, at 212 Hz; points on one side of it only.
@@ -65,4 +65,4 @@ TEST(Onset, PointsWithoutARootAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::onset_test

@@ -8,7 +8,7 @@
 
 #include "model/noise/random_stream.h"
 
-namespace howl {
+namespace howl::parameter_law_test {
 namespace {
 
 ParameterEvidence Measured(double z, double value, double std) {
@@ -106,4 +106,4 @@ TEST(ParameterLaw, PredictionsOfAnotherPointCover) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::parameter_law_test

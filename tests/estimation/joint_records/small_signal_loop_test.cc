@@ -9,7 +9,7 @@
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::small_signal_loop_test {
 namespace {
 
 // From anywhere Newton's method may come to a root far off, or to one without a frequency: neither
@@ -45,4 +45,4 @@ TEST(SmallSignalLoop, IsOfARootNearTheCycle) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::small_signal_loop_test

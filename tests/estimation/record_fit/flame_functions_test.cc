@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace howl {
+namespace howl::flame_functions_test {
 namespace {
 
 constexpr double kRange = 1.7;
@@ -67,4 +67,4 @@ TEST(FlameFunctions, KnotsAreWhereALineHasItsCoefficients) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::flame_functions_test

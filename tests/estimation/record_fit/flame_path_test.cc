@@ -14,7 +14,7 @@
 #include "tests/estimation/record_fit/drawn_record.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::flame_path_test {
 namespace {
 
 using C = std::complex<double>;
@@ -190,4 +190,4 @@ TEST(FlamePath, SecondIsFoundInRecords) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::flame_path_test

@@ -7,7 +7,7 @@
 #include "estimation/record_fit/whittle/noise_shape.h"
 #include "tests/estimation/record_fit/modal_loop.h"
 
-namespace howl {
+namespace howl::hum_test {
 namespace {
 
 constexpr double kMains_hz = 50.0;
@@ -58,4 +58,4 @@ TEST(Hum, HasTheSameMultiplesInAPart) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::hum_test

@@ -11,7 +11,7 @@
 #include "tests/estimation/record_fit/drawn_record.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::middle_part_test {
 namespace {
 
 constexpr Eigen::Index kBesideEnds = 20;  // bins, where the band alone was cut
@@ -107,4 +107,4 @@ TEST_F(MiddlePartTest, LeadsToTheLoop) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::middle_part_test

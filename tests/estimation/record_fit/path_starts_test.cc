@@ -8,7 +8,7 @@
 
 #include "model/noise/random_stream.h"
 
-namespace howl {
+namespace howl::path_starts_test {
 namespace {
 
 // q is what a linear flame makes of broad p by the path, and a twentieth of noise.
@@ -65,4 +65,4 @@ TEST(PathStarts, SecondPathIsAmongThem) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::path_starts_test

@@ -14,7 +14,7 @@
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::point_fit_test {
 namespace {
 
 TEST(PointFit, FindsTwoModesOfALimitCycle) {
@@ -188,4 +188,4 @@ TEST(FlameBasis, WhatIsNoNumberStaysNone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::point_fit_test

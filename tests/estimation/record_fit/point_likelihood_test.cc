@@ -13,7 +13,7 @@
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::point_likelihood_test {
 namespace {
 
 double ByItself(const RecordSpectra& record, const PointStructure& structure,
@@ -76,4 +76,4 @@ INSTANTIATE_TEST_SUITE_P(AllPaths, KeptParts,
                                           testing::Bool()));
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::point_likelihood_test

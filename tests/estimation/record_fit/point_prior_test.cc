@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace howl {
+namespace howl::point_prior_test {
 namespace {
 
 PointPrior OneNormalOneStudent() {
@@ -72,4 +72,4 @@ TEST(PointPrior, TailsEndAsTheWidestNormalDoes) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::point_prior_test

@@ -11,7 +11,7 @@
 
 #include "tests/estimation/record_fit/modal_loop.h"
 
-namespace howl {
+namespace howl::pole_starts_test {
 namespace {
 
 constexpr double kMains_hz = 50.0;
@@ -57,4 +57,4 @@ TEST(PoleStarts, LookBesideTheLinesOfHum) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::pole_starts_test

@@ -10,7 +10,7 @@
 #include "estimation/record_fit/starts/point_starts.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::possible_loop_test {
 namespace {
 
 constexpr double kStep = 1e-6;
@@ -91,4 +91,4 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Bool()));
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::possible_loop_test

@@ -15,7 +15,7 @@
 #include "estimation/record_fit/starts/path_starts.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::pressure_noise_test {
 namespace {
 
 class PressureNoiseTest : public testing::Test {
@@ -157,4 +157,4 @@ TEST(PressureNoise, LeavesTheHarmonicsThatTellWhenASwitchTurns) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::pressure_noise_test

@@ -9,7 +9,7 @@
 
 #include "tests/estimation/record_fit/modal_loop.h"
 
-namespace howl {
+namespace howl::record_spectra_test {
 namespace {
 
 constexpr double kCycle_hz = 200.0;
@@ -96,4 +96,4 @@ TEST(RecordSpectra, FiltersKeepWhatDrivesTheFlame) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::record_spectra_test

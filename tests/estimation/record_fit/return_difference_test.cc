@@ -13,7 +13,7 @@
 #include "estimation/record_fit/loop/loop_tail.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::return_difference_test {
 namespace {
 
 using C = std::complex<double>;
@@ -188,4 +188,4 @@ TEST_F(Jacobian, IsThatOfTheLinesErrors) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::return_difference_test

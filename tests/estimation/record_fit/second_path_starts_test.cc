@@ -13,7 +13,7 @@
 #include "tests/estimation/record_fit/drawn_record.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::second_path_starts_test {
 namespace {
 
 // The best of the fits that begin there is the one that begins at the truth, and its start is near.
@@ -90,4 +90,4 @@ TEST(FitUnder, LeavesAPathThatOthersDoNotHave) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::second_path_starts_test

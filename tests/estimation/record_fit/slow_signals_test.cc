@@ -14,7 +14,7 @@
 #include "estimation/record_fit/starts/richer_structure.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::slow_signals_test {
 namespace {
 
 constexpr std::size_t kRecords = 16;
@@ -113,4 +113,4 @@ INSTANTIATE_TEST_SUITE_P(AllChanges, SlowSignals, testing::ValuesIn(Changes()),
                          [](const auto& of) { return of.param.name; });
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::slow_signals_test

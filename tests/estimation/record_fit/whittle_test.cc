@@ -14,7 +14,7 @@
 #include "model/noise/random_stream.h"
 #include "tests/estimation/record_fit/identified.h"
 
-namespace howl {
+namespace howl::whittle_test {
 namespace {
 
 using C = std::complex<double>;
@@ -231,4 +231,4 @@ TEST(Whittle, InformationIsTheCovarianceOfTheScore) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::whittle_test

@@ -13,7 +13,7 @@
 #include "tests/model/density.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::noise_source_test {
 namespace {
 
 constexpr NoiseSpectrum kWhite{NoiseColour::kWhite, 0.0, 0.0};
@@ -190,4 +190,4 @@ TEST(NoiseSource, LeavesTheOtherStreamsAlone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::noise_source_test

@@ -12,7 +12,7 @@
 #include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::simulate_bits_test {
 namespace {
 
 SimulationCase MakeCase(int index, FlameShape shape) {
@@ -122,4 +122,4 @@ TEST(SimulateBits, NullEffectsAreTheBase) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::simulate_bits_test

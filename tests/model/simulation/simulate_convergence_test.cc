@@ -5,16 +5,15 @@
 #include <complex>
 #include <cstdio>
 #include <memory>
-#include <numbers>
 #include <vector>
 
+#include "model/numerics/constants.h"
 #include "model/simulation/simulate.h"
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::simulate_convergence_test {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 using Complex64 = std::complex<double>;
 
 // s / (s^2 + 2 omega xi s + omega^2), written out here on its own.
@@ -167,4 +166,4 @@ TEST(SimulateConvergence, NonlinearOrderAtAnyDelay) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::simulate_convergence_test

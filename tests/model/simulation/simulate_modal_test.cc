@@ -5,17 +5,16 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include "model/cycles/harmonic_balance.h"
+#include "model/numerics/constants.h"
 #include "tests/model/density.h"
 
-namespace howl {
+namespace howl::simulate_modal_test {
 namespace {
 
 using C = std::complex<double>;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kLeakHz = 0.2;
 
 constexpr std::array kDrives = {ModalDrive::kPressureRate, ModalDrive::kPressure,
@@ -227,4 +226,4 @@ TEST(SimulateModal, RecordedChannelsHaveTheirNoise) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::simulate_modal_test

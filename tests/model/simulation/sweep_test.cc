@@ -8,7 +8,7 @@
 
 #include "tests/model/paper_loop.h"
 
-namespace howl {
+namespace howl::sweep_test {
 namespace {
 
 constexpr double kFrom = 0.50;
@@ -139,4 +139,4 @@ TEST(Sweep, WithParameterSetsThatParameterAlone) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::sweep_test

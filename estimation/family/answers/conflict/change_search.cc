@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "estimation/family/answers/conflict/limits.h"
@@ -11,12 +10,12 @@
 #include "estimation/family/bounds/proof.h"
 #include "estimation/family/local/local_search.h"
 #include "estimation/family/members/drawer/window.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSearched = 1e-3;  // of the change: how near to v* a search comes
 constexpr double kExact = 1e-9;     // the same where exact windows decide
 constexpr int kRounds = 3;          // of bisection and draws

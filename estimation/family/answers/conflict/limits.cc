@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "model/numerics/constants.h"
 
 namespace howl {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double LimitPassedByOne(const Experiment& experiment, const LoopModel& model, Condition condition) {
   const ExperimentErrors errors = ComputeErrors(experiment, model);

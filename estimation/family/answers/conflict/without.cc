@@ -1,11 +1,11 @@
 #include "estimation/family/answers/conflict/without.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "estimation/family/answers/conflict/limits.h"
 #include "estimation/family/bounds/proof.h"
 #include "estimation/family/local/local_search.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 
@@ -14,7 +14,6 @@ namespace {
 // A search draws best within tolerances of a moderate size, and a member within those is a member
 // without them. Such tolerances are tried in the place of "switched off", from narrow to wide,
 // before the conditions are really switched off.
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr MembershipTest kModerate[] = {
     {0.1, 3.0, 6.0, 0.0, 30.0, 0.4, 0.5, false, 8.0, 0.3, 0.0},
     {0.3, 10.0, 30.0, 0.0, 90.0, 0.6, 0.8, false, 20.0, 1.0, 0.0},

@@ -17,7 +17,7 @@ namespace {
 std::optional<Pole> AcousticPole(const LoopParameters<double>& loop, double mode_hz,
                                  double flame_slope) {
   constexpr double kFirst = 1e-3;  // of k
-  constexpr int kSteps = 30;
+  constexpr int kSlopes = 30;
   constexpr int kIterations = 30;
   const double w = kRadPerSPerHz * mode_hz;
   const double xi = loop.acoustics.xi;
@@ -27,8 +27,8 @@ std::optional<Pole> AcousticPole(const LoopParameters<double>& loop, double mode
   const std::complex<double> near = rest + std::complex<double>(1e-6 * w, 0.0);
   const std::complex<double> residue = LoopTransfer(loop, near).value * (near - rest);
   std::complex<double> s = rest + kFirst * flame_slope * residue;
-  for (int step = 0; step <= kSteps; ++step) {
-    const double slope = flame_slope * std::pow(kFirst, 1.0 - static_cast<double>(step) / kSteps);
+  for (int step = 0; step <= kSlopes; ++step) {
+    const double slope = flame_slope * std::pow(kFirst, 1.0 - static_cast<double>(step) / kSlopes);
     bool converged = false;
     for (int iteration = 0; iteration < kIterations && !converged; ++iteration) {
       const ModeTransfer at = LoopTransfer(loop, s);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "estimation/family/bounds/contract/centred_bound.h"
 #include "estimation/family/bounds/contract/second_mode_bound.h"
 #include "estimation/family/problem/targets.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
@@ -42,7 +42,6 @@ CellContractor::CellContractor(const FamilyProblem& problem) {
   factor_ = 1.0 + Interval(problem.test.omega_spread_max);
   // Tolerances widened by more than the rounding of the constants made from them.
   const std::vector<ExperimentTarget> targets = MakeTargets(problem, -1e-13);
-  constexpr double kPi = std::numbers::pi;
   const Interval pi = Widened(kPi);
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const auto range_of = [&](ParameterKind kind) {

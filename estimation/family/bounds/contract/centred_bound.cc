@@ -4,17 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 
 #include "estimation/family/bounds/contract/centred_response.h"
 #include "estimation/family/bounds/contract/centred_row.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::array<CellVariable, kResponseVariables> kCellOf = {
     kCellOmega, kCellXi, kCellTangent, kCellGain, kCellM, kCellLoopPhase};
 

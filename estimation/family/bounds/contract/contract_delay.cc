@@ -1,10 +1,10 @@
 // The loop's phase, at the cycle and at observed lines (contract.h).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "estimation/family/bounds/contract/contract.h"
 #include "model/numerics/complex.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 
@@ -48,7 +48,6 @@ bool ContractLines(const ContractTarget& target, ExperimentBox& box) {
     if (!(re.lower() > 0.0) || !std::isfinite(re.upper())) continue;
     const Interval angle = Arctangent(Quotient(im, re));
     // w tau = angle - pi / 2 - error + 2 pi k
-    constexpr double kPi = std::numbers::pi;
     const Interval turned = angle - Widened(kPi / 2) - target.line_error_rad;
     const Interval full_turn = Widened(2 * kPi);
     const Interval k_range = (w * box[kCellTau] - turned) / full_turn;

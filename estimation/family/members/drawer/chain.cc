@@ -1,13 +1,12 @@
 #include "estimation/family/members/drawer/chain.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
+
+#include "model/numerics/constants.h"
 
 namespace howl {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 constexpr std::size_t LowestBit(std::size_t k) { return k & (~k + 1); }
 

@@ -1,16 +1,14 @@
 #include "estimation/family/members/drawer/window.h"
 
 #include <cmath>
-#include <limits>
 
 #include "estimation/analysis/loop/closed_form.h"
 #include "estimation/family/members/drawer/chain.h"
+#include "model/numerics/constants.h"
 
 namespace howl {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // xi >= (or <=) y(sigma v) / t: times 2 v it is constant - slope v^2.
 XiBound BoundAt(double frequency_hz, double sigma, double t) {
