@@ -3,15 +3,7 @@
 #include <cmath>
 
 #include "model/numerics/fast_tanh.h"
-
-// One copy for each vector width; the machine takes the widest that it has. All give the same
-// bits: this file is compiled without fused products (see CMakeLists.txt).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define HOWL_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define HOWL_VECTOR_CLONES
-#endif
-#define HOWL_INLINE [[gnu::always_inline]] inline
+#include "model/numerics/vector_clones.h"
 
 namespace howl::internal {
 namespace {
@@ -32,17 +24,17 @@ template <int W>
 using RowOf = typename Row<W>::Type;
 
 template <int W>
-HOWL_INLINE const RowOf<W>* Rows(const double* p) {
+HOWL_IN_CLONES const RowOf<W>* Rows(const double* p) {
   return reinterpret_cast<const RowOf<W>*>(p);
 }
 template <int W>
-HOWL_INLINE RowOf<W>* Rows(double* p) {
+HOWL_IN_CLONES RowOf<W>* Rows(double* p) {
   return reinterpret_cast<RowOf<W>*>(p);
 }
 
 // out_i = sum_j w_j x_(i + j)
 template <int W>
-HOWL_INLINE void SlidingSum(
+HOWL_IN_CLONES void SlidingSum(
     const std::array<std::array<double, static_cast<std::size_t>(W)>, kOrder>& weights, int count,
     const double* x, double* out) {
   using V = RowOf<W>;
@@ -67,7 +59,7 @@ HOWL_INLINE void SlidingSum(
 }
 
 template <FlameShape kShape>
-HOWL_INLINE double Sigma(double x) {
+HOWL_IN_CLONES double Sigma(double x) {
   if constexpr (kShape == FlameShape::kTanh) {
     return FastTanh(x);
   } else {
@@ -76,7 +68,7 @@ HOWL_INLINE double Sigma(double x) {
 }
 
 template <int W, FlameShape kShape>
-HOWL_INLINE void ApplyShape(const LaneBlock<W>& block, int count, double* __restrict v) {
+HOWL_IN_CLONES void ApplyShape(const LaneBlock<W>& block, int count, double* __restrict v) {
   const auto& gain = block.flame_gain;
   const auto& offset = block.flame_offset;
   const auto& saturation = block.saturation;
@@ -89,7 +81,7 @@ HOWL_INLINE void ApplyShape(const LaneBlock<W>& block, int count, double* __rest
 }
 
 template <int W>
-HOWL_INLINE void ApplyFlameLanes(const LaneBlock<W>& block, int count, double* v) {
+HOWL_IN_CLONES void ApplyFlameLanes(const LaneBlock<W>& block, int count, double* v) {
   switch (block.shape) {
     case FlameShape::kTanh:
       return ApplyShape<W, FlameShape::kTanh>(block, count, v);
@@ -109,8 +101,8 @@ HOWL_INLINE void ApplyFlameLanes(const LaneBlock<W>& block, int count, double* v
 }
 
 template <int W>
-HOWL_INLINE void PropagateLanes(LaneBlock<W>* block, int count, const double* heat,
-                                double* pressure, double* rate) {
+HOWL_IN_CLONES void PropagateLanes(LaneBlock<W>* block, int count, const double* heat,
+                                   double* pressure, double* rate) {
   using V = RowOf<W>;
   const int modes = block->modes;
   for (int k = 0; k < modes; ++k) {

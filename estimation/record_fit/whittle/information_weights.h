@@ -4,8 +4,8 @@
 #define HOWL_ESTIMATION_RECORD_FIT_WHITTLE_INFORMATION_WEIGHTS_H_
 
 #include <Eigen/Core>
-#include <vector>
 
+#include "estimation/record_fit/whittle/noise_of_bins.h"
 #include "estimation/record_fit/whittle/whittle.h"
 
 namespace howl {
@@ -44,9 +44,10 @@ struct InformationWeights {
   Eigen::MatrixXd spectra_ratio;
 };
 
-// Of bin i, which is `in_chunk` of its chunk. The background's own is added to what there is.
-void WeighInformation(const std::vector<NoiseTerm>& noise, const LoopResiduals& at, double share,
-                      Eigen::Index i, Eigen::Index in_chunk, InformationWeights* out);
+// Of a chunk of `bins`, of which `first` is the first; share: of all bins. The background's own is
+// added to what there is.
+void WeighInformation(const NoiseOfBins& noise, const LoopResiduals& at, const double* share,
+                      Eigen::Index first, Eigen::Index bins, InformationWeights* out);
 
 }  // namespace howl
 

@@ -16,15 +16,10 @@ namespace howl {
 struct ComplexPair {
   std::complex<double> a, b;
 };
-// x^T y, without a conjugate.
-inline std::complex<double> Dot(const ComplexPair& x, const ComplexPair& y) {
-  return Times(x.a, y.a) + Times(x.b, y.b);
-}
 // x^H y.
 inline std::complex<double> Inner(const ComplexPair& x, const ComplexPair& y) {
   return ConjugateTimes(x.a, y.a) + ConjugateTimes(x.b, y.b);
 }
-inline ComplexPair Conjugate(const ComplexPair& x) { return {std::conj(x.a), std::conj(x.b)}; }
 
 // [aa, ab; conj(ab), bb]
 struct HermitianPair {
@@ -39,15 +34,6 @@ struct HermitianPair {
   }
   ComplexPair Apply(const ComplexPair& x) const {
     return {aa * x.a + Times(ab, x.b), ConjugateTimes(ab, x.a) + bb * x.b};
-  }
-  // x^T times this.
-  ComplexPair Before(const ComplexPair& x) const {
-    return {aa * x.a + ConjugateTimes(ab, x.b), Times(ab, x.a) + bb * x.b};
-  }
-  // x^H this x.
-  double Square(const ComplexPair& x) const {
-    return aa * std::norm(x.a) + bb * std::norm(x.b) +
-           2.0 * ConjugateTimes(x.a, Times(ab, x.b)).real();
   }
 };
 

@@ -1,10 +1,7 @@
 #include "estimation/record_fit/whittle/whittle.h"
 
-#include <cmath>
 #include <complex>
-#include <limits>
 
-#include "estimation/record_fit/whittle/log_of_product.h"
 #include "estimation/record_fit/whittle/noise_covariance.h"
 #include "estimation/record_fit/whittle/whittle_weights.h"
 #include "model/numerics/complex_products.h"
@@ -49,21 +46,6 @@ Eigen::Matrix2cd NoiseCovariance(const std::vector<NoiseTerm>& noise, const Loop
   Eigen::Matrix2cd out;
   out << sigma.aa, sigma.ab, std::conj(sigma.ab), sigma.bb;
   return out;
-}
-
-double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
-                            const LoopResiduals& at) {
-  LogOfProduct determinants;
-  double squares = 0.0;
-  for (Eigen::Index i = 0; i < share.size(); ++i) {
-    const HermitianPair sigma = CovarianceOf(DirectionsOf(noise, at, i), at, i);
-    const double determinant = sigma.Determinant();
-    if (!(determinant > 0.0)) return -std::numeric_limits<double>::infinity();
-    determinants.Multiply(determinant, share[i]);
-    squares += share[i] * sigma.Inverse().Square({at.acoustic[i], at.flame[i]});
-  }
-  const double sum = -determinants.Sum() - squares;
-  return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
 
 Eigen::VectorXd WhittleGradient(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,

@@ -173,13 +173,12 @@ Eigen::MatrixXd Gathering::Sum(double ratio_ratio) {
 Eigen::MatrixXd WhittleInformation(const std::vector<NoiseTerm>& noise,
                                    const Eigen::VectorXd& share, const LoopResiduals& at,
                                    const LoopDerivatives& derivatives) {
+  const NoiseOfBins of_bins(noise, at.background_ratio);
   InformationWeights weights(kChunk, static_cast<Eigen::Index>(noise.size()));
   Gathering gathering(noise, derivatives);
   for (Eigen::Index first = 0; first < share.size(); first += kChunk) {
     const Eigen::Index bins = std::min(kChunk, share.size() - first);
-    for (Eigen::Index i = 0; i < bins; ++i) {
-      WeighInformation(noise, at, share[first + i], first + i, i, &weights);
-    }
+    WeighInformation(of_bins, at, share.data(), first, bins, &weights);
     gathering.Add(weights, first, bins);
   }
   return gathering.Sum(weights.ratio_ratio);

@@ -1,35 +1,80 @@
 #include "estimation/record_fit/whittle/whittle_weights.h"
 
-#include <array>
-#include <complex>
-
-#include "estimation/record_fit/whittle/noise_covariance.h"
-#include "model/numerics/complex_products.h"
+#include "estimation/record_fit/whittle/noise_lanes.h"
 
 namespace howl {
 namespace {
 
-using C = std::complex<double>;
-
-// A source's direction is u = (a0 + a1 R, b0 + b1 F), with a1 and b1 as it turns. Sigma, and any
-// u^H G u, are linear in the products of two of these numbers, which are the same at all bins:
-// a0^2, a0 a1, a1^2, b0^2, b0 b1, b1^2, a0 b0, a0 b1, a1 b0, a1 b1.
-using Products = std::array<double, 10>;
-
-Products ProductsOf(LoopNoise source, double background_ratio) {
-  const NoiseDirection still = DirectionOf(source, 0.0, 0.0, background_ratio);
-  const NoiseTurn turn = TurnOf(source, background_ratio);
-  const double a0 = still.acoustic.real();
-  const double b0 = still.flame.real();
-  const double a1 = turn.by_r;
-  const double b1 = turn.by_f;
-  return {a0 * a0, a0 * a1, a1 * a1, b0 * b0, b0 * b1, b1 * b1, a0 * b0, a0 * b1, a1 * b0, a1 * b1};
+// Of the bins from i on, as many as V has lanes; adds to `ratio`.
+template <typename V>
+HOWL_IN_CLONES void WeighLanes(const NoiseOfBins& noise, const double* share,
+                               const LoopResiduals& at, Eigen::Index i, WhittleWeights* out,
+                               V* ratio) {
+  using C = ComplexLanes<V>;
+  const CovarianceLanes<V> sigma(noise, at, i);
+  const auto& m = sigma.m;
+  const C& r = sigma.r;
+  const C& f = sigma.f;
+  const V scale = 1.0 / sigma.Determinant();
+  const V w_aa = sigma.bb * scale;
+  const C w_ab = {-sigma.ab.re * scale, -sigma.ab.im * scale};
+  const V w_bb = sigma.aa * scale;
+  const C acoustic = C::Load(at.acoustic.data() + i);
+  const C flame = C::Load(at.flame.data() + i);
+  const C we_a = w_aa * acoustic + w_ab * flame;
+  const C we_b = ConjugateTimes(w_ab, acoustic) + w_bb * flame;
+  const V g_aa = SquaredMagnitude(we_a) - w_aa;
+  const C g_ab = ConjugateTimes(we_b, we_a) - w_ab;
+  const V g_bb = SquaredMagnitude(we_b) - w_bb;
+  const V bin = Lanes<V>::Load(share + i);
+  const V twice = 2.0 * bin;
+  // What all sources' turns add, by R and by F, is sum of S_j a1 u_j and of S_j b1 u_j.
+  const C by_r_b = {m[8] + m[9] * f.re, m[9] * f.im};
+  const C by_r = g_aa * C{m[1] + m[2] * r.re, m[2] * r.im} + g_ab * by_r_b;
+  const C by_f_a = {m[7] + m[9] * r.re, m[9] * r.im};
+  const C by_f = ConjugateTimes(g_ab, by_f_a) + g_bb * C{m[4] + m[5] * f.re, m[5] * f.im};
+  Store(twice * Conjugate(by_r), out->r.data() + i);
+  Store(twice * Conjugate(by_f), out->f.data() + i);
+  Store(-twice * Conjugate(we_a), out->acoustic.data() + i);
+  Store(-twice * Conjugate(we_b), out->flame.data() + i);
+  const V of_g[kDirectionProducts] = {g_aa,
+                                      2.0 * g_aa * r.re,
+                                      g_aa * sigma.r_squared,
+                                      g_bb,
+                                      2.0 * g_bb * f.re,
+                                      g_bb * sigma.f_squared,
+                                      2.0 * g_ab.re,
+                                      2.0 * (f * g_ab).re,
+                                      2.0 * ConjugateTimes(r, g_ab).re,
+                                      2.0 * (sigma.conjugate_r_f * g_ab).re};
+  for (Eigen::Index j = 0; j < noise.count; ++j) {
+    const DirectionProducts& of_source = noise.products[static_cast<std::size_t>(j)];
+    V sum = of_source[0] * of_g[0];
+    for (std::size_t k = 1; k < kDirectionProducts; ++k) sum += of_source[k] * of_g[k];
+    const V s = Lanes<V>::Load(at.spectra.col(j).data() + i);
+    Lanes<V>::Store(bin * s * sum, out->log_spectra.col(j).data() + i);
+  }
+  if (noise.background < 0) return;
+  // The background's u, and du by its ratio, (1, -F).
+  const double beta = noise.ratio;
+  const C u_a = {beta - r.re, -r.im};
+  const C u_b = {1.0 - beta * f.re, -beta * f.im};
+  const C turned_a = C{g_aa, V{}} - g_ab * f;
+  const C turned_b = C{g_ab.re, -g_ab.im} - g_bb * f;
+  const V s = Lanes<V>::Load(at.spectra.col(noise.background).data() + i);
+  *ratio += twice * s * (ConjugateTimes(u_a, turned_a).re + ConjugateTimes(u_b, turned_b).re);
 }
 
-double Dot(const Products& x, const Products& y) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < x.size(); ++k) sum += x[k] * y[k];
-  return sum;
+// All bins, eight at a time: the same operations for each, whatever the machine's vectors.
+HOWL_VECTOR_CLONES double WeighAll(const NoiseOfBins& noise, const double* share, Eigen::Index bins,
+                                   const LoopResiduals& at, WhittleWeights* out) {
+  EightLanes ratio = {};
+  Eigen::Index i = 0;
+  for (; i + kLanes <= bins; i += kLanes) WeighLanes(noise, share, at, i, out, &ratio);
+  double rest = 0.0;
+  for (; i < bins; ++i) WeighLanes(noise, share, at, i, out, &rest);
+  for (Eigen::Index k = 0; k < kLanes; ++k) rest += ratio[k];
+  return rest;
 }
 
 }  // namespace
@@ -37,65 +82,12 @@ double Dot(const Products& x, const Products& y) {
 void WeighBins(const std::vector<NoiseTerm>& noise, const Eigen::VectorXd& share,
                const LoopResiduals& at, WhittleWeights* out) {
   const Eigen::Index bins = share.size();
-  const auto sources = static_cast<Eigen::Index>(noise.size());
   out->r.resize(bins);
   out->f.resize(bins);
   out->acoustic.resize(bins);
   out->flame.resize(bins);
-  out->log_spectra.resize(bins, sources);
-  out->ratio = 0.0;
-  std::array<Products, kMostNoiseTerms> products;
-  Eigen::Index background = -1;
-  for (Eigen::Index j = 0; j < sources; ++j) {
-    const LoopNoise source = noise[static_cast<std::size_t>(j)].source;
-    products[static_cast<std::size_t>(j)] = ProductsOf(source, at.background_ratio);
-    if (source == LoopNoise::kBackground) background = j;
-  }
-  for (Eigen::Index i = 0; i < bins; ++i) {
-    Products m = {};
-    for (Eigen::Index j = 0; j < sources; ++j) {
-      const double s = at.spectra(i, j);
-      const Products& of_source = products[static_cast<std::size_t>(j)];
-      for (std::size_t k = 0; k < m.size(); ++k) m[k] += s * of_source[k];
-    }
-    const C r = at.r[i];
-    const C f = at.f[i];
-    const C conjugate_r_f = ConjugateTimes(r, f);
-    const double r_squared = std::norm(r);
-    const double f_squared = std::norm(f);
-    const HermitianPair sigma{
-        m[0] + 2.0 * m[1] * r.real() + m[2] * r_squared,
-        m[6] + m[7] * std::conj(f) + m[8] * r + m[9] * std::conj(conjugate_r_f),
-        m[3] + 2.0 * m[4] * f.real() + m[5] * f_squared};
-    const HermitianPair w = sigma.Inverse();
-    const ComplexPair we = w.Apply({at.acoustic[i], at.flame[i]});
-    const HermitianPair g{std::norm(we.a) - w.aa, ConjugateTimes(we.b, we.a) - w.ab,
-                          std::norm(we.b) - w.bb};
-    const double twice = 2.0 * share[i];
-    // What all sources' turns add, by R and by F, is sum of S_j a1 u_j and of S_j b1 u_j.
-    out->r[i] = twice * std::conj(g.Apply({m[1] + m[2] * r, m[8] + m[9] * f}).a);
-    out->f[i] = twice * std::conj(g.Apply({m[7] + m[9] * r, m[4] + m[5] * f}).b);
-    out->acoustic[i] = -twice * std::conj(we.a);
-    out->flame[i] = -twice * std::conj(we.b);
-    const Products of_g = {g.aa,
-                           2.0 * g.aa * r.real(),
-                           g.aa * r_squared,
-                           g.bb,
-                           2.0 * g.bb * f.real(),
-                           g.bb * f_squared,
-                           2.0 * g.ab.real(),
-                           2.0 * Times(f, g.ab).real(),
-                           2.0 * ConjugateTimes(r, g.ab).real(),
-                           2.0 * Times(conjugate_r_f, g.ab).real()};
-    for (Eigen::Index j = 0; j < sources; ++j) {
-      out->log_spectra(i, j) =
-          share[i] * at.spectra(i, j) * Dot(products[static_cast<std::size_t>(j)], of_g);
-    }
-    if (background < 0) continue;
-    const ComplexPair turn{1.0, -f};  // du of the background, by its ratio
-    const ComplexPair u{at.background_ratio - r, 1.0 - at.background_ratio * f};
-    out->ratio += twice * at.spectra(i, background) * Inner(u, g.Apply(turn)).real();
-  }
+  out->log_spectra.resize(bins, static_cast<Eigen::Index>(noise.size()));
+  out->ratio = WeighAll({noise, at.background_ratio}, share.data(), bins, at, out);
 }
 
 }  // namespace howl

@@ -1,0 +1,16 @@
+// HOWL_VECTOR_CLONES before a function: one copy for each width of vectors, of which the machine
+// takes the widest that it has. All give the same bits where the source is compiled without fused
+// products
+// (-ffp-contract=off in the folder's CMakeLists.txt), as it has to be.
+#ifndef HOWL_MODEL_NUMERICS_VECTOR_CLONES_H_
+#define HOWL_MODEL_NUMERICS_VECTOR_CLONES_H_
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define HOWL_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define HOWL_VECTOR_CLONES
+#endif
+// Into each copy, what it calls.
+#define HOWL_IN_CLONES [[gnu::always_inline]] inline
+
+#endif  // HOWL_MODEL_NUMERICS_VECTOR_CLONES_H_
