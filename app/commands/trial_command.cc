@@ -86,6 +86,7 @@ int RunTrialShard(const Options& options, const Shard& shard) {
   if (IsShardDone(options.out, "trial", shard, header)) return kDone;
   const TrialFolder folder = FolderOfShard(options.out, shard);
   std::filesystem::create_directories(folder.books);
+  RemoveUnpublished(folder);
   TrialLog log(folder.Log());
   if (IsSealed(log) && !ReportChanges(folder, log)) return kNegativeAnswer;
   WatchForInterruption();
@@ -98,6 +99,7 @@ int RunTrialShard(const Options& options, const Shard& shard) {
 int RunTrialCommand(const Options& options) {
   if (const std::optional<Shard> shard = ShardOf(options)) return RunTrialShard(options, *shard);
   const TrialFolder folder{options.out, options.out};
+  RemoveUnpublished(folder);
   TrialLog log(folder.Log());
   if (IsSealed(log) && !ReportChanges(folder, log)) return kNegativeAnswer;
   if (log.Find("opened")) {

@@ -104,6 +104,11 @@ void CompareDiagnoses(const TrialFolder& folder, const TrialLog& log, Changes& c
 
 }  // namespace
 
+void RemoveUnpublished(const TrialFolder& folder) {
+  RemoveUnpublished(folder.books);
+  RemoveUnpublished(folder.SealedKey().parent_path());
+}
+
 bool IsCaseName(std::string_view name) {
   return !name.empty() && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');

@@ -38,6 +38,10 @@ struct TrialFolder {
   std::filesystem::path Log() const { return books / "log.jsonl"; }
 };
 
+// What a run that was killed left unpublished in the trial's own folders, which the lock of the
+// output folder does not see to; nobody else may be at work on these books.
+void RemoveUnpublished(const TrialFolder& folder);
+
 // Whether it is a name as cases have, and no path: a case's folder is removed and made anew.
 bool IsCaseName(std::string_view name);
 

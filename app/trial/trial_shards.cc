@@ -134,6 +134,7 @@ void AdoptTrialShards(const Options& options, const Units& units) {
                      {"seal_sha256", TextAt(*sealed, "seal_sha256")}});
   }
   for (const std::string& name : CaseNames(units, shards)) {
+    RemoveUnpublished(folder.Diagnosis(name).parent_path());
     WriteWholeFile(folder.Diagnosis(name), units.at(KeyOf(kDiagnosis, name)));
   }
   const std::string seal_sha256 = WriteSeal(folder, request, cases);

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
@@ -140,9 +141,14 @@ TEST_F(Trial, RunsBlindGoesOnScoresAndNoticesChanges) {
 }
 
 void Trial::StandsWhileNothingChanges() {
-  const ProgramResult result = RunHowl(command_ + Copy("same").string());
+  // What a run that was killed left of the key it wrote goes.
+  const fs::path same = Copy("same");
+  const fs::path left = same / "key" / ".key.json.howl-abc123";
+  std::ofstream(left) << "half a key";
+  const ProgramResult result = RunHowl(command_ + same.string());
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("nothing has changed since"));
+  EXPECT_FALSE(fs::exists(left));
 }
 
 void Trial::NoticesATamperedKey() {
