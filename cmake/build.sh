@@ -56,10 +56,10 @@ howl_install_packages() {
 howl_build() {
   local root=$1 target=$2 log
   log=$(mktemp)
-  local tests=OFF minutes=20
+  local tests=OFF minutes=7
   case $target in
-    all) tests=ON minutes=25 ;;
-    howl_fit) minutes=5 ;;
+    all) tests=ON minutes=10 ;;
+    howl_fit) minutes=3 ;;
   esac
   [ -e "$root/build/$target" ] || [ -e "$root/build/howl" ] ||
     echo "compiling $target to build/: on two cores some $minutes minutes the first time" >&2

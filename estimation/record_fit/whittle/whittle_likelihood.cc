@@ -10,7 +10,7 @@
 namespace howl {
 namespace {
 
-constexpr Eigen::Index kChunk = 8 * kLanes;  // bins taken at once
+constexpr Eigen::Index kChunk = 64;  // bins taken at once
 
 struct Chunk {
   std::array<double, kChunk> determinant;  // of Sigma
