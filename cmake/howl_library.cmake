@@ -24,8 +24,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_CLANG_TIDY)
   set(howl_finite_complex -fcx-limited-range)
 endif()
 
-# With CMAKE_UNITY_BUILD the sources of one folder are compiled together, which takes a third of the
-# time: so no two of them may define the same name. A folder is a group, not any eight files, so that
+# With CMAKE_UNITY_BUILD the sources of one folder are compiled together, which takes less than half
+# of the time: so no two of them may define the same name. A folder is a group, not any eight files, so that
 # a new file changes what its own folder's names meet and nothing else.
 function(howl_unite_folders target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)

@@ -1,7 +1,6 @@
 // HOWL_VECTOR_CLONES before a function: one copy for each width of vectors, of which the machine
-// takes the widest that it has. All give the same bits where the source is compiled without fused
-// products
-// (-ffp-contract=off in the folder's CMakeLists.txt), as it has to be.
+// takes the widest that it has. All give the same bits, as such a source is compiled without fused
+// products (-ffp-contract=off in its library's CMakeLists.txt).
 #ifndef HOWL_MODEL_NUMERICS_VECTOR_CLONES_H_
 #define HOWL_MODEL_NUMERICS_VECTOR_CLONES_H_
 

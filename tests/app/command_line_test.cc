@@ -118,15 +118,15 @@ TEST_F(Flags, MistakesInAFileAreNamedByItsLine) {
 }
 
 TEST_F(Flags, FromTheEnvironment) {
-  ASSERT_EQ(setenv("FLAGS_seed", "82", 1), 0);
+  ASSERT_EQ(setenv("FLAGS_seed", "8675309", 1), 0);
   const std::string out = " --quiet --out " + Folder("environment");
   EXPECT_EQ(Fit("--fromenv=seed" + out).status, 0);
-  EXPECT_THAT(RunFile("environment"), HasSubstr("82"));
+  EXPECT_THAT(RunFile("environment"), HasSubstr("8675309"));
   EXPECT_EQ(Fit("--tryfromenv=seed,threads" + out).status, 0);
-  EXPECT_THAT(RunFile("environment"), HasSubstr("82"));
+  EXPECT_THAT(RunFile("environment"), HasSubstr("8675309"));
   // Asked for only.
   EXPECT_EQ(Fit(out).status, 0);
-  EXPECT_THAT(RunFile("environment"), Not(HasSubstr("82")));
+  EXPECT_THAT(RunFile("environment"), Not(HasSubstr("8675309")));
   const ProgramResult absent = Fit("--fromenv=seed,threads" + out);
   EXPECT_EQ(absent.status, 2);
   EXPECT_THAT(absent.err, HasSubstr("FLAGS_threads is not in the environment"));

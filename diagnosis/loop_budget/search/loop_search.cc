@@ -140,6 +140,7 @@ LoopFound Search::Run() {
   LoopFound out;
   out.base = FitBase();
   base_density_ = out.base.Density();
+  VLOG(1) << "base " << base_density_ << " nats";
   out.best = out.base;
   std::string prefix;
   for (int pass = 1; Forward(prefix, &out); ++pass) {
@@ -150,6 +151,7 @@ LoopFound Search::Run() {
     prefix = "again/" + std::to_string(pass) + "/";
   }
   Exchange(&out);
+  VLOG(1) << "best " << out.best.Density() << " nats";
   out.with_acoustic_lines = WithLines(out.best, &PointStructure::acoustic_lines, "acoustic_lines/");
   out.with_flame_lines = WithLines(out.best, &PointStructure::flame_lines, "flame_lines/");
   out.records = std::move(records_);

@@ -1,4 +1,5 @@
 // The value of whittle.h.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,11 +11,11 @@
 namespace howl {
 namespace {
 
-constexpr Eigen::Index kChunk = 64;  // bins taken at once
+constexpr Eigen::Index kBinsAtOnce = 64;
 
 struct Chunk {
-  std::array<double, kChunk> determinant;  // of Sigma
-  std::array<double, kChunk> square;       // E^H Sigma^-1 E
+  std::array<double, kBinsAtOnce> determinant;  // of Sigma
+  std::array<double, kBinsAtOnce> square;       // E^H Sigma^-1 E
 };
 
 // Of the bins from i on, as many as V has lanes.
@@ -52,8 +53,8 @@ double WhittleLogLikelihood(const std::vector<NoiseTerm>& noise, const Eigen::Ve
   LogOfProduct determinants;
   double squares = 0.0;
   Chunk chunk;
-  for (Eigen::Index first = 0; first < share.size(); first += kChunk) {
-    const Eigen::Index bins = std::min(kChunk, share.size() - first);
+  for (Eigen::Index first = 0; first < share.size(); first += kBinsAtOnce) {
+    const Eigen::Index bins = std::min(kBinsAtOnce, share.size() - first);
     Evaluate(of_bins, at, first, bins, &chunk);
     for (Eigen::Index i = 0; i < bins; ++i) {
       const auto at_i = static_cast<std::size_t>(i);
