@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/files/digest.h"
 #include "io/json_fields.h"
 #include "io/json_text.h"
 #include "io/user_error.h"

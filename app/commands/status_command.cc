@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "app/command_line/command.h"
-#include "app/files/digest.h"
 #include "app/jobs/shard_set.h"
 #include "app/jobs/slurm.h"
 #include "app/jobs/submitted_job.h"

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "app/files/digest.h"
 #include "app/jobs/shard.h"
 #include "app/jobs/slurm.h"
 #include "io/json_text.h"

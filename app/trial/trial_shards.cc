@@ -17,6 +17,7 @@ namespace howl {
 namespace {
 
 namespace fs = std::filesystem;
+
 constexpr std::string_view kSeal = "seal#";
 constexpr std::string_view kKey = "key#";
 constexpr std::string_view kLog = "log#";

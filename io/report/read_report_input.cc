@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <limits>
 
 #include "io/config/reading/config_reading.h"
 #include "io/json_text.h"

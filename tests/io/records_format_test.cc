@@ -1,5 +1,4 @@
 // Every format gives the same samples.
-#include <numbers>
 
 #include "tests/io/record_files.h"
 

@@ -179,13 +179,16 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
   if (best.empty()) return {At(null, at_null)};
   std::ranges::stable_sort(best, std::ranges::greater(), &EffectPoint::log_posterior);
   best.resize(std::min(best.size(), kMostFollowed));
-  std::vector<EffectPoint> out;
-  for (const EffectPoint& each : best) {
-    std::vector<Eigen::VectorXd> whole = ParametersOf(each.fits);
-    for (std::size_t e = 0; e < whole.size(); ++e) {
-      whole[e] = BesideMiddle(records_.Whole(form_, e), form_.structure, std::move(whole[e]));
+  std::vector<std::vector<Eigen::VectorXd>> whole(best.size());
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    const RecordSpectra record = records_.Whole(form_, e);
+    for (std::size_t k = 0; k < best.size(); ++k) {
+      whole[k].push_back(BesideMiddle(record, form_.structure, best[k].fits[e].parameters));
     }
-    out.push_back(At(each.u, whole));
+  }
+  std::vector<EffectPoint> out;
+  for (std::size_t k = 0; k < best.size(); ++k) {
+    out.push_back(At(best[k].u, whole[k]));
     AgainFromNull(at_null, &out.back());
   }
   return out;

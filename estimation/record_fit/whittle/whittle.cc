@@ -4,7 +4,6 @@
 
 #include "estimation/record_fit/whittle/noise_covariance.h"
 #include "estimation/record_fit/whittle/whittle_weights.h"
-#include "model/numerics/complex_products.h"
 
 namespace howl {
 namespace {
