@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Rigs of the second simulator over the whole range that rigs have, as cases with an open key.
 
-    [EFFECTS=slow_drift,mains_hum] python3 bench/draw_rigs.py HOWL_RIG FOLDER COUNT [SEED]
+    [EFFECTS=slow_drift,p_dropouts+mains_hum] python3 bench/draw_rigs.py HOWL_RIG FOLDER COUNT [SEED]
 
 Cycles of 60 Hz to 1.5 kHz, 2 to 12 operating points, 12 to 40 samples a cycle (1 to 50 kHz), records
 of 2 to 20 s, combustion noise of 2 to 10 % and sensors' of 0.1 to 1 %, all drawn evenly in the
 logarithm; a quarter of the rigs has no effect, half one of the catalogue, an eighth one from outside
 it, an eighth two. MOST_CYCLES bounds what one rig costs. Each case is FOLDER/cases/NAME with its
-config.yaml; FOLDER/key/key.json says what each has. EFFECTS: one of these alone in each rig.
+config.yaml; FOLDER/key/key.json says what each has. EFFECTS: one of these in each rig, a+b both.
 """
 import itertools
 import json
@@ -60,7 +60,7 @@ def main():
     draw = random.Random(int(sys.argv[4]) if len(sys.argv) > 4 else 1)
     kinds = effects_of(howl_rig)
     asked = [effect for effect in os.environ.get("EFFECTS", "").split(",") if effect]
-    kinds["asked"] = [(effect,) for effect in asked]
+    kinds["asked"] = [tuple(effect.split("+")) for effect in asked]
     decks = {group: [] for group in kinds}
     key = {"cases": {}}
     (folder / "key").mkdir(parents=True, exist_ok=True)

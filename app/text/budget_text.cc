@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "app/text/place_text.h"
 #include "app/text/text_table.h"
 
 namespace howl {
@@ -121,10 +122,8 @@ std::string BudgetText(const Budget& budget) {
                    DoubtfulText(budget);
   for (const Place& place : budget.left) {
     const bool acoustics = place.block == LoopBlock::kAcoustics;
-    out += "left: " + std::string(acoustics ? "p from q, " : "q from p, ") +
-           Fixed(place.low_hz, 0) + " to " + Fixed(place.high_hz, 0) + " Hz, " +
-           std::to_string(place.experiments.size()) + " experiments (share " +
-           Fixed(place.share, 2) + ")\n";
+    out +=
+        "left: " + std::string(acoustics ? "p from q, " : "q from p, ") + ExtentText(place) + "\n";
   }
   out += "floor of the gap, of a loop that is right: " + Fixed(budget.floor, 3) + "\n";
   if (budget.gap_left > budget.floor) out += OctavesText(budget.left_by_octave);

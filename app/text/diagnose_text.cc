@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/text/budget_text.h"
+#include "app/text/place_text.h"
 #include "app/text/text_table.h"
 #include "io/results/verdict_remarks.h"
 #include "model/numerics/constants.h"
@@ -102,9 +103,8 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
       break;
   }
   for (const Place& place : diagnosis.where) {
-    std::printf("where: %s, %.0f to %.0f Hz, %zu experiments (share %.2f)\n",
-                std::string(LoopBlockName(place.block)).c_str(), place.low_hz, place.high_hz,
-                place.experiments.size(), place.share);
+    std::printf("where: %s, %s\n", std::string(LoopBlockName(place.block)).c_str(),
+                ExtentText(place).c_str());
   }
   // Of a lone experiment nothing can be held out: its gap is that of the fit to itself.
   const auto is_other = [&](const GapCell& cell) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/text/budget_text.h"
+#include "app/text/place_text.h"
 #include "app/text/text_table.h"
 
 namespace howl {
@@ -40,9 +41,7 @@ std::string WhereText(const Diagnosis& diagnosis) {
   std::string out;
   if (diagnosis.kind != VerdictKind::kEffect) return out;
   for (const Place& place : diagnosis.where) {
-    out += "where: " + std::string(LoopBlockName(place.block)) + ", " + Fixed(place.low_hz, 0) +
-           " to " + Fixed(place.high_hz, 0) + " Hz, " + std::to_string(place.experiments.size()) +
-           " experiments (share " + Fixed(place.share, 2) + ")\n";
+    out += "where: " + std::string(LoopBlockName(place.block)) + ", " + ExtentText(place) + "\n";
   }
   return out;
 }
@@ -67,7 +66,7 @@ std::string AloneText(const Diagnosis& diagnosis) {
   return out.empty() ? "" : Wrapped("alone, at each point by itself, nats: " + out, 2) + "\n";
 }
 
-std::string Listed(const std::vector<std::string>& items) {
+std::string WithCommas(const std::vector<std::string>& items) {
   std::string out;
   for (const std::string& item : items) out += (out.empty() ? "" : ",") + item;
   return out;
@@ -84,7 +83,7 @@ std::string LoopDiagnosisText(const LoopDiagnosis& found) {
   out += LinesText("p from q", found.acoustics, budget.experiments);
   out += LinesText("q from p", found.flame, budget.experiments);
   out += Wrapped("next: " + found.diagnosis.advice, 2) + "\n";
-  if (!found.items.empty()) out += "to go on from there: --with " + Listed(found.items) + "\n";
+  if (!found.items.empty()) out += "to go on from there: --with " + WithCommas(found.items) + "\n";
   return out;
 }
 

@@ -16,6 +16,7 @@
 #include "diagnosis/loop_budget/loop_verdict.h"
 #include "diagnosis/loop_budget/sample_facts.h"
 #include "diagnosis/loop_budget/search/loop_search.h"
+#include "diagnosis/loop_budget/stuck_samples.h"
 #include "estimation/analysis/spectra/half_width.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/shared_units.h"
@@ -166,11 +167,13 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
                             const LoopBudgetOptions& options) {
   const std::vector<SampleFact> seen = SampleFactsOf(all, options.withheld);
   LoopBudgetOptions how = options;
-  if (!AreNoise(seen)) {
+  if (!RestCanBeFound(seen)) {
     how.withheld = LoopItemIds();
     how.one_delay = false;
   }
-  const LoopFound found = SearchLoopBudget(LoopRecords(all, options.threads), base, how);
+  const LoopFound found = SearchLoopBudget(
+      LoopRecords(WithStuckSamplesFilled(all, options.withheld, options.threads), options.threads),
+      base, how);
   const LoopRecords& records = found.records;
   LoopDiagnosis out;
   out.base = found.base.model;

@@ -52,7 +52,7 @@ std::vector<Place> PlacesOf(const LoopDiagnosis& of, double least_of_lines) {
         budget.entries.empty() ? 1.0 / static_cast<double>(budget.seen_in_samples.size()) : 0.0;
     out.push_back(std::move(place));
   }
-  if (!AreNoise(budget.seen_in_samples)) return out;
+  if (!RestCanBeFound(budget.seen_in_samples)) return out;
   double sum = 0.0;
   for (const BudgetEntry& entry : budget.entries) sum += entry.lost_nats;
   for (const BudgetEntry& entry : budget.entries) {

@@ -148,7 +148,7 @@ void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
 }
 
 std::string AdviceOf(const Diagnosis& diagnosis) {
-  if (!AreNoise(diagnosis.budget->seen_in_samples)) {
+  if (!RestCanBeFound(diagnosis.budget->seen_in_samples)) {
     return "record again, within the converter's range and with finer steps: whatever is fitted to "
            "such samples speaks of what was done to them";
   }
@@ -201,13 +201,13 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   diagnosis.gap_before = budget.gap_before;
   diagnosis.gap_after = budget.gap_left;
   diagnosis.gap_floor = budget.floor;
-  if (AreNoise(budget.seen_in_samples)) {
+  if (RestCanBeFound(budget.seen_in_samples)) {
     TakeOdds(found, out);
   } else {
     TakeWhatSamplesShow(found, &diagnosis);
   }
   AddAlone(found, &diagnosis);
-  if (AreNoise(budget.seen_in_samples)) Calibrate(DoubtOfBudget(diagnosis.kind), &diagnosis);
+  if (RestCanBeFound(budget.seen_in_samples)) Calibrate(DoubtOfBudget(diagnosis.kind), &diagnosis);
   if (diagnosis.kind == VerdictKind::kEffect) diagnosis.indistinguishable = Alike(budget);
   diagnosis.where = PlacesOf(*out, LeastOfLines(found));
   diagnosis.advice = AdviceOf(diagnosis);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/fine_steps.h"
+#include "diagnosis/loop_budget/stuck_samples.h"
 #include "estimation/health/sample_health.h"
 
 namespace howl {
@@ -32,7 +33,7 @@ Health FindingsOf(const LoopRecord& of) {
 // Of more than half of the records.
 std::optional<SampleFact> FineStepsOf(const std::vector<LoopRecord>& records,
                                       const std::vector<std::string>& withheld) {
-  SampleFact out{.effect = "quantisation", .is_noise = true};
+  SampleFact out{.effect = "quantisation", .rest_can_be_found = true};
   if (std::ranges::find(withheld, out.effect) != withheld.end()) return std::nullopt;
   for (const LoopRecord& each : records) {
     const int levels = LevelsOfFineSteps(each.record.pressure);
@@ -44,6 +45,14 @@ std::optional<SampleFact> FineStepsOf(const std::vector<LoopRecord>& records,
   return out;
 }
 
+bool CanBeFilled(const std::string& effect, const std::vector<LoopRecord>& records) {
+  if (!effect.ends_with("dropouts")) return false;
+  return std::ranges::all_of(records, [&](const LoopRecord& each) {
+    const Record& record = each.record;
+    return ShareStuck(effect[0] == 'p' ? record.pressure : record.heat_release) <= kMostStuck;
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> SampleFactIds() {
@@ -52,12 +61,12 @@ std::vector<std::string> SampleFactIds() {
   return out;
 }
 
-bool AreNoise(const std::vector<SampleFact>& facts) {
-  return std::ranges::all_of(facts, &SampleFact::is_noise);
+bool RestCanBeFound(const std::vector<SampleFact>& facts) {
+  return std::ranges::all_of(facts, &SampleFact::rest_can_be_found);
 }
 
 bool CanBeRepaired(const std::vector<SampleFact>& facts) {
-  return !AreNoise(facts) && std::ranges::none_of(facts, [](const SampleFact& fact) {
+  return !RestCanBeFound(facts) && std::ranges::none_of(facts, [](const SampleFact& fact) {
     return fact.effect.ends_with("dropouts");
   });
 }
@@ -83,7 +92,7 @@ std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
     if (2 * seen[k].experiments <= records.size()) continue;
     if (std::ranges::find(withheld, kKinds[k].effect) != withheld.end()) continue;
     out.push_back({kKinds[k].effect, seen[k].value / static_cast<double>(seen[k].experiments),
-                   seen[k].experiments});
+                   seen[k].experiments, CanBeFilled(kKinds[k].effect, records)});
   }
   // Coarse steps are called so already.
   if (std::ranges::find(out, "quantisation", &SampleFact::effect) != out.end()) return out;

@@ -6,10 +6,11 @@
 //                            (fine_steps.h)
 //   p_dropouts, q_dropouts   a signal stands still for longer than by chance
 //
-// A loop that is fitted to such samples speaks of what was done to them, whatever is added to it:
-// what clipping and coarse steps add goes with the signal, and no source of noise does. So nothing
-// else is looked for beside them, unless they are withheld as an item is. Fine steps alone add
-// white noise, and leave the rest to be found.
+// A loop that is fitted to clipped samples speaks of what was done to them, whatever is added to
+// it: what clipping and coarse steps add goes with the signal, and no source of noise does. So
+// nothing else is looked for beside them, unless they are withheld as an item is. Fine steps alone
+// add white noise, and samples that a signal lost while it stood still are filled
+// (stuck_samples.h): both leave the rest to be found.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
 
@@ -28,8 +29,8 @@ std::vector<std::string> SampleFactIds();
 std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
                                       const std::vector<std::string>& withheld = {});
 
-// Whether all of these leave the loop's likelihood as it is.
-bool AreNoise(const std::vector<SampleFact>& facts);
+// Whether all of these leave the rest to be found.
+bool RestCanBeFound(const std::vector<SampleFact>& facts);
 // Whether the search for one cause (diagnosis.h) makes good what these have done to the samples.
 bool CanBeRepaired(const std::vector<SampleFact>& facts);
 

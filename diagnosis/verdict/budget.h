@@ -42,8 +42,9 @@ struct SampleFact {
   // longest.
   double value = 0.0;
   std::size_t experiments = 0;
-  // Whether it adds to the samples what the base has: white noise of p (fine_steps.h).
-  bool is_noise = false;
+  // Whether it adds to the samples what the base has, white noise of p (fine_steps.h), or they are
+  // made good (stuck_samples.h).
+  bool rest_can_be_found = false;
 };
 
 struct Budget {

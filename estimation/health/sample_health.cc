@@ -19,10 +19,10 @@ constexpr double kClippedShare = 1e-3;
 // towards its ends as 1 / sqrt: its last step of a converter is 2.4 times as full as the next one.
 constexpr double kClippedOverNext = 10.0;
 constexpr std::size_t kNextValues = 8;
-// By chance a run of equal samples is this much longer than expected in less than one record of a
-// thousand where a tenth of the samples repeats the one before.
+// Runs by chance are longer than m times what is expected in one record of n^(m - 1). On the
+// measured records none is longer than twice that; neighbouring samples are not independent, and a
+// signal that is called stuck is filled.
 constexpr double kStuckBeyondExpected = 4.0;
-constexpr double kFewestStuck = 10.0;
 constexpr double kHeldShare = 0.45;        // of samples equal to the one before: each stands twice
 constexpr std::size_t kHeldLevels = 100;   // fewer values repeat by themselves
 constexpr std::size_t kCoarseLevels = 32;  // five bits
@@ -41,7 +41,7 @@ class SampleCheck {
     for (std::size_t i = 1; i < sorted_.size(); ++i) levels_ += sorted_[i] != sorted_[i - 1];
   }
 
-  Health Find() {
+  void Find() {
     const bool is_coarse = CheckLevels();
     if (!is_coarse) {
       CheckEnd("largest", sorted_.rbegin(), sorted_.rend());
@@ -49,8 +49,10 @@ class SampleCheck {
     }
     CheckRepeats();
     CheckAppended();
-    return std::move(health_);
   }
+
+  const Health& health() const { return health_; }
+  const std::vector<Gap>& stuck() const { return stuck_; }
 
  private:
   void Add(const char* subject, double value, double limit, const std::string& text) {
@@ -94,6 +96,7 @@ class SampleCheck {
   void CheckRepeats() {
     const std::size_t n = samples_.size();
     std::size_t equal = 0;
+    std::size_t repeated = 0;  // runs of two and more
     std::size_t run = 1;
     std::size_t longest = 1;
     std::size_t longest_end = 0;
@@ -103,7 +106,7 @@ class SampleCheck {
         continue;
       }
       ++equal;
-      ++run;
+      if (++run == 2) ++repeated;
       // A clipped signal stands still at its end, which is reported as clipping.
       if (run > longest && std::ranges::find(clipped_, samples_[i]) == clipped_.end()) {
         longest = run;
@@ -111,7 +114,9 @@ class SampleCheck {
       }
     }
     const double share = static_cast<double>(equal) / static_cast<double>(n - 1);
-    if (share >= kHeldShare && levels_ >= kHeldLevels && longest < n / 10) {
+    // A run counts once, however long: those that are stuck tell nothing of chance.
+    const double goes_on = (static_cast<double>(repeated) + 1.0) / static_cast<double>(n - equal);
+    if (std::min(share, goes_on) >= kHeldShare && levels_ >= kHeldLevels && longest < n / 10) {
       const double times = 1.0 / (1.0 - share);
       Add("held", share, kHeldShare,
           "stands still over " + NumberWord(times, 2) + " samples on the mean: sampled at about " +
@@ -119,18 +124,29 @@ class SampleCheck {
               NumberWord(sampling_hz_, 5) + " Hz");
       return;
     }
-    // Repeats within the run itself do not count as chance.
-    const double others = static_cast<double>(equal - std::min(equal, longest - 1)) + 1.0;
-    const double by_chance = std::min(others / static_cast<double>(n), 0.99);
-    const double expected = std::log(static_cast<double>(n)) / -std::log(by_chance);
-    const double limit = std::max(kFewestStuck, kStuckBeyondExpected * expected);
+    const double expected = std::log(static_cast<double>(n)) / -std::log(std::min(goes_on, 0.99));
+    const double limit = kStuckBeyondExpected * expected;
     if (static_cast<double>(longest) <= limit) return;
+    KeepStuck(limit);
     const double end_s = static_cast<double>(longest_end + 1) / sampling_hz_;
     const double start_s = end_s - static_cast<double>(longest) / sampling_hz_;
     Add("stuck", static_cast<double>(longest), limit,
         "stands still at " + NumberWord(samples_[longest_end], 5) + " for " +
             std::to_string(longest) + " samples, from " + NumberWord(start_s, 4) + " to " +
             NumberWord(end_s, 4) + " s");
+  }
+
+  void KeepStuck(double longest_by_chance) {
+    std::size_t first = 0;
+    for (std::size_t i = 1; i <= samples_.size(); ++i) {
+      if (i < samples_.size() && samples_[i] == samples_[first]) continue;
+      const std::size_t length = i - first;
+      if (static_cast<double>(length) > longest_by_chance &&
+          std::ranges::find(clipped_, samples_[first]) == clipped_.end()) {
+        stuck_.push_back({first + 1, length - 1});
+      }
+      first = i;
+    }
   }
 
   void CheckAppended() {
@@ -157,6 +173,7 @@ class SampleCheck {
   std::vector<double> sorted_;
   std::size_t levels_ = 1;
   std::vector<double> clipped_;
+  std::vector<Gap> stuck_;
   Health health_;
 };
 
@@ -165,7 +182,16 @@ class SampleCheck {
 Health CheckSamples(const std::string& experiment, const std::string& channel,
                     std::span<const double> samples, double sampling_hz) {
   if (samples.size() < 2) return {};
-  return SampleCheck(experiment, channel, samples, sampling_hz).Find();
+  SampleCheck check(experiment, channel, samples, sampling_hz);
+  check.Find();
+  return check.health();
+}
+
+std::vector<Gap> StuckSamples(std::span<const double> samples) {
+  if (samples.size() < 2) return {};
+  SampleCheck check("", "", samples, 1.0);
+  check.Find();
+  return check.stuck();
 }
 
 }  // namespace howl

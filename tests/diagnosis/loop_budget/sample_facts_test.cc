@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_budget.h"
+#include "diagnosis/loop_budget/stuck_samples.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl::sample_facts_test {
@@ -88,7 +91,7 @@ TEST(SampleFacts, AreAllThatTheRecordsShow) {
   ASSERT_EQ(facts.size(), 2u);
   EXPECT_EQ(facts[0].effect, "q_clipping");
   EXPECT_EQ(facts[1].effect, "quantisation");
-  EXPECT_FALSE(facts[1].is_noise);
+  EXPECT_FALSE(facts[1].rest_can_be_found);
 }
 
 // Of 100 levels the steps are the noise of p, which the base has: the rest is looked for beside it.
@@ -97,7 +100,7 @@ TEST(SampleFacts, FineStepsLeaveTheRestToBeFound) {
   for (LoopRecord& each : records) Quantise(50.0, &each.record.pressure);
   const std::vector<SampleFact> facts = SampleFactsOf(records);
   ASSERT_EQ(facts.size(), 1u);
-  EXPECT_TRUE(facts[0].is_noise);
+  EXPECT_TRUE(facts[0].rest_can_be_found);
   EXPECT_NEAR(facts[0].value, 100.0, 8.0);
   const LoopDiagnosis alone = DiagnoseLoops(records, DuctsForm(), Among({"complex_residues"}));
   EXPECT_EQ(alone.diagnosis.effect, "quantisation");
@@ -105,6 +108,54 @@ TEST(SampleFacts, FineStepsLeaveTheRestToBeFound) {
   base.structure.complex_residues = false;
   const LoopDiagnosis both = DiagnoseLoops(records, base, Among({"complex_residues"}));
   EXPECT_EQ(both.diagnosis.effect, "quantisation+complex_residues");
+}
+
+// Stands of `length` samples, one in four hundred begins one.
+void StandStill(std::size_t length, std::vector<double>* signal) {
+  std::mt19937_64 random(7);
+  for (std::size_t t = 1; t + length < signal->size(); ++t) {
+    if (random() % 400 != 0) continue;
+    std::fill_n(signal->begin() + static_cast<std::ptrdiff_t>(t), length, (*signal)[t - 1]);
+    t += length;
+  }
+}
+
+TEST(SampleFacts, StuckSamplesLeaveTheRestToBeFound) {
+  std::vector<LoopRecord> records = Ducts();
+  for (LoopRecord& each : records) StandStill(20, &each.record.pressure);
+  const std::vector<SampleFact> facts = SampleFactsOf(records);
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_EQ(facts[0].effect, "p_dropouts");
+  EXPECT_EQ(facts[0].experiments, 3u);
+  EXPECT_TRUE(facts[0].rest_can_be_found);
+  const LoopDiagnosis alone = DiagnoseLoops(records, DuctsForm(), Among({"complex_residues"}));
+  EXPECT_EQ(alone.diagnosis.effect, "p_dropouts");
+  LoopForm base = DuctsForm();
+  base.structure.complex_residues = false;
+  const LoopDiagnosis both = DiagnoseLoops(records, base, Among({"complex_residues"}));
+  EXPECT_EQ(both.diagnosis.effect, "p_dropouts+complex_residues");
+}
+
+TEST(SampleFacts, WhereMostIsStuckTheRestIsNotEnough) {
+  std::vector<LoopRecord> records = Ducts();
+  for (LoopRecord& each : records) StandStill(300, &each.record.heat_release);
+  EXPECT_GT(ShareStuck(records[0].record.heat_release), kMostStuck);
+  const std::vector<SampleFact> facts = SampleFactsOf(records);
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_EQ(facts[0].effect, "q_dropouts");
+  EXPECT_FALSE(facts[0].rest_can_be_found);
+  const std::vector<LoopRecord> as_they_are = WithStuckSamplesFilled(records, {}, 1);
+  EXPECT_EQ(as_they_are[0].record.heat_release, records[0].record.heat_release);
+}
+
+TEST(SampleFacts, StuckSamplesThatAreWithheldStay) {
+  std::vector<LoopRecord> records = Ducts();
+  StandStill(20, &records[1].record.pressure);
+  const std::vector<LoopRecord> kept = WithStuckSamplesFilled(records, {"p_dropouts"}, 1);
+  EXPECT_EQ(kept[1].record.pressure, records[1].record.pressure);
+  const std::vector<LoopRecord> filled = WithStuckSamplesFilled(records, {"q_dropouts"}, 1);
+  EXPECT_EQ(filled[0].record.pressure, records[0].record.pressure);
+  EXPECT_NE(filled[1].record.pressure, records[1].record.pressure);
 }
 
 }  // namespace

@@ -55,6 +55,24 @@ TEST(SampleHealth, ASoundSignalHasNoFinding) {
   EXPECT_THAT(Subjects(in_step), testing::ElementsAre("p_appended"));  // which it is
 }
 
+TEST(SampleHealth, StuckSamplesAreAllButTheFirstOfARun) {
+  std::vector<double> samples = Signal();
+  EXPECT_THAT(StuckSamples(samples), testing::IsEmpty());
+  std::fill_n(samples.begin() + 1001, 39, samples[1000]);
+  std::fill_n(samples.begin() + 20001, 59, samples[20000]);
+  std::fill_n(samples.begin() + 25001, 2, samples[25000]);  // by chance
+  const std::vector<Gap> found = StuckSamples(samples);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].first, 1001u);
+  EXPECT_EQ(found[0].length, 39u);
+  EXPECT_EQ(found[1].first, 20001u);
+  EXPECT_EQ(found[1].length, 59u);
+  // At the ends of a range a signal is clipped.
+  samples = Signal();
+  for (double& each : samples) each = std::min(each, 0.5);
+  EXPECT_THAT(StuckSamples(samples), testing::IsEmpty());
+}
+
 TEST(SampleHealth, ClippedAtOneEndOrBoth) {
   std::vector<double> samples = Signal();
   for (double& each : samples) each = std::min(each, 0.9);

@@ -1,0 +1,31 @@
+// Samples that a channel lost while it stood still (estimation/health/sample_health.h): they are
+// filled from the other channel (fill_gaps.h), and the loop is fitted to what comes of it.
+//
+// What is filled in has no noise of the sensor and tells nothing new, so that intervals are too
+// narrow by half the share that is missing: up to an eighth where a quarter is. Beyond that the
+// rest of the record is not called enough.
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_STUCK_SAMPLES_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_STUCK_SAMPLES_H_
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "estimation/joint_records/loop_record.h"
+
+namespace howl {
+
+inline constexpr double kMostStuck = 0.25;
+
+// Of one channel's samples.
+double ShareStuck(std::span<const double> samples);
+
+// Records of which at most that share is stuck are filled, but for the channels whose dropouts
+// (p_dropouts, q_dropouts) are withheld.
+std::vector<LoopRecord> WithStuckSamplesFilled(std::vector<LoopRecord> records,
+                                               const std::vector<std::string>& withheld,
+                                               int threads);
+
+}  // namespace howl
+
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_STUCK_SAMPLES_H_
