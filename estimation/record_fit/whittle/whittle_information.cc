@@ -2,13 +2,12 @@
 #include <algorithm>
 
 #include "estimation/record_fit/whittle/information_weights.h"
+#include "estimation/record_fit/whittle/weigh_columns.h"
 #include "estimation/record_fit/whittle/whittle.h"
+#include "model/numerics/transposed_product.h"
 
 namespace howl {
 namespace {
-
-// Bins that are taken at once: what they need stays in the processor's nearest memory.
-constexpr Eigen::Index kChunk = 64;
 
 // The slopes of R and E_A, or of F and E_B, over a chunk of bins: four rows a bin, real and
 // imaginary parts of both, one column a parameter.
@@ -21,8 +20,9 @@ class Panel {
     Set(transfer_, first, bins, 0);
     Set(residual_, first, bins, 2);
   }
-  auto Rows(Eigen::Index part, Eigen::Index bins) const {
-    return rows_.middleRows(part * kChunk, bins);
+  // Those of two parts, from `part` on.
+  SlopeColumns Columns(Eigen::Index part) const {
+    return {rows_.data() + part * kChunk, rows_.outerStride(), rows_.cols()};
   }
   Eigen::Index cols() const { return rows_.cols(); }
   const Eigen::MatrixXd& rows() const { return rows_; }
@@ -39,25 +39,6 @@ class Panel {
   const Eigen::MatrixXcd& residual_;
   Eigen::MatrixXd rows_;
 };
-
-// So that x^T times the rows is the sum of Re(x alpha y + x beta conj(y)): those of y in `part`.
-void Weigh(const Eigen::VectorXcd& alphas, const Eigen::VectorXcd& betas, const Panel& y,
-           Eigen::Index part, Eigen::Index bins, Eigen::Index column, Eigen::MatrixXd* out) {
-  const auto alpha = alphas.head(bins).array();
-  const auto beta = betas.head(bins).array();
-  const Eigen::ArrayXd real_real = alpha.real() + beta.real();
-  const Eigen::ArrayXd real_imag = beta.imag() - alpha.imag();
-  const Eigen::ArrayXd imag_real = -(alpha.imag() + beta.imag());
-  const Eigen::ArrayXd imag_imag = beta.real() - alpha.real();
-  const auto real = y.Rows(part, bins);
-  const auto imag = y.Rows(part + 1, bins);
-  for (Eigen::Index k = 0; k < y.cols(); ++k) {
-    out->col(column + k).segment(part * kChunk, bins).array() =
-        real_real * real.col(k).array() + real_imag * imag.col(k).array();
-    out->col(column + k).segment((part + 1) * kChunk, bins).array() =
-        imag_real * real.col(k).array() + imag_imag * imag.col(k).array();
-  }
-}
 
 // What the slopes of R, or of F, share with the noise: the real part of the product.
 void WeighNoise(const Eigen::Ref<const Eigen::VectorXcd>& by,
@@ -87,6 +68,8 @@ class Gathering {
   Eigen::MatrixXd Sum(double ratio_ratio);
 
  private:
+  void Weigh(const Coupling& transfers, const Eigen::VectorXcd& residuals, const Panel& y,
+             Eigen::Index column, Eigen::Index bins);
   void AddLoop(const Panel& x, Eigen::Index row, const Eigen::MatrixXcd& with_noise,
                const Eigen::VectorXcd& with_ratio, Eigen::Index first, Eigen::Index bins);
   void AddNoise(const InformationWeights& weights, Eigen::Index first, Eigen::Index bins);
@@ -95,7 +78,6 @@ class Gathering {
   const LoopDerivatives& d_;
   const Eigen::Index size_;
   Panel acoustic_, flame_;
-  const Eigen::VectorXcd none_ = Eigen::VectorXcd::Zero(kChunk);
   const Eigen::MatrixXd ones_ = Eigen::MatrixXd::Ones(kChunk, 1);
   // Of the last chunk's missing rows what stands here meets zeros of the panels.
   Eigen::MatrixXd weighted_;
@@ -105,15 +87,22 @@ class Gathering {
 void Gathering::Add(const InformationWeights& weights, Eigen::Index first, Eigen::Index bins) {
   acoustic_.MoveTo(first, bins);
   flame_.MoveTo(first, bins);
-  Weigh(weights.rr.alpha, weights.rr.beta, acoustic_, 0, bins, 0, &weighted_);
-  Weigh(none_, weights.aa, acoustic_, 2, bins, 0, &weighted_);
-  Weigh(weights.rf.alpha, weights.rf.beta, flame_, 0, bins, acoustic_.cols(), &weighted_);
-  Weigh(none_, weights.ab, flame_, 2, bins, acoustic_.cols(), &weighted_);
+  const Eigen::Index flame = acoustic_.cols();
+  Weigh(weights.rr, weights.aa, acoustic_, 0, bins);
+  Weigh(weights.rf, weights.ab, flame_, flame, bins);
   AddLoop(acoustic_, 0, weights.r_spectra, weights.r_ratio, first, bins);
-  Weigh(weights.ff.alpha, weights.ff.beta, flame_, 0, bins, acoustic_.cols(), &weighted_);
-  Weigh(none_, weights.bb, flame_, 2, bins, acoustic_.cols(), &weighted_);
-  AddLoop(flame_, acoustic_.cols(), weights.f_spectra, weights.f_ratio, first, bins);
+  Weigh(weights.ff, weights.bb, flame_, flame, bins);
+  AddLoop(flame_, flame, weights.f_spectra, weights.f_ratio, first, bins);
   AddNoise(weights, first, bins);
+}
+
+// Those of y by what they count for in products with slopes of the transfers, and of the residuals.
+void Gathering::Weigh(const Coupling& transfers, const Eigen::VectorXcd& residuals, const Panel& y,
+                      Eigen::Index column, Eigen::Index bins) {
+  const Eigen::Index stride = weighted_.outerStride();
+  double* const out = weighted_.data() + column * stride;
+  WeighColumns(transfers.alpha.data(), transfers.beta.data(), bins, y.Columns(0), out, stride);
+  WeighColumns(nullptr, residuals.data(), bins, y.Columns(2), out + 2 * kChunk, stride);
 }
 
 void Gathering::AddLoop(const Panel& x, Eigen::Index row, const Eigen::MatrixXcd& with_noise,
@@ -130,14 +119,14 @@ void Gathering::AddLoop(const Panel& x, Eigen::Index row, const Eigen::MatrixXcd
   }
   const Eigen::Index beside = row + x.cols();
   const Eigen::Index noise = acoustic_.cols() + flame_.cols();
-  upper_.block(row, row, x.cols(), x.cols()).triangularView<Eigen::Upper>() +=
-      x.rows().transpose() * weighted_.middleCols(row, x.cols());
-  upper_.block(row, beside, x.cols(), noise - beside).noalias() +=
-      x.rows().transpose() * weighted_.middleCols(beside, noise - beside);
+  AddUpperOfTransposedProduct(x.rows(), weighted_.middleCols(row, x.cols()),
+                              upper_.block(row, row, x.cols(), x.cols()));
+  AddTransposedProduct(x.rows(), weighted_.middleCols(beside, noise - beside),
+                       upper_.block(row, beside, x.cols(), noise - beside));
   // The residuals' slopes share nothing with the noise.
-  upper_.block(row, noise, x.cols(), size_ - noise).noalias() +=
-      x.rows().topRows(2 * kChunk).transpose() *
-      weighted_.topRightCorner(2 * kChunk, size_ - noise);
+  AddTransposedProduct(x.rows().topRows(2 * kChunk),
+                       weighted_.topRightCorner(2 * kChunk, size_ - noise),
+                       upper_.block(row, noise, x.cols(), size_ - noise));
 }
 
 void Gathering::AddNoise(const InformationWeights& weights, Eigen::Index first, Eigen::Index bins) {
@@ -155,8 +144,8 @@ void Gathering::AddNoise(const InformationWeights& weights, Eigen::Index first, 
     if (HasBackground(noise_)) {
       weighted_.col(column++).head(bins) = weights.spectra_ratio.col(j).head(bins);
     }
-    upper_.block(row, row, basis.cols(), column - row).noalias() +=
-        basis.transpose() * weighted_.block(0, row, bins, column - row);
+    AddTransposedProduct(basis, weighted_.block(0, row, bins, column - row),
+                         upper_.block(row, row, basis.cols(), column - row));
     row += basis.cols();
   }
 }
