@@ -50,7 +50,7 @@ PathSlopes FlamePath::FirstWithSlopes(C s, C turn) const {
   return {turn, {-delayed}};
 }
 
-PathSlopes FlamePath::WithSlopes(C s, const PathTurns& turns) const {
+PathSlopes FlamePath::OfManyDelays(C s, const PathTurns& turns) const {
   PathSlopes out = FirstWithSlopes(s, turns.of_first);
   if (!second) return out;
   const C later = turns.of_second;

@@ -79,7 +79,11 @@ struct FlamePath {
   Eigen::VectorXcd At(const Eigen::VectorXcd& s) const;
   // All in one, at little more than the cost of the first.
   PathSlopes WithSlopes(std::complex<double> s) const { return WithSlopes(s, TurnsAt(s)); }
-  PathSlopes WithSlopes(std::complex<double> s, const PathTurns& turns) const;
+  // Of one delay, which most paths are, without a call for each bin.
+  PathSlopes WithSlopes(std::complex<double> s, const PathTurns& turns) const {
+    if (spread == DelaySpread::kNone && !second) return {turns.of_first, {-tau * s}};
+    return OfManyDelays(s, turns);
+  }
   PathTurns TurnsAt(std::complex<double> s) const;
   // At(s) over its integral from s on, and its slopes. Of one path:
   //   none   tau     normal   tau / (sqrt(1 + 2 rho^2 tau s) + rho^2)
@@ -93,6 +97,7 @@ struct FlamePath {
     std::complex<double> fall, by_log_tau, by_log_rho;
   };
 
+  PathSlopes OfManyDelays(std::complex<double> s, const PathTurns& turns) const;
   PathSlopes FirstWithSlopes(std::complex<double> s, std::complex<double> turn) const;
   First FirstFall(std::complex<double> s) const;
   // The index of the second path's share.

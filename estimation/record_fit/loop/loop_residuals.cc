@@ -133,8 +133,9 @@ void SetPath(const RecordSpectra& record, const PointStructure& structure, const
     set(path.WithSlopes(record.edge_s[i], turns), i, &out->edge_at, &out->edge_by);
     if (i == bins) break;
     turns = turns * half;
-    set(path.WithSlopes(record.s[i], turns), i, &out->at, &out->by);
-    out->at[i] = Times(out->at[i], record.input[i]);
+    PathSlopes driven = path.WithSlopes(record.s[i], turns);
+    driven.at = Times(driven.at, record.input[i]);
+    set(driven, i, &out->at, &out->by);
   }
 }
 
