@@ -1,5 +1,6 @@
 // What the likelihood of a record's loop costs: a value, its gradient with all that a step moves
-// and with what one parameter alone moves, an information by matrices of derivatives, and one fit.
+// and with what one parameter alone moves, an information by matrices of derivatives, the products
+// that it is the sum of, beside Eigen's, and one fit.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "estimation/record_fit/point_fit.h"
 #include "estimation/record_fit/starts/point_starts.h"
 #include "model/noise/random_stream.h"
+#include "model/numerics/transposed_product.h"
 
 namespace howl {
 namespace {
@@ -100,6 +102,27 @@ void BM_Information(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(likelihood.Information(at.parameters));
 }
 BENCHMARK(BM_Information)->Unit(benchmark::kMicrosecond);
+
+// Slopes of 64 bins by slopes: 256 rows, as many columns as parameters.
+void BM_SlopesBySlopes(benchmark::State& state) {
+  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Random(256, state.range(0));
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(slopes.cols(), slopes.cols());
+  for (auto _ : state) {
+    AddTransposedProduct(slopes, slopes, sum);
+    benchmark::DoNotOptimize(sum.data());
+  }
+}
+BENCHMARK(BM_SlopesBySlopes)->Arg(20)->Arg(40)->Arg(80)->Arg(120);
+
+void BM_SlopesBySlopesByEigen(benchmark::State& state) {
+  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Random(256, state.range(0));
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(slopes.cols(), slopes.cols());
+  for (auto _ : state) {
+    sum.noalias() += slopes.transpose() * slopes;
+    benchmark::DoNotOptimize(sum.data());
+  }
+}
+BENCHMARK(BM_SlopesBySlopesByEigen)->Arg(20)->Arg(40)->Arg(80)->Arg(120);
 
 void BM_Fit(benchmark::State& state) {
   const Point& at = ThePoint();
