@@ -47,7 +47,7 @@ void ExpectHum(const LoopDiagnosis& found, double line_hz, bool in_p, double sha
   EXPECT_EQ(std::ranges::count(noise, source, &NoiseTerm::source), 1) << in_p;
 }
 
-TEST(LinesOfRecords, AreHumInTheChannelThatHasIt) {
+TEST(LongLinesOfRecords, AreHumInTheChannelThatHasIt) {
   for (const bool in_p : {false, true}) {
     ExpectHum(DiagnoseLoops(DuctsWithHum(60.0, in_p), DuctsForm(),
                             Among({"mains_hum", "background_noise", "channel_skew"})),

@@ -61,7 +61,7 @@ LoopTrial BestOf(const std::vector<LoopTrial>& trials) {
   return *std::ranges::max_element(trials, {}, &LoopTrial::gain);
 }
 
-TEST(SharedEffect, FindsAStrongLowPass) {
+TEST(LongSharedEffect, FindsAStrongLowPass) {
   const std::vector<LoopTrial> trials =
       TrialsOn(Ducts([](Record* record) { LowPass(120.0, record); }));
   EXPECT_EQ(BestOf(trials).item.id, "q_sensor_lowpass");

@@ -80,7 +80,7 @@ TEST(SlowChanges, OfTheFrequencyAreFound) {
 }
 
 // A cycle's amplitude hardly moves, and the delay with it: that takes long records to tell.
-TEST(SlowChanges, OfTheDelayAreFound) {
+TEST(LongSlowChanges, OfTheDelayAreFound) {
   constexpr double kAdded_s = 3e-4;
   constexpr double kLong_s = 6.0;
   const double amplitude = std::sqrt(MeanSquaredAmplitude(Ducts({})));
@@ -104,7 +104,7 @@ TEST(SlowChanges, OfTheDelayAreFound) {
 }
 
 // A flame that saturates with a memory, beside the curve by which it does so at once.
-TEST(SlowChanges, OfTheGainAreFound) {
+TEST(LongSlowChanges, OfTheGainAreFound) {
   constexpr double kLong_s = 6.0;
   const double amplitude = std::sqrt(MeanSquaredAmplitude(Ducts({})));
   const double per_amplitude = -0.3 / amplitude;
