@@ -18,11 +18,15 @@
 namespace howl {
 namespace {
 
-// Memory of the acoustics and of the flame, in periods of the cycle.
+// Memory of the acoustics, in periods of the cycle: of a resonance with a damping of 0.02 a twelfth
+// is left after twenty, which what stands beside a gap tells. Instruments may delay q by some.
 constexpr double kPeriodsAhead = 3.0;
 constexpr double kPeriodsBack = 20.0;
-constexpr std::size_t kSharePerEnd = 16;
 constexpr double kPeriodsBeside = 3.0;
+constexpr std::size_t kSharePerEnd = 16;
+// Systems of more unknowns take longer than all else does.
+constexpr std::size_t kMostBack = 1000;
+constexpr std::size_t kMostElse = 200;
 constexpr double kLeastPower = 1e-3;  // of the median over all frequencies
 constexpr int kTurnsWhereBothMiss = 3;
 
@@ -176,11 +180,12 @@ Record WithGapsFilled(Record record, const std::vector<Gap>& pressure,
   const std::size_t n = p.size();
   CHECK_EQ(q.size(), n);
   const double period = record.sampling_hz / cycle_hz;
-  const auto samples = [&](double periods) {
-    return std::min(static_cast<std::size_t>(std::ceil(periods * period)), n / kSharePerEnd);
+  const auto samples = [&](double periods, std::size_t most) {
+    const auto asked = static_cast<std::size_t>(std::ceil(periods * period));
+    return std::min({asked, n / kSharePerEnd, most});
   };
-  const ResponseSpan span{samples(kPeriodsAhead), samples(kPeriodsBack)};
-  const std::size_t beside = std::max<std::size_t>(samples(kPeriodsBeside), 2);
+  const ResponseSpan span{samples(kPeriodsAhead, kMostElse), samples(kPeriodsBack, kMostBack)};
+  const std::size_t beside = std::max<std::size_t>(samples(kPeriodsBeside, kMostElse), 2);
   const auto fill = [&](const std::vector<Gap>& gaps, const std::vector<double>& from,
                         std::vector<double>* x) {
     const std::vector<double> told = PredictByResponse(from, *x, Present(n, gaps), span);

@@ -1,6 +1,6 @@
 // Samples that one channel lost, from the other channel and from what stands beside the gap.
 //
-//   x_t = c + sum_k h_k y_(t-k) + e_t,   k = -3 ... 20 periods of the cycle
+//   x_t = c + sum_k h_k y_(t-k) + e_t,   k = -3 ... 20 periods of the cycle, -200 ... 1000 at most
 //
 // Acoustics answer linearly, so that recorded q tells p but for noise, whatever the instruments'
 // transfers are; h and c are those of least squares over the samples that are there. Of e the
