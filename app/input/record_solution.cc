@@ -9,6 +9,7 @@
 
 #include "app/input/fit_state.h"
 #include "app/input/usable_records.h"
+#include "estimation/health/stuck_samples.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -41,7 +42,11 @@ RecordSolution SolveRecords(const Config& config, const Options& options, Solved
     out.names.push_back(record.record.name);
     out.cycle_amplitude.push_back(record.cycle_amplitude);
   }
-  const std::vector<LoopRecord> records = LoopRecordsOf(std::move(usable));
+  std::vector<LoopRecord> records = LoopRecordsOf(std::move(usable));
+  for (const LoopRecord& each : records) {
+    out.stuck.push_back({ShareStuck(each.record.pressure), ShareStuck(each.record.heat_release)});
+  }
+  records = WithStuckSamplesFilled(std::move(records), {}, options.threads);
   FitState state(config, options, "fit.state");
   if (what == SolvedFor::kFit) state.BeginAnewIfComplete();
   if (!options.quiet) state.SayWhereItStands();

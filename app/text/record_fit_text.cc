@@ -11,6 +11,7 @@
 
 #include "app/text/text_table.h"
 #include "estimation/analysis/spectra/half_width.h"
+#include "estimation/health/stuck_samples.h"
 #include "estimation/joint_records/loop_names.h"
 
 namespace howl {
@@ -37,6 +38,26 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
       table.Text() + kPlusMinusLegend + "; gain and growth: of small signals about rest";
   if (!solution.Converged()) out += "; * not converged";
   return out + "\n";
+}
+
+// What was lost of the records while a signal stood still.
+std::string StuckText(const RecordSolution& solution) {
+  std::string out;
+  for (std::size_t e = 0; e < solution.stuck.size(); ++e) {
+    for (std::size_t channel = 0; channel < 2; ++channel) {
+      const double share = solution.stuck[e][channel];
+      if (share == 0.0) continue;
+      const std::string of = channel == 0 ? "p" : "q";
+      out += Wrapped(solution.names[e] + ": " + of + " stands still for " +
+                         Significant(100.0 * share, 2) + " % of its samples, " +
+                         (share <= kMostStuck
+                              ? "which are filled from the other signal"
+                              : "too many to be filled: the loop is one of what stands there"),
+                     2) +
+             "\n";
+    }
+  }
+  return out;
 }
 
 // What users look at first, in the words of the table.
@@ -178,7 +199,7 @@ std::string TriedText(const ChosenLoop& loop) {
 }  // namespace
 
 std::string RecordFitText(const RecordSolution& solution, const std::string& operating_parameter) {
-  return LoopsText(solution, operating_parameter) + HalvesText(solution) +
+  return LoopsText(solution, operating_parameter) + StuckText(solution) + HalvesText(solution) +
          OnsetText(solution, operating_parameter) + DelaysText(solution) + LinesText(solution) +
          ModesText(solution) + TriedText(solution.loop);
 }

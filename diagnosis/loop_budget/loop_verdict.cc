@@ -152,12 +152,7 @@ std::string AdviceOf(const Diagnosis& diagnosis) {
     return "record again, within the converter's range and with finer steps: whatever is fitted to "
            "such samples speaks of what was done to them";
   }
-  std::string model = diagnosis.budget->best_model;
-  if (std::ranges::any_of(diagnosis.budget->seen_in_samples, [](const SampleFact& fact) {
-        return fact.effect.ends_with("dropouts");
-      })) {
-    model += ", on records without dropouts, which fit does not fill";
-  }
+  const std::string& model = diagnosis.budget->best_model;
   switch (diagnosis.kind) {
     case VerdictKind::kNone:
       return "the config's loop stands";

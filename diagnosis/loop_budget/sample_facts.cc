@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/fine_steps.h"
-#include "diagnosis/loop_budget/stuck_samples.h"
 #include "estimation/health/sample_health.h"
+#include "estimation/health/stuck_samples.h"
 
 namespace howl {
 namespace {

@@ -118,6 +118,7 @@ Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
           {"other_delays", OtherDelaysJson(solution.other_delays[e])},
           {"noise", NoiseJson(loop)},
           {"halves", HalvesJson(solution.halves[e])},
+          {"stuck_share", {{"p", solution.stuck[e][0]}, {"q", solution.stuck[e][1]}}},
           {"log_density_left_out",
            NumberOrNull(solution.loop.tried[solution.loop.chosen].log_density[e])},
           {"converged", loop.converged}};

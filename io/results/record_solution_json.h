@@ -3,6 +3,7 @@
 #ifndef HOWL_IO_RESULTS_RECORD_SOLUTION_JSON_H_
 #define HOWL_IO_RESULTS_RECORD_SOLUTION_JSON_H_
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ struct RecordSolution {
   std::vector<IntervalScale> scales;
   std::vector<std::vector<OtherDelay>> other_delays;  // of each experiment
   Onset onset;
+  // Of the samples of p and of q, in which the signal stands still (stuck_samples.h).
+  std::vector<std::array<double, 2>> stuck;
   // Of the fundamental of p; zero where the record shows no cycle.
   std::vector<double> cycle_amplitude;
 

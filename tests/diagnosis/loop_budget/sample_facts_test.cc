@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/loop_budget.h"
-#include "diagnosis/loop_budget/stuck_samples.h"
+#include "estimation/health/stuck_samples.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl::sample_facts_test {

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/stuck_samples.h"
+#include "estimation/health/stuck_samples.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,8 +4,8 @@
 // What is filled in has no noise of the sensor and tells nothing new, so that intervals are too
 // narrow by half the share that is missing: up to an eighth where a quarter is. Beyond that the
 // rest of the record is not called enough.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_STUCK_SAMPLES_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_STUCK_SAMPLES_H_
+#ifndef HOWL_ESTIMATION_HEALTH_STUCK_SAMPLES_H_
+#define HOWL_ESTIMATION_HEALTH_STUCK_SAMPLES_H_
 
 #include <span>
 #include <string>
@@ -28,4 +28,4 @@ std::vector<LoopRecord> WithStuckSamplesFilled(std::vector<LoopRecord> records,
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_STUCK_SAMPLES_H_
+#endif  // HOWL_ESTIMATION_HEALTH_STUCK_SAMPLES_H_
