@@ -30,12 +30,12 @@ static_assert(kOfA * kOfB == kLanes);
 // Sums over the lanes of each of eight, in its lane.
 HOWL_IN_CLONES EightLanes SumsOf(const EightLanes (&of)[kLanes]) {
   EightLanes halves[4];
-  for (int k = 0; k < 4; ++k) {
+  for (std::ptrdiff_t k = 0; k < 4; ++k) {
     halves[k] = __builtin_shufflevector(of[2 * k], of[2 * k + 1], 0, 1, 2, 3, 8, 9, 10, 11) +
                 __builtin_shufflevector(of[2 * k], of[2 * k + 1], 4, 5, 6, 7, 12, 13, 14, 15);
   }
   EightLanes quarters[2];
-  for (int k = 0; k < 2; ++k) {
+  for (std::ptrdiff_t k = 0; k < 2; ++k) {
     quarters[k] =
         __builtin_shufflevector(halves[2 * k], halves[2 * k + 1], 0, 1, 4, 5, 8, 9, 12, 13) +
         __builtin_shufflevector(halves[2 * k], halves[2 * k + 1], 2, 3, 6, 7, 10, 11, 14, 15);
