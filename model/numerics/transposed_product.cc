@@ -90,25 +90,27 @@ Columns ColumnsOf(const Eigen::Ref<const Eigen::MatrixXd>& of) {
   return {of.data(), of.outerStride(), of.cols()};
 }
 
+void Add(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
+         bool upper, Eigen::Ref<Eigen::MatrixXd> c) {
+  CHECK_EQ(a.rows(), b.rows());
+  CHECK_EQ(c.rows(), a.cols());
+  CHECK_EQ(c.cols(), b.cols());
+  AddProducts(ColumnsOf(a), ColumnsOf(b), a.rows(), upper, c.data(), c.outerStride());
+}
+
 }  // namespace
 
 void AddTransposedProduct(const Eigen::Ref<const Eigen::MatrixXd>& a,
                           const Eigen::Ref<const Eigen::MatrixXd>& b,
                           Eigen::Ref<Eigen::MatrixXd> c) {
-  CHECK_EQ(a.rows(), b.rows());
-  CHECK_EQ(c.rows(), a.cols());
-  CHECK_EQ(c.cols(), b.cols());
-  AddProducts(ColumnsOf(a), ColumnsOf(b), a.rows(), false, c.data(), c.outerStride());
+  Add(a, b, false, c);
 }
 
 void AddUpperOfTransposedProduct(const Eigen::Ref<const Eigen::MatrixXd>& a,
                                  const Eigen::Ref<const Eigen::MatrixXd>& b,
                                  Eigen::Ref<Eigen::MatrixXd> c) {
-  CHECK_EQ(a.rows(), b.rows());
-  CHECK_EQ(c.rows(), a.cols());
   CHECK_EQ(c.rows(), c.cols());
-  CHECK_EQ(c.cols(), b.cols());
-  AddProducts(ColumnsOf(a), ColumnsOf(b), a.rows(), true, c.data(), c.outerStride());
+  Add(a, b, true, c);
 }
 
 }  // namespace howl

@@ -62,11 +62,11 @@ class EffectProfile {
   EffectPoint At(const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& starts,
                  const PointFitOptions& options = {}, RecordExtent extent = RecordExtent::kWhole);
   // The best two of the values that a search begins with, or the null where none is better: of the
-  // first parameter outwards from its null, each from where its neighbour's fits came to, by the
-  // records' middles; at their maxima. Where there are two parameters, and the first has a finite
-  // null, where the second has no effect: Newton's steps of the first from there, with the values
-  // of the second from which they gain more than from those beside them, or the null where none
-  // gains.
+  // first parameter outwards from its null, each from where its neighbour's fits came to and from
+  // where the loop stands, by the records' middles; at their maxima. Where there are two
+  // parameters, and the first has a finite null, where the second has no effect: Newton's steps of
+  // the first from there, with the values of the second from which they gain more than from those
+  // beside them, or the null where none gains.
   std::vector<EffectPoint> Begin(const std::vector<Eigen::VectorXd>& at_null);
   // The maximum of the log posterior next to `best`, by Newton's steps, or as far as their top has
   // the evidence `least`.

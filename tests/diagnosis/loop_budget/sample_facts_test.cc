@@ -94,6 +94,16 @@ TEST(SampleFacts, AreAllThatTheRecordsShow) {
   EXPECT_FALSE(facts[1].rest_can_be_found);
 }
 
+// The fact alone where the loop is right, and what the loop lacks beside it.
+void ExpectBesideResidues(const std::vector<LoopRecord>& records, const std::string& fact) {
+  const LoopDiagnosis alone = DiagnoseLoops(records, DuctsForm(), Among({"complex_residues"}));
+  EXPECT_EQ(alone.diagnosis.effect, fact);
+  LoopForm base = DuctsForm();
+  base.structure.complex_residues = false;
+  const LoopDiagnosis both = DiagnoseLoops(records, base, Among({"complex_residues"}));
+  EXPECT_EQ(both.diagnosis.effect, fact + "+complex_residues");
+}
+
 // Of 100 levels the steps are the noise of p, which the base has: the rest is looked for beside it.
 TEST(SampleFacts, FineStepsLeaveTheRestToBeFound) {
   std::vector<LoopRecord> records = Ducts();
@@ -102,12 +112,7 @@ TEST(SampleFacts, FineStepsLeaveTheRestToBeFound) {
   ASSERT_EQ(facts.size(), 1u);
   EXPECT_TRUE(facts[0].rest_can_be_found);
   EXPECT_NEAR(facts[0].value, 100.0, 8.0);
-  const LoopDiagnosis alone = DiagnoseLoops(records, DuctsForm(), Among({"complex_residues"}));
-  EXPECT_EQ(alone.diagnosis.effect, "quantisation");
-  LoopForm base = DuctsForm();
-  base.structure.complex_residues = false;
-  const LoopDiagnosis both = DiagnoseLoops(records, base, Among({"complex_residues"}));
-  EXPECT_EQ(both.diagnosis.effect, "quantisation+complex_residues");
+  ExpectBesideResidues(records, "quantisation");
 }
 
 // Stands of `length` samples, one in four hundred begins one.
@@ -128,12 +133,7 @@ TEST(SampleFacts, StuckSamplesLeaveTheRestToBeFound) {
   EXPECT_EQ(facts[0].effect, "p_dropouts");
   EXPECT_EQ(facts[0].experiments, 3u);
   EXPECT_TRUE(facts[0].rest_can_be_found);
-  const LoopDiagnosis alone = DiagnoseLoops(records, DuctsForm(), Among({"complex_residues"}));
-  EXPECT_EQ(alone.diagnosis.effect, "p_dropouts");
-  LoopForm base = DuctsForm();
-  base.structure.complex_residues = false;
-  const LoopDiagnosis both = DiagnoseLoops(records, base, Among({"complex_residues"}));
-  EXPECT_EQ(both.diagnosis.effect, "p_dropouts+complex_residues");
+  ExpectBesideResidues(records, "p_dropouts");
 }
 
 TEST(SampleFacts, WhereMostIsStuckTheRestIsNotEnough) {
