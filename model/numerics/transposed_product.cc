@@ -91,7 +91,7 @@ Columns ColumnsOf(const Eigen::Ref<const Eigen::MatrixXd>& of) {
 }
 
 void Add(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
-         bool upper, Eigen::Ref<Eigen::MatrixXd> c) {
+         bool upper, Eigen::Ref<Eigen::MatrixXd>& c) {
   CHECK_EQ(a.rows(), b.rows());
   CHECK_EQ(c.rows(), a.cols());
   CHECK_EQ(c.cols(), b.cols());
