@@ -5,26 +5,19 @@
 #include <algorithm>
 #include <complex>
 
-#include "estimation/record_fit/loop/mode_sums.h"
+#include "estimation/record_fit/loop/loop_lanes.h"
 #include "estimation/record_fit/loop/slow_parts.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
-#include "model/numerics/complex_products.h"
 
 namespace howl {
 namespace {
 
 using C = std::complex<double>;
 
-// The taper's differences of a signal less an answer times its lines' factors.
-void Leave(const Eigen::VectorXcd& signal, const Eigen::VectorXcd& answer,
-           const Eigen::VectorXcd& factors, Eigen::VectorXcd* out) {
+void Leave(const Eigen::VectorXcd& signal, const Eigen::VectorXcd& answer, const C* factors,
+           Eigen::VectorXcd* out) {
   out->resize(signal.size() - 1);
-  C before = signal[0] - Times(answer[0], factors[0]);
-  for (Eigen::Index i = 0; i < out->size(); ++i) {
-    const C next = signal[i + 1] - Times(answer[i + 1], factors[i + 1]);
-    (*out)[i] = before - next;
-    before = next;
-  }
+  SetLeft(signal.data(), answer.data(), factors, signal.size(), out->data());
 }
 
 }  // namespace
@@ -32,6 +25,8 @@ void Leave(const Eigen::VectorXcd& signal, const Eigen::VectorXcd& answer,
 KeptLoop::KeptLoop(const RecordSpectra& record, const PointStructure& structure)
     : record_(record),
       structure_(structure),
+      x_(record.s.imag()),
+      edge_x_(record.edge_s.imag()),
       lines_(record.edge_s, std::max(structure.acoustic_lines, structure.flame_lines)),
       band_lines_(record.s, std::max(structure.acoustic_lines, structure.flame_lines)),
       flame_real_(record.flame.real()),
@@ -75,7 +70,7 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
     band_lines_.Factors(point_.acoustic_lines, &band_acoustic_factors_);
   }
   if (answer || acoustic_lines) {
-    Leave(record_.pressure, answer_, acoustic_factors_, &residuals_.acoustic);
+    Leave(record_.pressure, answer_, AcousticFactors(), &residuals_.acoustic);
   }
   if (path) SetPath(record_, structure_, point_, &path_);
   if (burning) {
@@ -86,9 +81,7 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
   if (path || burning) {
     residuals_.f = record_.slopes.dot(point_.flame) * path_.at;
     arriving_.resize(burning_.size());
-    for (Eigen::Index i = 0; i < burning_.size(); ++i) {
-      arriving_[i] = Times(path_.edge_at[i], burning_[i]);
-    }
+    SetProducts(path_.edge_at.data(), burning_.data(), burning_.size(), arriving_.data());
   }
   if (flame_lines) {
     lines_.Factors(point_.flame_lines, &flame_factors_);
@@ -96,12 +89,11 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
   }
   if (HasLines() && (acoustic_lines || flame_lines)) {
     residuals_.line_factors.resize(record_.bins());
-    for (Eigen::Index i = 0; i < record_.bins(); ++i) {
-      residuals_.line_factors[i] = Times(band_acoustic_factors_[i], band_flame_factors_[i]);
-    }
+    SetProducts(band_acoustic_factors_.data(), band_flame_factors_.data(), record_.bins(),
+                residuals_.line_factors.data());
   }
   if (path || burning || flame_lines || late) {
-    Leave(flame_heat_release_, arriving_, flame_factors_, &residuals_.flame);
+    Leave(flame_heat_release_, arriving_, FlameFactors(), &residuals_.flame);
   }
   Eigen::Index next = structure_.Noise(flame);
   for (std::size_t j = 0; j < structure_.noise.size(); ++j) {
@@ -121,12 +113,12 @@ void KeptLoop::MoveModes() {
   residuals_.r.setZero(record_.bins());
   for (std::size_t k = 0; k < modes_.size(); ++k) {
     const LoopMode& mode = point_.modes[k];
-    SetResonance(mode, record_.s, &modes_[k].over);
-    SetResonance(mode, record_.edge_s, &modes_[k].edge_over);
-    for (Eigen::Index i = 0; i < record_.bins(); ++i) {
-      residuals_.r[i] +=
-          Times(C(mode.b * mode.omega, mode.a * record_.s[i].imag()), modes_[k].over[i]);
-    }
+    ModeGrids& grids = modes_[k];
+    grids.over.resize(x_.size());
+    grids.edge_over.resize(edge_x_.size());
+    SetResonance(mode, x_.data(), x_.size(), grids.over.data());
+    SetResonance(mode, edge_x_.data(), edge_x_.size(), grids.edge_over.data());
+    AddTransfer(mode, x_.data(), grids.over.data(), x_.size(), residuals_.r.data());
   }
 }
 
@@ -139,13 +131,8 @@ void KeptLoop::MoveChanges() {
 void KeptLoop::MoveAnswer() {
   answer_.setZero(record_.edge_s.size());
   for (std::size_t k = 0; k < modes_.size(); ++k) {
-    const LoopMode& mode = point_.modes[k];
-    for (Eigen::Index i = 0; i < answer_.size(); ++i) {
-      const double x = record_.edge_s[i].imag();
-      answer_[i] += Times(Times(C(mode.b * mode.omega, mode.a * x), acoustic_heat_release_[i]) +
-                              C(mode.h * mode.omega, mode.g * x),
-                          modes_[k].edge_over[i]);
-    }
+    AddAnswer(point_.modes[k], edge_x_.data(), acoustic_heat_release_.data(),
+              modes_[k].edge_over.data(), answer_.size(), answer_.data());
   }
 }
 

@@ -43,6 +43,13 @@ class KeptLoop {
   bool Moved(const Eigen::VectorXd& parameters, Eigen::Index begin, Eigen::Index count) const;
   void MoveModes();
   void MoveAnswer();
+  // Null for ones.
+  const std::complex<double>* AcousticFactors() const {
+    return structure_.acoustic_lines > 0 ? acoustic_factors_.data() : nullptr;
+  }
+  const std::complex<double>* FlameFactors() const {
+    return structure_.flame_lines > 0 ? flame_factors_.data() : nullptr;
+  }
   bool HasLines() const { return structure_.acoustic_lines + structure_.flame_lines > 0; }
   // Of the lines' factors on the record's bins, by the errors of one cut.
   Eigen::VectorXd SlopeByBandLines(const WhittleWeights& weights,
@@ -55,6 +62,7 @@ class KeptLoop {
 
   const RecordSpectra& record_;
   const PointStructure& structure_;
+  Eigen::VectorXd x_, edge_x_;                  // of s = j x
   LineShapes lines_;                            // before the taper
   LineShapes band_lines_;                       // on the record's bins
   Eigen::MatrixXd flame_real_, flame_imag_;     // b_k
@@ -68,11 +76,11 @@ class KeptLoop {
   // Q in either cut.
   Eigen::VectorXcd acoustic_heat_release_, flame_heat_release_;
   Eigen::VectorXcd burning_;  // sum of c_k b_k
-  // Of the two cuts before the taper: without the lines' errors, and 1 + those.
+  // Of the two cuts before the taper: without the lines' errors, and 1 + those where a cut has any.
   Eigen::VectorXcd answer_, acoustic_factors_;
   Eigen::VectorXcd arriving_, flame_factors_;
   Eigen::VectorXcd band_acoustic_factors_, band_flame_factors_;
-  Eigen::VectorXcd edge_weights_, weighted_, band_weighted_;  // room for the slopes
+  Eigen::VectorXcd edge_weights_, weighted_, driven_, band_weighted_;  // room for the slopes
 };
 
 }  // namespace howl

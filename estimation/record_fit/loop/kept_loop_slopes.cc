@@ -2,7 +2,7 @@
 #include <complex>
 
 #include "estimation/record_fit/loop/kept_loop.h"
-#include "estimation/record_fit/loop/mode_sums.h"
+#include "estimation/record_fit/loop/loop_lanes.h"
 #include "estimation/record_fit/loop/slow_parts.h"
 #include "model/numerics/complex_products.h"
 
@@ -16,15 +16,17 @@ void BeforeTaper(const Eigen::VectorXcd& of_residuals, Eigen::VectorXcd* out) {
   const Eigen::Index bins = of_residuals.size();
   out->resize(bins + 1);
   (*out)[0] = -of_residuals[0];
-  for (Eigen::Index i = 1; i < bins; ++i) (*out)[i] = of_residuals[i - 1] - of_residuals[i];
+  out->segment(1, bins - 1) = of_residuals.head(bins - 1) - of_residuals.tail(bins - 1);
   (*out)[bins] = of_residuals[bins - 1];
 }
 
-// The real part of the sum of x y z.
-double Sum(const Eigen::VectorXcd& x, const Eigen::VectorXcd& y, const Eigen::VectorXcd& z) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < x.size(); ++i) sum += Times(Times(x[i], y[i]), z[i]).real();
-  return sum;
+double Sum(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b, const Eigen::VectorXcd& c) {
+  return SumOfProducts(a.data(), b.data(), c.data(), a.size());
+}
+
+// `by` may be null, for ones.
+void MultiplyBy(const C* by, Eigen::VectorXcd* out) {
+  if (by != nullptr) SetProducts(out->data(), by, out->size(), out->data());
 }
 
 }  // namespace
@@ -61,9 +63,8 @@ Eigen::VectorXd KeptLoop::SlopeByBandLines(const WhittleWeights& weights,
                                            const Eigen::VectorXcd& other_factors,
                                            Eigen::Index lines) {
   band_weighted_.resize(record_.bins());
-  for (Eigen::Index i = 0; i < record_.bins(); ++i) {
-    band_weighted_[i] = Times(weights.line_factors[i], other_factors[i]);
-  }
+  SetProducts(weights.line_factors.data(), other_factors.data(), record_.bins(),
+              band_weighted_.data());
   return band_lines_.Slope(band_weighted_, lines);
 }
 
@@ -71,32 +72,27 @@ void KeptLoop::SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* 
   BeforeTaper(weights.acoustic, &edge_weights_);
   weighted_.resize(edge_weights_.size());
   if (structure_.acoustic_lines > 0) {
-    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
-      weighted_[i] = Times(edge_weights_[i], answer_[i]);
-    }
+    SetProducts(edge_weights_.data(), answer_.data(), weighted_.size(), weighted_.data());
     out->segment(structure_.AcousticLine(), structure_.AcousticLines()) =
         lines_.Slope(weighted_, structure_.acoustic_lines) +
         SlopeByBandLines(weights, band_flame_factors_, structure_.acoustic_lines);
   }
-  for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
-    weighted_[i] = Times(edge_weights_[i], acoustic_factors_[i]);
-  }
+  MultiplyBy(AcousticFactors(), &edge_weights_);
+  driven_.resize(edge_weights_.size());
+  SetProducts(edge_weights_.data(), acoustic_heat_release_.data(), driven_.size(), driven_.data());
   const Eigen::Index dampings = structure_.Frequencies();
   const Eigen::Index residues = dampings + structure_.Dampings();
   const Eigen::Index transients = structure_.Transfer();
   for (Eigen::Index k = 0; k < structure_.modes; ++k) {
     const ModeGrids& grids = modes_[static_cast<std::size_t>(k)];
     const LoopMode& mode = point_.modes[static_cast<std::size_t>(k)];
-    ModeSums transfer;
-    ModeSums transient;
-    for (Eigen::Index i = 0; i < record_.bins(); ++i) {
-      transfer.Add(weights.r[i], record_.s[i].imag(), grids.over[i]);
-    }
-    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
-      const double x = record_.edge_s[i].imag();
-      transfer.Add(Times(weighted_[i], acoustic_heat_release_[i]), x, grids.edge_over[i]);
-      transient.Add(weighted_[i], x, grids.edge_over[i]);
-    }
+    const auto at_edges = [&](const Eigen::VectorXcd& of) {
+      return SumsOfMode(of.data(), edge_x_.data(), grids.edge_over.data(), of.size());
+    };
+    const ModeSums transfer =
+        SumsOfMode(weights.r.data(), x_.data(), grids.over.data(), record_.bins()) +
+        at_edges(driven_);
+    const ModeSums transient = at_edges(edge_weights_);
     (*out)[structure_.Frequency(k)] +=
         transfer.ByLogOmega(mode, mode.a, mode.b) + transient.ByLogOmega(mode, mode.g, mode.h);
     (*out)[dampings + structure_.Damping(k)] +=
@@ -118,8 +114,9 @@ void KeptLoop::SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* ou
   weighted_.resize(edge_weights_.size());
   if (structure_.AcousticChanges() > 0) {
     for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
-      weighted_[i] = Times(Times(edge_weights_[i], acoustic_factors_[i]), EdgeTransfer(i));
+      weighted_[i] = Times(edge_weights_[i], EdgeTransfer(i));
     }
+    MultiplyBy(AcousticFactors(), &weighted_);
   }
   Eigen::Index next = structure_.AcousticChange();
   ForEachColumn(structure_, kAcousticChanges, [&](Eigen::Index column) {
@@ -144,17 +141,13 @@ void KeptLoop::SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out)
   const Eigen::Index flame = record_.flame.cols();
   weighted_.resize(edge_weights_.size());
   if (structure_.flame_lines > 0) {
-    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
-      weighted_[i] = Times(edge_weights_[i], arriving_[i]);
-    }
+    SetProducts(edge_weights_.data(), arriving_.data(), weighted_.size(), weighted_.data());
     out->segment(structure_.FlameLine(flame), structure_.FlameLines()) =
         lines_.Slope(weighted_, structure_.flame_lines) +
         SlopeByBandLines(weights, band_acoustic_factors_, structure_.flame_lines);
   }
-  for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
-    edge_weights_[i] = Times(edge_weights_[i], flame_factors_[i]);
-    weighted_[i] = Times(edge_weights_[i], path_.edge_at[i]);
-  }
+  MultiplyBy(FlameFactors(), &edge_weights_);
+  SetProducts(edge_weights_.data(), path_.edge_at.data(), weighted_.size(), weighted_.data());
   out->segment(structure_.Flame(), flame) =
       flame_real_.transpose() * weighted_.real() - flame_imag_.transpose() * weighted_.imag();
   C of_slope = 0.0;

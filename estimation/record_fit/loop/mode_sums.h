@@ -6,22 +6,9 @@
 #ifndef HOWL_ESTIMATION_RECORD_FIT_LOOP_MODE_SUMS_H_
 #define HOWL_ESTIMATION_RECORD_FIT_LOOP_MODE_SUMS_H_
 
-#include <Eigen/Core>
-#include <complex>
-
 #include "estimation/record_fit/loop/loop_point.h"
-#include "model/numerics/complex_products.h"
 
 namespace howl {
-
-// o at frequencies j x.
-inline void SetResonance(const LoopMode& mode, const Eigen::VectorXcd& s, Eigen::VectorXcd* out) {
-  out->resize(s.size());
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    const double x = s[i].imag();
-    (*out)[i] = Reciprocal({mode.omega * mode.omega - x * x, 2.0 * mode.xi * mode.omega * x});
-  }
-}
 
 struct ModeSums {
   double o = 0.0;
@@ -30,14 +17,8 @@ struct ModeSums {
   double s_oo = 0.0;
   double ss_oo = 0.0;
 
-  void Add(std::complex<double> w, double x, std::complex<double> over) {
-    const std::complex<double> once = Times(w, over);
-    const std::complex<double> twice = Times(once, over);
-    o += once.real();
-    s_o -= x * once.imag();
-    oo += twice.real();
-    s_oo -= x * twice.imag();
-    ss_oo -= x * x * twice.real();
+  friend ModeSums operator+(const ModeSums& a, const ModeSums& b) {
+    return {a.o + b.o, a.s_o + b.s_o, a.oo + b.oo, a.s_oo + b.s_oo, a.ss_oo + b.ss_oo};
   }
 
   double ByRate() const { return s_o; }
