@@ -31,6 +31,8 @@ constexpr int kMostShortened = 2;      // of a step, by at most
 constexpr double kShortest = 0.1;      // each time
 constexpr double kFromEdge = 1.02;     // of delays, and of their spread, that fits begin with
 constexpr int kMostHalvings = 20;      // of a start's flame
+// Nats of evidence, as a rule, by which the curvature differs from what the steps have shown.
+constexpr double kCurvatureTells = 1.0;
 
 // With delays, and so weak a flame, that the loop is a possible one.
 Eigen::VectorXd Possible(const RecordSpectra& record, const PointStructure& structure,
@@ -114,6 +116,14 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     const Eigen::VectorXd way = (out.parameters - begun).cwiseQuotient(prior.deviation);
     return way.dot(here.information * way) < kItsOwnErrors;
   };
+  // Nats that need not be known.
+  const auto enough = [&] {
+    const double gained = out.log_posterior - options.over;
+    return gained > 0.0 ? std::max(options.converged, options.share * gained) : options.converged;
+  };
+  const auto curvature_needed = [&] {
+    return options.curvature && enough() < kCurvatureTells && !curvature_known();
+  };
   if (!std::isfinite(out.log_posterior) || !here.gradient.allFinite() ||
       !here.information.allFinite()) {
     return NothingTold(prior, std::move(out.parameters));
@@ -129,8 +139,8 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
       return here.gradient.dot(by) - 0.5 * by.dot(information * by);
     };
     double foretold = gain_of(step);
-    if (damping < 1.0 && foretold < options.converged) {
-      if (!options.curvature || curvature_known()) {
+    if (damping < 1.0 && foretold < enough()) {
+      if (!curvature_needed()) {
         out.converged = true;
         break;
       }
@@ -188,7 +198,7 @@ PointFit FitPoint(const RecordSpectra& record, const PointStructure& structure,
     raise = 2.0;
   }
   // Corrections show the curvature along the way alone.
-  if (source == Source::kCorrected && options.curvature && !curvature_known()) {
+  if (source == Source::kCorrected && curvature_needed()) {
     here.information = posterior.Curvature(out.parameters, here);
   }
   here.information = Positive(here.information);

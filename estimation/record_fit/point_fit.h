@@ -10,6 +10,7 @@
 #define HOWL_ESTIMATION_RECORD_FIT_POINT_FIT_H_
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "estimation/record_fit/loop/loop_point.h"
@@ -26,6 +27,10 @@ struct PointFitOptions {
   // Of minus the log likelihood where the fit begins, as a fit under another prior has learnt it:
   // it is learnt anew only where the fit goes farther than its own errors.
   const Eigen::MatrixXd* of_record = nullptr;
+  // Of what it has gained over a log posterior of `over` the share that need not be known: a fit
+  // that is compared with others of the record then ends earlier, where it gained much.
+  double share = 0.0;
+  double over = std::numeric_limits<double>::infinity();
 };
 
 // To well within a nat of the maximum, which tells maxima apart.

@@ -6,6 +6,7 @@
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_FORMS_ODDS_H_
 
 #include <algorithm>
+#include <cmath>
 
 namespace howl {
 
@@ -28,6 +29,12 @@ inline double LeftByForms(double gained_nats) {
 
 // Against another item in the place of one that came in: within them the two are a class.
 inline constexpr double kOddsOfClass = 50.0;
+
+// Nats by which a trial that gained less than one of so many may be as good: a trial's gain need
+// not be known better than to what forms leave of it.
+inline double WithinReach(double gained_nats) {
+  return std::log(kOddsOfClass) + LeftByForms(gained_nats);
+}
 
 // Causes that a verdict names. Of some forty items three and more can imitate what none of them is:
 // of sixty rigs of the second simulator two had such an account (bench/loop_trial_study), one of an

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "diagnosis/loop_budget/forms/odds.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/other_starts.h"
 #include "estimation/record_fit/point_posterior.h"
@@ -117,10 +118,11 @@ double ProfileMaximum::LogShare(const Eigen::VectorXd& spans) const {
 }
 
 EffectProfile::EffectProfile(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
-                             std::string key, const LoopBudgetOptions& options)
+                             MaximumKnown known, std::string key, const LoopBudgetOptions& options)
     : records_(records),
       from_(from),
-      form_(With(Without(from.model, item, from.model), item)),
+      form_(With(howl::Without(from.model, item, from.model), item)),
+      known_(known),
       low_(End(records, *item.effect, &EffectParameter::low)),
       high_(End(records, *item.effect, &EffectParameter::high)),
       span_(high_ - low_),
@@ -136,6 +138,22 @@ LoopForm EffectProfile::FormAt(const Eigen::VectorXd& u) const {
   return form;
 }
 
+double EffectProfile::Without(std::size_t e) const {
+  return from_.fit.points[e].log_posterior + records_.LogJacobianOfWhole(from_.model, e);
+}
+
+double EffectProfile::Known(double log_posterior) const {
+  if (known_ == MaximumKnown::kClosely) return PointFitOptions{}.converged;
+  double gained = log_posterior;
+  for (std::size_t e = 0; e < records_.size(); ++e) gained -= Without(e);
+  return std::max(kToTheMaximum.converged, LeftByForms(gained));
+}
+
+EffectPoint EffectProfile::At(const Eigen::VectorXd& u,
+                              const std::vector<Eigen::VectorXd>& starts) {
+  return At(u, starts, {}, RecordExtent::kWhole);
+}
+
 EffectPoint EffectProfile::At(const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& starts,
                               const PointFitOptions& options, RecordExtent extent) {
   const std::string key = key_ + std::to_string(evaluations_++) + "/";
@@ -149,8 +167,10 @@ EffectPoint EffectProfile::At(const Eigen::VectorXd& u, const std::vector<Eigen:
     const RecordSpectra& record = extent == RecordExtent::kMiddle ? MiddleOf(whole) : whole;
     out.log_jacobian[e] = LogJacobian(record, form.effects);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
+      const bool compared = known_ == MaximumKnown::kRoughly && extent == RecordExtent::kWhole;
       return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
-                      starts[e], options);
+                      starts[e],
+                      compared ? ToCompareWith(Without(e) - out.log_jacobian[e]) : options);
     });
   });
   out.SumUp();
@@ -212,9 +232,7 @@ void EffectProfile::AgainFromNull(const std::vector<Eigen::VectorXd>& at_null, E
   const std::string key = key_ + "again/" + std::to_string(evaluations_) + "/";
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
     PointFit& fit = point->fits[e];
-    const double without =
-        from_.fit.points[e].log_posterior + records_.LogJacobianOfWhole(from_.model, e);
-    if (fit.log_posterior + point->log_jacobian[e] > without - kWorthAnother) return;
+    if (fit.log_posterior + point->log_jacobian[e] > Without(e) - kWorthAnother) return;
     PointFit again = KeptFit(options_.units, key + std::to_string(e), [&] {
       const RecordSpectra whole = records_.WholeAlone(form, e);
       return FitPoint(whole, form.structure, PriorOfTrial(records_, from_, form, e, whole),
@@ -368,22 +386,25 @@ ProfileMaximum EffectProfile::From(EffectPoint best, double least) {
     const Eigen::LLT<Eigen::MatrixXd> root(information);
     if (root.info() == Eigen::Success) {
       const double gain = 0.5 * slope.dot(root.solve(slope));
-      if (gain < PointFitOptions{}.converged || out.at.log_evidence + gain < least) break;
+      if (gain < Known(out.at.log_posterior) || out.at.log_evidence + gain < least) break;
     }
     Eigen::VectorXd step = StepFrom(out.at.u, slope, information, longest);
     if (!(step.cwiseAbs().maxCoeff() > 0.0)) break;
     const Eigen::VectorXd from = out.at.u;
+    const double before = out.at.log_posterior;
+    bool as_foretold = false;
     for (int halved = 0; out.at.u == from && halved < kMostHalvings; ++halved, step *= 0.5) {
       std::vector<Eigen::VectorXd> starts = ParametersOf(out.at.fits);
       for (std::size_t e = 0; e < starts.size(); ++e) starts[e] += slopes[e].by * step;
       EffectPoint next = At(from + step, starts);
       const double gain = next.log_posterior - out.at.log_posterior;
       const double length = step.cwiseQuotient(span_).cwiseAbs().maxCoeff();
-      const bool as_foretold = gain > kAsForetold * step.dot(slope - 0.5 * information * step);
+      as_foretold = gain > kAsForetold * step.dot(slope - 0.5 * information * step);
       longest = as_foretold ? std::max(longest, 2.0 * length) : length;
       if (gain > 0.0) out.at = std::move(next);
     }
-    if (out.at.u == from) break;
+    // Slopes tell fewer digits than values do, and foretell for ever what no step gains.
+    if (!as_foretold && out.at.log_posterior < before + Known(before)) break;
   }
   return out;
 }

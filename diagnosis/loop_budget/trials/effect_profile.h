@@ -47,11 +47,15 @@ struct ProfileMaximum {
   double LogShare(const Eigen::VectorXd& spans) const;
 };
 
+// To a thousandth of a nat, or, for a trial, to what the forms of causes leave of what is gained
+// over `from` (odds.h).
+enum class MaximumKnown : std::uint8_t { kClosely, kRoughly };
+
 class EffectProfile {
  public:
   // With the item in the form that stands in it, whatever `from` has. Units are kept under `key`.
   EffectProfile(const LoopRecords& records, const LoopFit& from, const LoopItem& item,
-                std::string key, const LoopBudgetOptions& options);
+                MaximumKnown known, std::string key, const LoopBudgetOptions& options);
 
   const Effect& effect() const { return *form_.effects.back().effect; }
   // Of u, their ranges'.
@@ -59,8 +63,9 @@ class EffectProfile {
   // The null, or where it is infinite the end of the range next to it.
   Eigen::VectorXd NullEnd() const;
   LoopForm FormAt(const Eigen::VectorXd& u) const;
+  EffectPoint At(const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& starts);
   EffectPoint At(const Eigen::VectorXd& u, const std::vector<Eigen::VectorXd>& starts,
-                 const PointFitOptions& options = {}, RecordExtent extent = RecordExtent::kWhole);
+                 const PointFitOptions& options, RecordExtent extent);
   // The best two of the values that a search begins with, or the null where none is better: of the
   // first parameter outwards from its null, each from where its neighbour's fits came to and from
   // where the loop stands, by the records' middles; at their maxima. Where there are two
@@ -73,6 +78,10 @@ class EffectProfile {
   ProfileMaximum From(EffectPoint best, double least = -std::numeric_limits<double>::infinity());
 
  private:
+  // Of point e without the item: its log posterior for the record as it was recorded.
+  double Without(std::size_t e) const;
+  // Nats in which a maximum next to one of so many is known.
+  double Known(double log_posterior) const;
   // Of a point's log posterior v by u, all else, x, moving along `by` to stay most likely:
   //
   //   d/du = v_u + v_x dx/du,   d^2/du^2 = v_uu + v_ux H^-1 v_xu,   dx/du = H^-1 v_xu,   H = -v_xx
@@ -99,6 +108,7 @@ class EffectProfile {
   const LoopRecords& records_;
   const LoopFit& from_;
   LoopForm form_;
+  MaximumKnown known_;
   Eigen::VectorXd low_, high_, span_;  // of u
   std::string key_;
   std::size_t evaluations_ = 0;  // each is a unit of its own, the same value from another start too

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/forms/parameter_labels.h"
 #include "estimation/joint_records/best_row.h"
 #include "estimation/parallel.h"
@@ -69,6 +70,13 @@ bool GainGrows(const LoopRecords& records, const LoopTrial& trial) {
 
 }  // namespace
 
+PointFitOptions ToCompareWith(double log_posterior) {
+  PointFitOptions out = kToTheMaximum;
+  out.share = LeftByForms(1.0);
+  out.over = log_posterior;
+  return out;
+}
+
 PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const LoopForm& with,
                         std::size_t e, const RecordSpectra& record) {
   const Eigen::Index terms = records.FlameTerms(from.model.flame_input, e);
@@ -115,8 +123,8 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     fits[i] = KeptFit(options.units, key_of(trial.item) + std::to_string(e), [&] {
       const RecordSpectra record = records.Whole(trial.model, e);
       const PointPrior prior = PriorOfTrial(records, from, trial.model, e, record);
-      PointFit fit =
-          FitPoint(record, trial.model.structure, prior, trial.starts[0][e], kToTheMaximum);
+      PointFit fit = FitPoint(record, trial.model.structure, prior, trial.starts[0][e],
+                              ToCompareWith(from.fit.points[e].log_posterior));
       // Without hum or a tone a mode may have taken its line for a resonance, and would keep it.
       if (!HasLines(trial.item.noise.source)) return fit;
       return BestByModes(record, trial.model.structure, prior, std::move(fit));

@@ -55,6 +55,10 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
                                 const std::vector<LoopItem>& items, const std::string& key,
                                 const LoopBudgetOptions& options);
 
+// How a trial fits a point's record: no better than what forms leave of its gain over the log
+// posterior without (odds.h).
+PointFitOptions ToCompareWith(double log_posterior);
+
 // The priors of a trial on `record`, that of point e as `with` has it: those of the law for what
 // `from` has, wide ones for what is new.
 PointPrior PriorOfTrial(const LoopRecords& records, const LoopFit& from, const LoopForm& with,

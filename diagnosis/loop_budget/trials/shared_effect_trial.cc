@@ -39,14 +39,17 @@ Eigen::VectorXd ValuesOf(const LoopFit& fit, const LoopItem& item) {
 LoopTrial TrySharedEffect(const LoopRecords& records, const LoopFit& from, double standing,
                           const LoopItem& item, const std::string& key,
                           const LoopBudgetOptions& options) {
-  EffectProfile profile(records, from, item, key + "trial/" + KeyOf(item) + "/", options);
+  EffectProfile profile(records, from, item, MaximumKnown::kRoughly,
+                        key + "trial/" + KeyOf(item) + "/", options);
   double without = standing;
   for (std::size_t e = 0; e < records.size(); ++e) {
     without += records.LogJacobianOfWhole(from.model, e);
   }
   ProfileMaximum maximum;
   for (EffectPoint& begin : profile.Begin(ParametersOf(from))) {
-    ProfileMaximum next = profile.From(std::move(begin), without);
+    // As long as it may come out ahead.
+    const double least = std::max(without, maximum.at.log_evidence);
+    ProfileMaximum next = profile.From(std::move(begin), least);
     const bool first = maximum.at.fits.empty();
     if (first || next.at.log_posterior > maximum.at.log_posterior) maximum = std::move(next);
   }
@@ -79,7 +82,7 @@ LoopFit Refined(const LoopRecords& records, LoopFit fit, const LoopItem& item,
   for (int round = 0; round < kMostRounds; ++round) {
     const std::string of_round = key + "refined/" + KeyOf(item) + "/" + std::to_string(round) + "/";
     const LoopItem same = AsFitted(fit, item);
-    EffectProfile profile(records, fit, same, of_round, options);
+    EffectProfile profile(records, fit, same, MaximumKnown::kClosely, of_round, options);
     const Eigen::VectorXd before = ValuesOf(fit, item);
     const ProfileMaximum maximum = profile.From(profile.At(before, ParametersOf(fit)));
     const Eigen::ArrayXd moved = (maximum.at.u - before).array().abs();
@@ -103,8 +106,8 @@ LoopFit FitTrial(const LoopRecords& records, const LoopTrial& trial, const Start
 std::vector<EstimatedParameter> EstimateSharedEffect(const LoopRecords& records, const LoopFit& fit,
                                                      const LoopItem& item, const std::string& key,
                                                      const LoopBudgetOptions& options) {
-  EffectProfile profile(records, fit, AsFitted(fit, item), key + "estimate/" + KeyOf(item) + "/",
-                        options);
+  EffectProfile profile(records, fit, AsFitted(fit, item), MaximumKnown::kClosely,
+                        key + "estimate/" + KeyOf(item) + "/", options);
   const ProfileMaximum maximum = profile.From(profile.At(ValuesOf(fit, item), ParametersOf(fit)));
   const Eigen::VectorXd deviations = maximum.Deviations();
   std::vector<EstimatedParameter> out;

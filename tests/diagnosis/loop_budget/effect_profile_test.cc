@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/forms/shared_effect.h"
 #include "diagnosis/loop_budget/trials/loop_starts.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
@@ -47,13 +48,14 @@ class EffectProfileTest : public ::testing::Test {
 };
 
 TEST_F(EffectProfileTest, EndsAtItsTop) {
-  EffectProfile profile(records_, fit_, ItemOf("crosstalk_p_to_q"), "", options_);
+  EffectProfile profile(records_, fit_, ItemOf("crosstalk_p_to_q"), MaximumKnown::kClosely, "",
+                        options_);
   const ProfileMaximum found = profile.From(profile.Begin(ParametersOf(fit_)).front());
   const double deviation = found.Deviations()[0];
   const auto value_at = [&](double deviations) {
     Eigen::VectorXd u = found.at.u;
     u[0] += deviations * deviation;
-    return profile.At(u, ParametersOf(found.at.fits), kExact).log_posterior;
+    return profile.At(u, ParametersOf(found.at.fits), kExact, RecordExtent::kWhole).log_posterior;
   };
   const double below = value_at(-1.0);
   const double here = value_at(0.0);
@@ -64,7 +66,8 @@ TEST_F(EffectProfileTest, EndsAtItsTop) {
 }
 
 TEST_F(EffectProfileTest, ComesToTheSameTopFromAfar) {
-  EffectProfile profile(records_, fit_, ItemOf("crosstalk_p_to_q"), "", options_);
+  EffectProfile profile(records_, fit_, ItemOf("crosstalk_p_to_q"), MaximumKnown::kClosely, "",
+                        options_);
   std::vector<double> tops;
   double deviation = 0.0;
   for (const double begin : {-0.2, 0.0, 0.4}) {
@@ -75,6 +78,24 @@ TEST_F(EffectProfileTest, ComesToTheSameTopFromAfar) {
   }
   EXPECT_NEAR(tops[0], tops[1], 0.2 * deviation);
   EXPECT_NEAR(tops[2], tops[1], 0.2 * deviation);
+}
+
+// A trial's top is as high as that of an estimate but for what forms leave of what it gains.
+TEST(EffectProfile, EndsRoughlyAtItsTop) {
+  const LoopRecords records(
+      DuctsAt({1.2, 1.5, 1.8}, [](Record* record) { LowPass(2000.0, record); }), 0);
+  LoopBudgetOptions options;
+  options.starts = 4;
+  const LoopFit fit = DuctsFit(records, options);
+  double without = 0.0;
+  for (const PointFit& each : fit.fit.points) without += each.log_posterior;
+  const auto top = [&](MaximumKnown known) {
+    EffectProfile profile(records, fit, ItemOf("q_sensor_lowpass"), known, "", options);
+    return profile.From(profile.Begin(ParametersOf(fit)).front()).at.log_posterior;
+  };
+  const double closely = top(MaximumKnown::kClosely);
+  ASSERT_GT(closely, without + 400.0);
+  EXPECT_NEAR(top(MaximumKnown::kRoughly), closely, 3.0 * LeftByForms(closely - without));
 }
 
 }  // namespace

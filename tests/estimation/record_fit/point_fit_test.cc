@@ -57,6 +57,36 @@ TEST(PointFit, IsComparedAtTheSameMaximum) {
   }
 }
 
+// A fit that need not know a share of what it gains ends sooner, and no further below the maximum
+// than a few times the share.
+TEST(PointFit, EndsWhereTheRestNeedNotBeKnown) {
+  const ModalLoop loop = DuctOfModes(2);
+  const RecordSpectra spectra =
+      MakeRecordSpectra(SimulateModalLoop(loop, 1.0, 3), CycleFrequency(loop, 150.0, 300.0),
+                        FlameInput::kPressureRate);
+  const PointStructure structure = FreeStructure(2);
+  const PointPrior prior = PriorOf(structure, spectra);
+  const PointFit best =
+      FitPoint(spectra, structure, prior, StartsOf(spectra, structure, prior, 6, 1));
+  Eigen::VectorXd start = best.parameters;
+  start.head(structure.Frequencies()).array() += 0.05;
+  start[structure.Delay()] += 0.05;
+  const PointFit begun = FitPoint(spectra, structure, prior, start, {.iterations = 0});
+  const PointFit known = FitPoint(spectra, structure, prior, start);
+  PointFitOptions options;
+  options.share = 1.0 / 400.0;
+  options.over = begun.log_posterior;
+  const PointFit compared = FitPoint(spectra, structure, prior, start, options);
+  const double gained = known.log_posterior - begun.log_posterior;
+  ASSERT_GT(gained, 4000.0);
+  EXPECT_TRUE(compared.converged);
+  EXPECT_LT(compared.iterations, known.iterations);
+  EXPECT_NEAR(compared.log_posterior, known.log_posterior, 3.0 * options.share * gained);
+  // Where it has gained nothing over what it is compared with it ends where any fit does.
+  options.over = known.log_posterior + 1.0;
+  EXPECT_EQ(FitPoint(spectra, structure, prior, start, options).log_posterior, known.log_posterior);
+}
+
 // Begun with a flame so steep that the loop grows at all frequencies, a fit ends at the loop that
 // others find, wherever between the points of its sums the return difference vanishes on its way.
 class SteepFlame : public testing::TestWithParam<std::uint64_t> {};
