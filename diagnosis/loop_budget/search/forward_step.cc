@@ -22,18 +22,20 @@ struct Fitted {
   LoopFit fit;
 };
 
-// Beside that of this trial, of those that were fitted.
-std::vector<LoopItem> RivalsOf(const std::vector<LoopTrial>& trials,
-                               const std::vector<Fitted>& fitted, std::size_t of,
-                               const LoopFit& from) {
-  std::vector<LoopItem> out;
+// Beside `best`, one of those that were fitted.
+std::vector<LoopRival> RivalsOf(const std::vector<LoopTrial>& trials,
+                                const std::vector<Fitted>& fitted, const Fitted& best,
+                                const LoopFit& from) {
+  std::vector<LoopRival> out;
+  const double most = trials[best.trial].gain;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (i == of) continue;
-    const bool gained = std::ranges::any_of(fitted, [&](const Fitted& each) {
-      return each.trial == i && each.fit.Density() > from.Density();
-    });
-    const double behind = std::abs(trials[of].gain - trials[i].gain);
-    if (gained || behind < std::log(kOddsOfClass)) out.push_back(trials[i].item);
+    if (i == best.trial) continue;
+    const auto fit = std::ranges::find(fitted, i, &Fitted::trial);
+    if (fit != fitted.end() && fit->fit.Density() > from.Density()) {
+      out.push_back({trials[i].item, best.fit.Density() - fit->fit.Density()});
+    } else if (std::abs(most - trials[i].gain) < WithinReach(most)) {
+      out.push_back({trials[i].item, most - trials[i].gain});
+    }
   }
   return out;
 }
@@ -51,7 +53,7 @@ double Bar(const std::vector<LoopTrial>& trials, const std::vector<std::string>&
   }
   if (gains.size() < kMostFitted) return -std::numeric_limits<double>::infinity();
   std::ranges::nth_element(gains, gains.begin() + kMostFitted - 1, std::ranges::greater());
-  return gains[kMostFitted - 1] - std::log(kOddsOfClass);
+  return gains[kMostFitted - 1] - WithinReach(gains[kMostFitted - 1]);
 }
 
 }  // namespace
@@ -106,8 +108,8 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
                            key + "best/" + KeyOf(trial.item) + "/", options_);
     const double beside = LeftByForms(from.Density() - base_density_);
     if (fit.Density() > from.Density() + least + beside + trial.price) {
-      return LoopStep{trial.item, least, trial.price, RivalsOf(trials, best, each.trial, from),
-                      std::move(fit)};
+      return LoopStep{trial.item, least,         trial.price, RivalsOf(trials, best, each, from),
+                      0,          std::move(fit)};
     }
   }
   return std::nullopt;
@@ -146,6 +148,7 @@ std::optional<LoopStep> ForwardSearch::Next(const LoopFit& from, const std::vect
       if (!waiting.empty() && !(LastGain(waiting[0]) < bar)) continue;
       if (std::optional<LoopStep> found = BestOf(trials, from, offered, key, &fitted)) {
         first_step_ = false;
+        found->others = steps.size();
         return found;
       }
       bar = std::numeric_limits<double>::infinity();

@@ -18,12 +18,18 @@
 
 namespace howl {
 
+struct LoopRival {
+  LoopItem item;
+  double behind = 0.0;  // nats, of the item that came in
+};
+
 struct LoopStep {
   LoopItem item;
   double least = 0.0;  // nats that it had to gain, among so many, beside nothing
   double price = 0.0;  // and for values that all points share (LoopTrial)
-  // What was fitted beside it and gained too, or would have gained as much within odds of 50 to 1.
-  std::vector<LoopItem> rivals;
+  // What was fitted beside it and gained too, or would have gained as much (WithinReach).
+  std::vector<LoopRival> rivals;
+  std::size_t others = 0;  // that stood when it came
   LoopFit after;
   std::vector<std::string> equals = {};  // of the rivals, within these odds in the end
 };

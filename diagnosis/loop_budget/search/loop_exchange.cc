@@ -22,16 +22,23 @@ struct Exchange {
   double price = 0.0;               // the rival's
 };
 
+// Whether it has been found worse beside all that stands, by more than a further search of the same
+// loop could make up: nothing has come after the item, or gone.
+bool IsFarBehind(const LoopRival& rival, const LoopStanding& now, std::size_t step) {
+  const LoopStep& of = now.steps[step];
+  const bool as_it_came = step == of.others && now.steps.size() == of.others + 1;
+  return as_it_came && rival.behind > WithinReach(now.best.Density() - now.without[step].Density());
+}
+
 // Of rivals that may come where the step's item is not.
 std::vector<Exchange> Possible(const LoopForm& base, const LoopStanding& now,
                                const LoopBudgetOptions& options) {
   std::vector<Exchange> out;
   for (std::size_t i = 0; i < now.steps.size(); ++i) {
     const std::vector<LoopItem> offered = LoopItems(now.without[i].model, base, options.declared);
-    for (const LoopItem& rival : now.steps[i].rivals) {
-      if (std::ranges::find(offered, KeyOf(rival), KeyOf) != offered.end()) {
-        out.push_back({i, rival});
-      }
+    for (const LoopRival& rival : now.steps[i].rivals) {
+      const bool possible = std::ranges::find(offered, KeyOf(rival.item), KeyOf) != offered.end();
+      if (possible && !IsFarBehind(rival, now, i)) out.push_back({i, rival.item});
     }
   }
   return out;
@@ -72,10 +79,10 @@ std::optional<LoopStanding> BestExchange(const LoopRecords& records, const LoopF
   if (best == nullptr) return std::nullopt;
   LoopStanding out{*best->fit, now->steps, {}};
   const LoopStep& before = now->steps[best->step];
-  LoopStep next{best->rival, before.least, best->price, before.rivals, *best->fit};
+  LoopStep next{best->rival, before.least, best->price, before.rivals, before.others, *best->fit};
   std::erase_if(next.rivals,
-                [&](const LoopItem& each) { return KeyOf(each) == KeyOf(best->rival); });
-  next.rivals.push_back(before.item);
+                [&](const LoopRival& each) { return KeyOf(each.item) == KeyOf(best->rival); });
+  next.rivals.push_back({before.item});
   out.steps.erase(out.steps.begin() + static_cast<std::ptrdiff_t>(best->step));
   out.steps.push_back(std::move(next));
   return out;

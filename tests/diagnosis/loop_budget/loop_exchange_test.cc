@@ -23,6 +23,12 @@ std::vector<LoopItem> ItemsOf(const std::string& id) {
   return out;
 }
 
+std::vector<LoopRival> RivalsOf(const std::string& id, double behind) {
+  std::vector<LoopRival> out;
+  for (const LoopItem& item : ItemsOf(id)) out.push_back({item, behind});
+  return out;
+}
+
 // q through a low-pass, for which a mode far above the band came first: it leads q nearly as much.
 TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
   const LoopRecords records(
@@ -36,8 +42,9 @@ TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
   const LoopFit with_mode =
       FitLoopFrom(records, trial.model, trial.starts, MaximumTaken::kBest, "mode/", options);
   ASSERT_GT(with_mode.Density(), without.Density() + 100.0);
-  LoopStanding now{
-      with_mode, {{mode, 6.0, 0.0, ItemsOf("q_sensor_lowpass"), with_mode}}, {without}};
+  // However far behind they were, what stood beside the mode when it came has gone since.
+  const std::vector<LoopRival> behind = RivalsOf("q_sensor_lowpass", 1e6);
+  LoopStanding now{with_mode, {{mode, 6.0, 0.0, behind, 1, with_mode}}, {without}};
   std::optional<LoopStanding> next = BestExchange(records, base, "first/", options, &now);
   ASSERT_TRUE(next.has_value());
   ASSERT_EQ(next->steps.size(), 1u);
@@ -49,11 +56,14 @@ TEST(LoopExchange, PutsTheInstrumentInThePlaceOfAMode) {
   EXPECT_GT(next->best.Density(), with_mode.Density());
   EXPECT_EQ(next->best.model.structure.modes, 2);
   EXPECT_TRUE(std::ranges::any_of(
-      step.rivals, [&](const LoopItem& each) { return KeyOf(each) == KeyOf(mode); }));
+      step.rivals, [&](const LoopRival& each) { return KeyOf(each.item) == KeyOf(mode); }));
   // The other way round the mode is no better, and no longer one of a class.
   next->without = {without};
   EXPECT_FALSE(BestExchange(records, base, "second/", options, &*next).has_value());
   EXPECT_TRUE(next->steps[0].equals.empty());
+  // Where all stands as it did then, what was far behind is not tried again.
+  LoopStanding same{with_mode, {{mode, 6.0, 0.0, behind, 0, with_mode}}, {without}};
+  EXPECT_FALSE(BestExchange(records, base, "third/", options, &same).has_value());
 }
 
 }  // namespace
