@@ -30,10 +30,12 @@ inline double LeftByForms(double gained_nats) {
 // Against another item in the place of one that came in: within them the two are a class.
 inline constexpr double kOddsOfClass = 50.0;
 
-// Nats by which a trial that gained less than one of so many may be as good: a trial's gain need
-// not be known better than to what forms leave of it.
+// Of a trial's gain what need not be known: a tenth of what forms leave of it.
+inline double UnknownOfTrial(double gained_nats) { return 0.1 * LeftByForms(gained_nats); }
+
+// Nats by which a trial that gained less than one of so many may be as good.
 inline double WithinReach(double gained_nats) {
-  return std::log(kOddsOfClass) + LeftByForms(gained_nats);
+  return std::log(kOddsOfClass) + UnknownOfTrial(gained_nats);
 }
 
 // Causes that a verdict names. Of some forty items three and more can imitate what none of them is:

@@ -55,7 +55,7 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
                                 const std::vector<LoopItem>& items, const std::string& key,
                                 const LoopBudgetOptions& options);
 
-// How a trial fits a point's record: no better than what forms leave of its gain over the log
+// How a trial fits a point's record, of which it need not know all that it gains over the log
 // posterior without (odds.h).
 PointFitOptions ToCompareWith(double log_posterior);
 

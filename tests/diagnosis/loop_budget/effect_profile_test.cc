@@ -80,7 +80,7 @@ TEST_F(EffectProfileTest, ComesToTheSameTopFromAfar) {
   EXPECT_NEAR(tops[2], tops[1], 0.2 * deviation);
 }
 
-// A trial's top is as high as that of an estimate but for what forms leave of what it gains.
+// A trial's top is as high as that of an estimate but for what it need not know.
 TEST(EffectProfile, EndsRoughlyAtItsTop) {
   const LoopRecords records(
       DuctsAt({1.2, 1.5, 1.8}, [](Record* record) { LowPass(2000.0, record); }), 0);
@@ -95,7 +95,7 @@ TEST(EffectProfile, EndsRoughlyAtItsTop) {
   };
   const double closely = top(MaximumKnown::kClosely);
   ASSERT_GT(closely, without + 400.0);
-  EXPECT_NEAR(top(MaximumKnown::kRoughly), closely, 3.0 * LeftByForms(closely - without));
+  EXPECT_NEAR(top(MaximumKnown::kRoughly), closely, 3.0 * UnknownOfTrial(closely - without));
 }
 
 }  // namespace
