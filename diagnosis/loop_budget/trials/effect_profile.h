@@ -10,16 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/loop_budget/trials/effect_ranges.h"
 #include "diagnosis/loop_budget/trials/loop_trial.h"
 #include "estimation/record_fit/point_fit.h"
 
 namespace howl {
-
-// The search's coordinates u: of each parameter its logarithm where its scale is logarithmic, else
-// the parameter itself.
-double ToSearch(const EffectParameter& parameter, double value);
-double FromSearch(const EffectParameter& parameter, double u);
-Eigen::VectorXd ToSearch(const Effect& effect, const std::vector<double>& values);
 
 // What of a record is fitted: the whole, or what is enough to compare starts (middle_part.h).
 enum class RecordExtent : std::uint8_t { kWhole, kMiddle };
@@ -47,8 +42,7 @@ struct ProfileMaximum {
   double LogShare(const Eigen::VectorXd& spans) const;
 };
 
-// To a thousandth of a nat, or, for a trial, to what the forms of causes leave of what is gained
-// over `from` (odds.h).
+// To a thousandth of a nat, or as a trial needs to know what it gains over `from` (odds.h).
 enum class MaximumKnown : std::uint8_t { kClosely, kRoughly };
 
 class EffectProfile {
