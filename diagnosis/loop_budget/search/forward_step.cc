@@ -108,8 +108,9 @@ std::optional<LoopStep> ForwardSearch::BestOf(const std::vector<LoopTrial>& tria
                            key + "best/" + KeyOf(trial.item) + "/", options_);
     const double beside = LeftByForms(from.Density() - base_density_);
     if (fit.Density() > from.Density() + least + beside + trial.price) {
-      return LoopStep{trial.item, least,         trial.price, RivalsOf(trials, best, each, from),
-                      0,          std::move(fit)};
+      LoopStep step{trial.item, least, trial.price, RivalsOf(trials, best, each, from)};
+      step.after = std::move(fit);
+      return step;
     }
   }
   return std::nullopt;

@@ -30,7 +30,7 @@ struct LoopStep {
   // What was fitted beside it and gained too, or would have gained as much (WithinReach).
   std::vector<LoopRival> rivals;
   std::size_t others = 0;  // that stood when it came
-  LoopFit after;
+  LoopFit after = {};
   std::vector<std::string> equals = {};  // of the rivals, within these odds in the end
 };
 

@@ -57,7 +57,7 @@ EffectProfile::EffectProfile(const LoopRecords& records, const LoopFit& from, co
                              MaximumKnown known, std::string key, const LoopBudgetOptions& options)
     : records_(records),
       from_(from),
-      form_(With(howl::Without(from.model, item, from.model), item)),
+      form_(With(Without(from.model, item, from.model), item)),
       known_(known),
       low_(RangeEnd(*item.effect, &EffectParameter::low, records)),
       high_(RangeEnd(*item.effect, &EffectParameter::high, records)),
@@ -74,14 +74,14 @@ LoopForm EffectProfile::FormAt(const Eigen::VectorXd& u) const {
   return form;
 }
 
-double EffectProfile::Without(std::size_t e) const {
+double EffectProfile::PosteriorWithout(std::size_t e) const {
   return from_.fit.points[e].log_posterior + records_.LogJacobianOfWhole(from_.model, e);
 }
 
 double EffectProfile::Known(double log_posterior) const {
   if (known_ == MaximumKnown::kClosely) return PointFitOptions{}.converged;
   double gained = log_posterior;
-  for (std::size_t e = 0; e < records_.size(); ++e) gained -= Without(e);
+  for (std::size_t e = 0; e < records_.size(); ++e) gained -= PosteriorWithout(e);
   return std::max(kToTheMaximum.converged, UnknownOfTrial(gained));
 }
 
@@ -104,9 +104,9 @@ EffectPoint EffectProfile::At(const Eigen::VectorXd& u, const std::vector<Eigen:
     out.log_jacobian[e] = LogJacobian(record, form.effects);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
       const bool compared = known_ == MaximumKnown::kRoughly && extent == RecordExtent::kWhole;
-      return FitPoint(record, form.structure, PriorOfTrial(records_, from_, form, e, record),
-                      starts[e],
-                      compared ? ToCompareWith(Without(e) - out.log_jacobian[e]) : options);
+      return FitPoint(
+          record, form.structure, PriorOfTrial(records_, from_, form, e, record), starts[e],
+          compared ? ToCompareWith(PosteriorWithout(e) - out.log_jacobian[e]) : options);
     });
   });
   out.SumUp();

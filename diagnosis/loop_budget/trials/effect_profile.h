@@ -73,7 +73,7 @@ class EffectProfile {
 
  private:
   // Of point e without the item: its log posterior for the record as it was recorded.
-  double Without(std::size_t e) const;
+  double PosteriorWithout(std::size_t e) const;
   // Nats in which a maximum next to one of so many is known.
   double Known(double log_posterior) const;
   // Of a point's log posterior v by u, all else, x, moving along `by` to stay most likely:

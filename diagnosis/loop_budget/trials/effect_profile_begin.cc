@@ -82,7 +82,7 @@ void EffectProfile::AgainFromNull(const std::vector<Eigen::VectorXd>& at_null, E
   const std::string key = key_ + "again/" + std::to_string(evaluations_) + "/";
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
     PointFit& fit = point->fits[e];
-    if (fit.log_posterior + point->log_jacobian[e] > Without(e) - kWorthAnother) return;
+    if (fit.log_posterior + point->log_jacobian[e] > PosteriorWithout(e) - kWorthAnother) return;
     PointFit again = KeptFit(options_.units, key + std::to_string(e), [&] {
       const RecordSpectra whole = records_.WholeAlone(form, e);
       return FitPoint(whole, form.structure, PriorOfTrial(records_, from_, form, e, whole),
