@@ -111,7 +111,9 @@ def read_only(place):
 
 def little_memory(place):
     for megabytes in range(40, 200, 2):
-        said = place.shell(f"ulimit -v {megabytes}000; howl fit rig.yaml --threads 1 --out out")
+        # Threads of OpenBLAS, where that is the linear algebra, ask for memory until it is given.
+        said = place.shell(f"ulimit -v {megabytes}000; export OPENBLAS_NUM_THREADS=1; "
+                           "howl fit rig.yaml --threads 1 --out out")
         if said[0] == 2 and said[1].startswith("rig.yaml"):
             return said
     return None
