@@ -55,7 +55,6 @@ class KeptLoop {
   Eigen::VectorXd SlopeByBandLines(const WhittleWeights& weights,
                                    const Eigen::VectorXcd& other_factors, Eigen::Index lines);
   void MoveChanges();
-  std::complex<double> EdgeTransfer(Eigen::Index edge) const;
   void SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* out);
   void SlopeByAcoustics(const WhittleWeights& weights, Eigen::VectorXd* out);
   void SlopeByFlame(const WhittleWeights& weights, Eigen::VectorXd* out);

@@ -31,17 +31,6 @@ void MultiplyBy(const C* by, Eigen::VectorXcd* out) {
 
 }  // namespace
 
-// R before the taper.
-C KeptLoop::EdgeTransfer(Eigen::Index edge) const {
-  const double x = record_.edge_s[edge].imag();
-  C out = 0.0;
-  for (std::size_t k = 0; k < modes_.size(); ++k) {
-    const LoopMode& mode = point_.modes[k];
-    out += Times(C(mode.b * mode.omega, mode.a * x), modes_[k].edge_over[edge]);
-  }
-  return out;
-}
-
 Eigen::VectorXd KeptLoop::Slope(const WhittleWeights& weights) {
   const Eigen::Index flame = record_.flame.cols();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(structure_.Parameters(flame));
@@ -113,9 +102,12 @@ void KeptLoop::SlopeByChanges(const WhittleWeights& weights, Eigen::VectorXd* ou
   BeforeTaper(weights.acoustic, &edge_weights_);
   weighted_.resize(edge_weights_.size());
   if (structure_.AcousticChanges() > 0) {
-    for (Eigen::Index i = 0; i < weighted_.size(); ++i) {
-      weighted_[i] = Times(edge_weights_[i], EdgeTransfer(i));
+    driven_.setZero(edge_x_.size());  // R before the taper
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      AddTransfer(point_.modes[k], edge_x_.data(), modes_[k].edge_over.data(), driven_.size(),
+                  driven_.data());
     }
+    SetProducts(edge_weights_.data(), driven_.data(), weighted_.size(), weighted_.data());
     MultiplyBy(AcousticFactors(), &weighted_);
   }
   Eigen::Index next = structure_.AcousticChange();

@@ -17,6 +17,13 @@
 namespace howl::point_fit_test {
 namespace {
 
+// Of a second of a duct's limit cycle.
+RecordSpectra SpectraOfTwoModes() {
+  const ModalLoop loop = DuctOfModes(2);
+  return MakeRecordSpectra(SimulateModalLoop(loop, 1.0, 3), CycleFrequency(loop, 150.0, 300.0),
+                           FlameInput::kPressureRate);
+}
+
 TEST(PointFit, FindsTwoModesOfALimitCycle) {
   const ModalLoop loop = DuctOfModes(2);
   const IdentifiedLoop found = Identify(loop, SimulateModalLoop(loop, 2.0, 3), 8);
@@ -34,10 +41,7 @@ TEST(PointFit, FindsTwoModesOfALimitCycle) {
 // below the best, where a loop is wrong and its information is no curvature, it may stop on a
 // ridge, but no further down than a hundredth of what it lies below: their order stays.
 TEST(PointFit, IsComparedAtTheSameMaximum) {
-  const ModalLoop loop = DuctOfModes(2);
-  const RecordSpectra spectra =
-      MakeRecordSpectra(SimulateModalLoop(loop, 1.0, 3), CycleFrequency(loop, 150.0, 300.0),
-                        FlameInput::kPressureRate);
+  const RecordSpectra spectra = SpectraOfTwoModes();
   const PointStructure structure = FreeStructure(2);
   const PointPrior prior = PriorOf(structure, spectra);
   struct Pair {
@@ -60,10 +64,7 @@ TEST(PointFit, IsComparedAtTheSameMaximum) {
 // A fit that need not know a share of what it gains ends sooner, and no further below the maximum
 // than a few times the share.
 TEST(PointFit, EndsWhereTheRestNeedNotBeKnown) {
-  const ModalLoop loop = DuctOfModes(2);
-  const RecordSpectra spectra =
-      MakeRecordSpectra(SimulateModalLoop(loop, 1.0, 3), CycleFrequency(loop, 150.0, 300.0),
-                        FlameInput::kPressureRate);
+  const RecordSpectra spectra = SpectraOfTwoModes();
   const PointStructure structure = FreeStructure(2);
   const PointPrior prior = PriorOf(structure, spectra);
   const PointFit best =
