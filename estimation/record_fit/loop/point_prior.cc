@@ -18,9 +18,6 @@ constexpr double kLogXi = 1.5;
 constexpr double kResidue = 1.0;
 // At the record's ends a mode holds as much as p shows, and up to a few times as much.
 constexpr double kHeld = 3.0;
-// Half a period of the cycle, within a factor of three.
-constexpr double kMeanTau = std::numbers::pi;
-constexpr double kLogTau = 1.1;
 // From a tenth of the delay to as much as the delay.
 constexpr double kMeanLogRho = -1.2;
 constexpr double kLogRho = 0.8;

@@ -15,10 +15,15 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <numbers>
 
 #include "estimation/record_fit/loop/loop_point.h"
 
 namespace howl {
+
+// Of a delay, in radians of the cycle: half a period, within a factor of three.
+inline constexpr double kMeanTau = std::numbers::pi;
+inline constexpr double kLogTau = 1.1;
 
 struct PointPrior {
   Eigen::VectorXd mean;

@@ -6,13 +6,17 @@
 #include <numbers>
 #include <utility>
 
+#include "estimation/record_fit/loop/point_prior.h"
 #include "estimation/record_fit/starts/start_least_squares.h"
 
 namespace howl {
 namespace {
 
-constexpr std::size_t kDelays = 64;
-constexpr double kMostCycles = 1.25;  // of delay
+// A flame that drives a higher mode than the one whose period is like its delay answers after
+// several periods of the cycle: delays are tried to two deviations of their prior.
+const double kMostTau = kMeanTau * std::exp(2.0 * kLogTau);
+constexpr double kDelayStep =
+    0.12;  // radians of the cycle: an eighth of a period at the band's end
 // Of a second path: later by an eighth of a period to two of them.
 constexpr std::size_t kLambdas = 24;
 constexpr double kLeastLambda = 0.25 * std::numbers::pi;
@@ -46,11 +50,18 @@ PathStarts::PathStarts(const RecordSpectra& record)
   for (Eigen::Index k = 0; k < flame_.cols(); ++k) flame_.col(k) = Tapered(record.flame.col(k));
 }
 
-// The mean logarithm of what is left of q, smoothed: but for a constant, how likely noise of that
+// The mean logarithm of what is left of q, by bands: but for a constant, how likely noise of that
 // spectrum is. Where there is little noise the right delay stands out by orders of magnitude in
 // bins which hold little of q's power.
 double PathStarts::LogLeft(const Eigen::VectorXcd& left) const {
-  return SmoothPower(left, kStartReach).array().log().mean();
+  constexpr Eigen::Index kBand = 2 * kStartReach + 1;
+  double sum = 0.0;
+  for (Eigen::Index from = 0; from < left.size(); from += kBand) {
+    const Eigen::Index bins = std::min(kBand, left.size() - from);
+    const auto count = static_cast<double>(bins);
+    sum += count * std::log(left.segment(from, bins).squaredNorm() / count);
+  }
+  return sum / static_cast<double>(left.size());
 }
 
 Eigen::VectorXd PathStarts::Flame(const FlamePath& path) const {
@@ -59,12 +70,21 @@ Eigen::VectorXd PathStarts::Flame(const FlamePath& path) const {
 }
 
 std::vector<double> PathStarts::Delays(std::size_t count) const {
-  std::vector<double> tau(kDelays);
-  std::vector<double> left(kDelays);
-  for (std::size_t i = 0; i < kDelays; ++i) {
-    tau[i] = 2.0 * std::numbers::pi * kMostCycles * (static_cast<double>(i) + 0.5) / kDelays;
-    const FlamePath path{DelaySpread::kNone, tau[i]};
-    left[i] = LogLeft(heat_release_ - path.At(record_.s).cwiseProduct(flame_ * Flame(path)));
+  // A delay turns the flame's columns, which keep their Gram matrix.
+  const Eigen::MatrixXcd columns = weight_.asDiagonal() * flame_;
+  const Eigen::MatrixXd inverse = SolveSymmetric(
+      GramOfStart(columns), Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
+  const Eigen::VectorXcd weighted = weight_.cwiseProduct(heat_release_);
+  Eigen::VectorXcd path = (-0.5 * kDelayStep * record_.s).array().exp();
+  const Eigen::VectorXcd turn = (-kDelayStep * record_.s).array().exp();
+  std::vector<double> tau;
+  std::vector<double> left;
+  for (double next = 0.5 * kDelayStep; next < kMostTau; next += kDelayStep) {
+    const Eigen::VectorXd cross =
+        (columns.adjoint() * path.conjugate().cwiseProduct(weighted)).real();
+    tau.push_back(next);
+    left.push_back(LogLeft(heat_release_ - path.cwiseProduct(flame_ * (inverse * cross))));
+    path = path.cwiseProduct(turn);
   }
   // Without the ends: what q tells of p at once, through the acoustics, leaves least at no delay.
   std::vector<double> out;

@@ -18,7 +18,7 @@ class PathStarts {
 
   // The flame's coefficients that leave least of q, given its path.
   Eigen::VectorXd Flame(const FlamePath& path) const;
-  // Delays, up to 1.25 periods of the cycle: those that leave least, at most `count`.
+  // Delays, as far as their prior reaches: those that leave least, at most `count`.
   std::vector<double> Delays(std::size_t count) const;
   // Second paths of a path that has none: those that leave least, at most `count`.
   std::vector<SecondPath> SecondPaths(const FlamePath& first, std::size_t count) const;

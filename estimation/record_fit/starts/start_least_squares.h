@@ -15,14 +15,19 @@ struct StartSolution {
   double left = 0.0;  // |y - X c|^2
 };
 
-// min |y - X c|^2. A column that the others make up for is held near zero.
-inline StartSolution SolveStart(const Eigen::MatrixXcd& x, const Eigen::VectorXcd& y) {
+// X^H X for the unknowns. A column that the others make up for is held near zero.
+inline Eigen::MatrixXd GramOfStart(const Eigen::MatrixXcd& x) {
   constexpr double kRidge = 1e-9;  // of the mean square of a column
   Eigen::MatrixXd gram = (x.adjoint() * x).real();
-  const Eigen::VectorXd cross = (x.adjoint() * y).real();
   gram.diagonal().array() += kRidge * gram.diagonal().mean() + 1e-300;
+  return gram;
+}
+
+// min |y - X c|^2.
+inline StartSolution SolveStart(const Eigen::MatrixXcd& x, const Eigen::VectorXcd& y) {
+  const Eigen::VectorXd cross = (x.adjoint() * y).real();
   StartSolution out;
-  out.coefficients = SolveSymmetric(gram, cross);
+  out.coefficients = SolveSymmetric(GramOfStart(x), cross);
   out.left = y.squaredNorm() - cross.dot(out.coefficients);
   return out;
 }

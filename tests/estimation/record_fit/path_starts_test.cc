@@ -38,7 +38,7 @@ RecordSpectra Answered(const FlamePath& path, std::uint64_t seed) {
 }
 
 TEST(PathStarts, DelayIsAmongThem) {
-  for (const double tau : {1.1, 3.3, 6.0}) {
+  for (const double tau : {1.1, 3.3, 6.0, 22.0}) {
     const RecordSpectra record = Answered({DelaySpread::kNone, tau}, 3);
     const std::vector<double> found = PathStarts(record).Delays(3);
     ASSERT_FALSE(found.empty());
