@@ -17,6 +17,7 @@
 
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/loop_budget.h"
+#include "diagnosis/loop_budget/trials/effect_ranges.h"
 #include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 #include "tests/diagnosis/loop_budget/duct_rig.h"
@@ -54,6 +55,31 @@ TEST(SharedEffect, CostsItsPriorWhereThereIsNone) {
   for (const LoopTrial& trial : TrialsOn(Ducts({}))) {
     EXPECT_GT(trial.gain, -15.0) << KeyOf(trial.item);
     EXPECT_LT(trial.gain, 3.0) << KeyOf(trial.item);
+  }
+}
+
+// When a second path's share is nothing its records tell nothing of when it comes.
+TEST(SharedEffect, IntervalsEndWhereTheRangesDo) {
+  const LoopRecords records(Ducts({}), 0);
+  LoopBudgetOptions options;
+  options.starts = 4;
+  const std::vector<LoopItem> items = AllLoopItems();
+  const LoopItem path = *std::ranges::find_if(items, [](const LoopItem& item) {
+    return item.id == "second_delay_path" && item.kind == LoopItemKind::kSharedEffect;
+  });
+  LoopFit fit = DuctsFit(records, options);
+  fit.model = With(fit.model, path);
+  const Effect& effect = *fit.model.effects.back().effect;
+  const std::vector<EstimatedParameter> found =
+      EstimateSharedEffect(records, fit, path, "", options);
+  ASSERT_EQ(found.size(), effect.parameters().size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const EffectParameter& parameter = effect.parameters()[i];
+    const double factor = RangeFactor(effect, parameter, records);
+    EXPECT_GE(found[i].low, (1.0 - 1e-12) * factor * parameter.low) << found[i].name;
+    EXPECT_LE(found[i].high, (1.0 + 1e-12) * factor * parameter.high) << found[i].name;
+    EXPECT_LE(found[i].low, found[i].value) << found[i].name;
+    EXPECT_GE(found[i].high, found[i].value) << found[i].name;
   }
 }
 
