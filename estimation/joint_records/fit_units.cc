@@ -13,9 +13,9 @@ constexpr std::size_t kHead = 6;
 constexpr double kMostParameters = 10'000.0;
 constexpr double kMostIterations = 1e9;
 
-// Whether it is a whole number from the first to the last.
+// Whether it is a whole number from the first to the last; -0 is none, as no fit is kept with it.
 bool IsCount(double x, double first, double last) {
-  return x >= first && x <= last && x == std::floor(x);
+  return x >= first && x <= last && x == std::floor(x) && !std::signbit(x);
 }
 
 // Of a symmetric matrix the lower half is kept: most of what a unit has.
