@@ -106,6 +106,12 @@ TEST(FlameBasis, ReproducesCubics) {
       (basis.Value(v, c.head(kFlameTerms)) - columns.leftCols(kFlameTerms) * c.head(kFlameTerms))
           .norm(),
       0.0, 1e-12);
+  const double rise = (0.9 * v.array().square() - 2.0 * v.array() + 2.0).mean();
+  EXPECT_NEAR(basis.MeanSlopes(v).dot(c.head(kFlameTerms)), rise, 1e-12);
+}
+
+TEST(FlameBasis, DoesNotRiseBeyondItsRange) {
+  EXPECT_EQ(FlameBasis(2.0).MeanSlopes(Eigen::Vector2d(-2.1, 5.0)).norm(), 0.0);
 }
 
 // The mean over 60 draws lies within three standard errors of the truth, and so do single draws.

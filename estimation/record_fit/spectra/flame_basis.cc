@@ -14,18 +14,35 @@ struct Piece {
   std::array<double, 4> weight;
 };
 
-// The four cubic B-splines that do not vanish at v; uniform knots beyond the range's ends too.
-Piece Evaluate(double v, double range) {
+// Which interval of the range v lies in, and how far on in it, 0 to 1; beyond the range at its end.
+struct Located {
+  Eigen::Index interval;
+  double u;
+};
+
+Located Locate(double v, double range) {
   const double scaled =
       std::clamp((v / range + 1.0) * 0.5, 0.0, 1.0) * static_cast<double>(kIntervals);
   // What is no number, as after a wild step of a search, has weights that are none, in some column.
   const Eigen::Index interval =
       std::isnan(scaled) ? 0 : std::min(static_cast<Eigen::Index>(scaled), kIntervals - 1);
-  const double u = scaled - static_cast<double>(interval);
+  return {interval, scaled - static_cast<double>(interval)};
+}
+
+// The four cubic B-splines that do not vanish at v; uniform knots beyond the range's ends too.
+Piece Evaluate(double v, double range) {
+  const auto [interval, u] = Locate(v, range);
   const double w = 1.0 - u;
   return {interval,
           {w * w * w / 6.0, (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
            (3.0 * w * w * w - 6.0 * w * w + 4.0) / 6.0, u * u * u / 6.0}};
+}
+
+// Their slopes by u.
+Piece Rise(double v, double range) {
+  const auto [interval, u] = Locate(v, range);
+  const double w = 1.0 - u;
+  return {interval, {-0.5 * w * w, 1.5 * u * u - 2.0 * u, 2.0 * w - 1.5 * w * w, 0.5 * u * u}};
 }
 
 }  // namespace
@@ -44,6 +61,19 @@ Eigen::MatrixXd FlameBasis::Columns(const Eigen::VectorXd& v) const {
     }
   }
   return columns;
+}
+
+Eigen::VectorXd FlameBasis::MeanSlopes(const Eigen::VectorXd& v) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(kFlameTerms + 1);
+  for (const double each : v) {
+    if (std::abs(each) > range_) continue;
+    const Piece piece = Rise(each, range_);
+    for (Eigen::Index j = 0; j < 4; ++j) {
+      sum[piece.first + j] += piece.weight[static_cast<std::size_t>(j)];
+    }
+  }
+  const double u_of_v = 0.5 * static_cast<double>(kIntervals) / range_;
+  return u_of_v / static_cast<double>(v.size()) * sum.head(kFlameTerms);
 }
 
 double FlameBasis::At(double v, const Eigen::VectorXd& coefficients) const {

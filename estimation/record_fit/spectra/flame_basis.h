@@ -18,6 +18,8 @@ class FlameBasis {
   Eigen::VectorXd Knots() const;
   // samples x kFlameTerms
   Eigen::MatrixXd Columns(const Eigen::VectorXd& v) const;
+  // Of each column's mean by v, where all of v rises alike: kFlameTerms.
+  Eigen::VectorXd MeanSlopes(const Eigen::VectorXd& v) const;
   // The sum of the columns times the coefficients.
   double At(double v, const Eigen::VectorXd& coefficients) const;
   Eigen::VectorXd Value(const Eigen::VectorXd& v, const Eigen::VectorXd& coefficients) const;

@@ -62,19 +62,25 @@ double InstantsOverSamples(const RecordSpectra& record) {
   return std::sqrt(static_cast<double>(record.Instants()) * record.bin_hz / record.sampling_hz);
 }
 
-// The flame's input in time, at the record's instants, of what drives it.
-Eigen::VectorXd InputOf(const RecordSpectra& record) {
-  const Eigen::VectorXcd& pressure = record.driving;
+// The spectrum of the flame's input, of what drives it, from no frequency on.
+Eigen::VectorXcd InputOf(const RecordSpectra& record) {
+  Eigen::VectorXcd out = record.driving;
   const double bin = record.bin_hz / record.scale.cycle_hz;
-  const auto end = static_cast<double>(pressure.size());
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.Instants() / 2 + 1);
-  for (Eigen::Index k = 1; k < pressure.size(); ++k) {
+  const auto end = static_cast<double>(out.size());
+  out[0] = 0.0;
+  for (Eigen::Index k = 1; k < out.size(); ++k) {
     const auto at = static_cast<double>(k);
     const double over = std::max(at / end - kFilterEdge, 0.0) / (1.0 - kFilterEdge);
-    spectrum[k] = pressure[k] * CurveInputAt(record, C(0.0, at * bin)) * 0.5 *
-                  (1.0 + std::cos(std::numbers::pi * over));
+    out[k] *=
+        CurveInputAt(record, C(0.0, at * bin)) * 0.5 * (1.0 + std::cos(std::numbers::pi * over));
   }
-  spectrum *= InstantsOverSamples(record);
+  return out;
+}
+
+// In time, at the record's instants.
+Eigen::VectorXd InTime(const Eigen::VectorXcd& input, const RecordSpectra& record) {
+  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(record.Instants() / 2 + 1);
+  spectrum.head(input.size()) = InstantsOverSamples(record) * input;
   return UnitarySignal(std::move(spectrum), record.Instants());
 }
 
@@ -99,26 +105,22 @@ void SetFlame(Eigen::VectorXcd pressure, const FlamePrior& prior, RecordSpectra*
   out->input = out->s.unaryExpr([&](C s) { return out->InputAt(s); });
   RecordScale& scale = out->scale;
   const Band band{out->below.size(), out->bins()};
-  const Eigen::VectorXd v = InputOf(*out);
+  const Eigen::VectorXcd input = InputOf(*out);
+  const Eigen::VectorXd v = InTime(input, *out);
   const double in_samples = 1.0 / InstantsOverSamples(*out);
   if (scale.input_range == 0.0) {
     scale.input_range = kRangeOverLargest * LargestInside(v, out->bin_hz / scale.cycle_hz);
   }
   const FlameBasis basis(scale.input_range);
-  const double step = 1e-4 * scale.input_range;
-  const Eigen::VectorXd rises =
-      (basis.Columns(v.array() + step) - basis.Columns(v.array() - step)).colwise().mean() /
-      (2.0 * step);
+  const Eigen::VectorXd rises = basis.MeanSlopes(v);
   const Eigen::VectorXcd rest = out->edge_s.unaryExpr([&](C s) { return CurveInputAt(*out, s); })
                                     .cwiseProduct(out->pressure) -
-                                in_samples * band.Of(UnitarySpectrum(v));
+                                band.Of(input);
   const Eigen::MatrixXd splines = basis.Columns(v);
   Eigen::MatrixXcd spectra(band.count + 1, splines.cols());
   for (Eigen::Index k = 0; k < splines.cols(); ++k) {
     spectra.col(k) = in_samples * band.Of(UnitarySpectrum(splines.col(k))) + rises[k] * rest;
   }
-  const Eigen::VectorXd about_rest = Eigen::Vector2d(step, -step);
-  const Eigen::MatrixXd at_rest = basis.Columns(about_rest);
   if (scale.functions.size() == 0) {
     const double size = std::sqrt(v.squaredNorm() / static_cast<double>(v.size()));
     FlameFunctions flame = SmoothFlames(prior, basis, spectra, size);
@@ -131,8 +133,7 @@ void SetFlame(Eigen::VectorXcd pressure, const FlamePrior& prior, RecordSpectra*
         out->edge_s.unaryExpr([&](C s) { return ValueAt(out->filters.after, s); }).array();
   }
   out->slopes = scale.functions.transpose() * rises;
-  out->rest_slopes =
-      scale.functions.transpose() * (at_rest.row(0) - at_rest.row(1)).transpose() / (2.0 * step);
+  out->rest_slopes = scale.functions.transpose() * basis.MeanSlopes(Eigen::VectorXd::Zero(1));
 }
 
 RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
