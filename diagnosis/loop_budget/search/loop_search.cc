@@ -3,9 +3,11 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
+#include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/forms/tone.h"
 #include "diagnosis/loop_budget/search/given_items.h"
 #include "diagnosis/loop_budget/search/loop_removal.h"
@@ -14,9 +16,6 @@
 
 namespace howl {
 namespace {
-
-// Forward and backward; each comes in and goes by the same odds, and could go to and fro.
-constexpr int kMostPasses = 3;
 
 class Search {
  public:
@@ -142,12 +141,16 @@ LoopFound Search::Run() {
   base_density_ = out.base.Density();
   VLOG(1) << "base " << base_density_ << " nats";
   out.best = out.base;
+  double before_pass = base_density_;
   std::string prefix;
   for (int pass = 1; Forward(prefix, &out); ++pass) {
     const std::size_t before = out.steps.size();
     Backward(prefix, &out);
-    // What has gone may have kept others out.
-    if (out.steps.size() == before || pass == kMostPasses) break;
+    // What has gone may have kept others out. Items come in and go by the same odds, and could go
+    // to and fro: a pass that gains less than the least item must is the last.
+    if (out.steps.size() == before) break;
+    if (out.best.Density() < before_pass + std::log(kOddsOfItem)) break;
+    before_pass = out.best.Density();
     prefix = "again/" + std::to_string(pass) + "/";
   }
   Exchange(&out);
