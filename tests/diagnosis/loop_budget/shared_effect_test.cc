@@ -63,7 +63,7 @@ TEST(SharedEffect, IntervalsEndWhereTheRangesDo) {
   const LoopRecords records(Ducts({}), 0);
   LoopBudgetOptions options;
   options.starts = 4;
-  const std::vector<LoopItem> items = AllLoopItems();
+  const std::vector<LoopItem>& items = AllLoopItems();
   const LoopItem path = *std::ranges::find_if(items, [](const LoopItem& item) {
     return item.id == "second_delay_path" && item.kind == LoopItemKind::kSharedEffect;
   });
