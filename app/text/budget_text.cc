@@ -115,6 +115,10 @@ std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
 
 std::string BudgetText(const Budget& budget) {
   std::string out = SeenText(budget);
+  if (budget.gap_without_given) {
+    out += "with the items that were given the gap, left out, goes from " +
+           Fixed(*budget.gap_without_given, 3) + " to " + Fixed(budget.gap_before, 3) + "\n";
+  }
   out += budget.entries.empty()
              ? "gap, left out: " + Fixed(budget.gap_left, 3) + "\n"
              : "budget, left out: what is named takes the gap from " + Fixed(budget.gap_before, 3) +

@@ -108,7 +108,12 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     after[i] = ScoreHeldOut(records, found.steps[i].after, "after/" + number, options);
     without[i] = ScoreHeldOut(records, found.without[i], "lost/" + number, options);
   });
+  std::optional<HeldOutScore> without_given;
+  if (found.without_given) {
+    without_given = ScoreHeldOut(records, *found.without_given, "without_given/", options);
+  }
   CommonCeiling ceiling;
+  if (without_given) ceiling.Lower(*without_given);
   ceiling.Lower(base);
   ceiling.Lower(best);
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
@@ -121,6 +126,7 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
   out.everywhere = Everywhere(records.names(), base);
   out.gap_before = ceiling.Gap(base);
   out.gap_left = ceiling.Gap(best);
+  if (without_given) out.gap_without_given = ceiling.Gap(*without_given);
   double before = out.gap_before;
   auto mode = static_cast<std::size_t>(found.base.model.structure.modes);
   for (std::size_t i = 0; i < found.steps.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,9 @@ struct SampleFact {
 struct Budget {
   std::vector<SampleFact> seen_in_samples;
   std::vector<BudgetEntry> entries;
+  // Of the config's loop; where the budget began with items that were given, of that with them.
   double gap_before = 0.0;
+  std::optional<double> gap_without_given;  // of the config's loop, then
   double gap_left = 0.0;
   double floor = 0.0;       // of the gap that is left (held_out_score.h)
   std::vector<Place> left;  // where: acoustics for p given q, flame for q given p

@@ -170,6 +170,8 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
       {"advice", diagnosis.advice}};
   if (diagnosis.budget) {
     const Budget& budget = *diagnosis.budget;
+    json["gap"]["without_given"] =
+        budget.gap_without_given ? NumberOrNull(*budget.gap_without_given) : Json(nullptr);
     json["budget"] = BudgetJson(budget);
     json["seen_in_samples"] = SeenJson(budget);
     json["best_model"] = budget.best_model;

@@ -29,6 +29,16 @@ TEST(BudgetText, NamesWhatOneHalfDoesNotBearOut) {
   EXPECT_THAT(BudgetText(budget), testing::Not(testing::HasSubstr("doubtful")));
 }
 
+TEST(BudgetText, SaysHowFarGivenItemsTookTheGap) {
+  Budget budget;
+  budget.gap_before = 0.25;
+  EXPECT_THAT(BudgetText(budget), testing::Not(testing::HasSubstr("given")));
+  budget.gap_without_given = 0.75;
+  EXPECT_THAT(BudgetText(budget),
+              testing::HasSubstr("with the items that were given the gap, left out, goes from "
+                                 "0.750 to 0.250\n"));
+}
+
 // Where an effect stands in the loop is part of what was found.
 TEST(BudgetText, NamesTheFormOfAnEffect) {
   Budget budget;

@@ -27,7 +27,7 @@ class Search {
   LoopFound Run();
 
  private:
-  LoopFit FitBase();
+  void FitBase(LoopFound* out);
   LoopFit Driven(const LoopFit& fit, const std::string& key);
   // Whether anything came.
   bool Forward(const std::string& prefix, LoopFound* out);
@@ -50,14 +50,14 @@ LoopFit Search::Driven(const LoopFit& fit, const std::string& key) {
                      options_);
 }
 
-LoopFit Search::FitBase() {
+void Search::FitBase(LoopFound* out) {
   const RecordsFitOptions fit_options = FitOptionsOf(options_, "base/");
   const std::vector<OperatingPoint> points = records_.Points(base_);
-  LoopFit fit = Driven({base_, FitRecords(points, base_.structure, fit_options), {}}, "base/");
-  if (options_.given.empty()) return fit;
-  fit = Driven(WithGiven(records_, base_, std::move(fit), options_), "given/");
-  base_ = fit.model;
-  return fit;
+  out->base = Driven({base_, FitRecords(points, base_.structure, fit_options), {}}, "base/");
+  if (options_.given.empty()) return;
+  out->without_given = out->base;
+  out->base = Driven(WithGiven(records_, base_, *out->without_given, options_), "given/");
+  base_ = out->base.model;
 }
 
 // Beside a loop that stands: whether such errors lead to another the search has tried.
@@ -137,7 +137,7 @@ void Search::Exchange(LoopStanding* out) {
 
 LoopFound Search::Run() {
   LoopFound out;
-  out.base = FitBase();
+  FitBase(&out);
   base_density_ = out.base.Density();
   VLOG(1) << "base " << base_density_ << " nats";
   out.best = out.base;

@@ -17,6 +17,7 @@
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_SEARCH_LOOP_SEARCH_H_
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ namespace howl {
 struct LoopFound : LoopStanding {
   LoopRecords records;  // with the flames driven as `best` has it
   LoopFit base;
+  std::optional<LoopFit> without_given;  // the base without items that were given, if any were
   // `best` with errors at the cycle's lines (loop_point.h), of acoustics or of flame; `best` itself
   // where it has them.
   LoopFit with_acoustic_lines;

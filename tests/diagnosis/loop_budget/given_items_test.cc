@@ -30,6 +30,16 @@ TEST(GivenItems, AreOfTheBase) {
   ASSERT_EQ(found.base.effects.size(), 1u);
   EXPECT_EQ(found.base.effects[0].effect->id(), "q_sensor_lowpass");
   EXPECT_NEAR(found.base.effects[0].values[0], kCutoff_hz, 0.03 * kCutoff_hz);
+  const Budget& budget = *found.diagnosis.budget;
+  ASSERT_TRUE(budget.gap_without_given.has_value());
+  EXPECT_GT(*budget.gap_without_given, 0.3);
+  EXPECT_LT(budget.gap_before, 0.1 * *budget.gap_without_given);
+}
+
+TEST(GivenItems, AreNotSpokenOfWhereThereAreNone) {
+  const LoopDiagnosis found =
+      DiagnoseLoops(DuctsBehindALowPass(), DuctsForm(), Among({"q_sensor_lowpass"}));
+  EXPECT_FALSE(found.diagnosis.budget->gap_without_given.has_value());
 }
 
 // What is not there is kept all the same, and what is there is found beside it.
