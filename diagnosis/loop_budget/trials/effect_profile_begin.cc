@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "diagnosis/loop_budget/trials/effect_profile.h"
@@ -48,6 +49,7 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
   EffectPoint below = at_rest;
   EffectPoint above = at_rest;
   std::vector<EffectPoint> best;
+  std::optional<EffectPoint> unfinished;  // the likeliest
   for (const double u : starts) {
     EffectPoint& last = u < null[0] ? below : above;
     Eigen::VectorXd beside = null;
@@ -58,6 +60,14 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
     // 1400 nats, as the loops that came with its other starts were worse than that without it.
     if (!is_first) last = BetterAtEach(std::move(last), roughly_at(beside, at_null));
     if (last.log_posterior > at_rest.log_posterior) best.push_back(last);
+    if (std::ranges::all_of(last.fits, &PointFit::converged)) continue;
+    if (!unfinished || last.log_posterior > unfinished->log_posterior) unfinished = last;
+  }
+  // Fits that have used up their iterations are not known to be behind: one of three points behind
+  // a low-pass of p had 240 nats yet to gain, without which the low-pass was none.
+  if (best.empty() && unfinished) {
+    EffectPoint further = roughly_at(unfinished->u, ParametersOf(unfinished->fits));
+    if (further.log_posterior > at_rest.log_posterior) best.push_back(std::move(further));
   }
   if (best.empty()) return {At(null, at_null)};
   std::ranges::stable_sort(best, std::ranges::greater(), &EffectPoint::log_posterior);
