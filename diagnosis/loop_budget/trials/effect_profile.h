@@ -53,6 +53,8 @@ class EffectProfile {
 
   const Effect& effect() const { return *form_.effects.back().effect; }
   // Of u, their ranges'.
+  const Eigen::VectorXd& low() const { return low_; }
+  const Eigen::VectorXd& high() const { return high_; }
   const Eigen::VectorXd& spans() const { return span_; }
   // The null, or where it is infinite the end of the range next to it.
   Eigen::VectorXd NullEnd() const;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "diagnosis/loop_budget/trials/effect_profile.h"
-#include "diagnosis/loop_budget/trials/effect_ranges.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -111,8 +110,6 @@ std::vector<EstimatedParameter> EstimateSharedEffect(const LoopRecords& records,
                         key + "estimate/" + KeyOf(item) + "/", options);
   const ProfileMaximum maximum = profile.From(profile.At(ValuesOf(fit, item), ParametersOf(fit)));
   const Eigen::VectorXd deviations = maximum.Deviations();
-  const Eigen::VectorXd least = RangeEnd(profile.effect(), &EffectParameter::low, records);
-  const Eigen::VectorXd most = RangeEnd(profile.effect(), &EffectParameter::high, records);
   std::vector<EstimatedParameter> out;
   for (const EffectParameter& parameter : profile.effect().parameters()) {
     const auto i = static_cast<Eigen::Index>(out.size());
@@ -120,8 +117,8 @@ std::vector<EstimatedParameter> EstimateSharedEffect(const LoopRecords& records,
     const bool logarithmic = parameter.scale == ParameterScale::kLogarithmic;
     out.push_back(WithError(parameter, value, logarithmic ? value * deviations[i] : deviations[i]));
     // Where the records tell little of a value, its interval ends where its prior does.
-    out.back().low = std::max(out.back().low, FromSearch(parameter, least[i]));
-    out.back().high = std::min(out.back().high, FromSearch(parameter, most[i]));
+    out.back().low = std::max(out.back().low, FromSearch(parameter, profile.low()[i]));
+    out.back().high = std::min(out.back().high, FromSearch(parameter, profile.high()[i]));
   }
   return out;
 }

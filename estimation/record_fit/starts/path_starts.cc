@@ -15,8 +15,8 @@ namespace {
 // A flame that drives a higher mode than the one whose period is like its delay answers after
 // several periods of the cycle: delays are tried to two deviations of their prior.
 const double kMostTau = kMeanTau * std::exp(2.0 * kLogTau);
-constexpr double kDelayStep =
-    0.12;  // radians of the cycle: an eighth of a period at the band's end
+// Radians of the cycle: an eighth of a period at the band's end.
+constexpr double kDelayStep = 0.12;
 // Of a second path: later by an eighth of a period to two of them.
 constexpr std::size_t kLambdas = 24;
 constexpr double kLeastLambda = 0.25 * std::numbers::pi;
