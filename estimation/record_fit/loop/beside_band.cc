@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "model/numerics/complex_products.h"
+#include "model/numerics/log_of_one_and.h"
 
 namespace howl {
 namespace {
@@ -30,7 +31,7 @@ struct MeanOfLog {
       by_to = Times(over, 0.5 - w * (1.0 / 3.0 - w * (1.0 / 4.0 - w / 5.0)));
       return;
     }
-    const C turn = std::log(1.0 + w);
+    const C turn = LogOfOneAnd(w);
     const C of_line = Times(Times(1.0 + w, turn), Reciprocal(w)) - 1.0;
     const C over_line = Reciprocal(to - from);
     value = 0.5 * std::log(std::norm(from)) + of_line.real();

@@ -3,16 +3,12 @@
 #include <cmath>
 
 #include "model/numerics/complex_products.h"
+#include "model/numerics/log_of_one_and.h"
 
 namespace howl {
 namespace {
 
 using C = std::complex<double>;
-
-// ln(1 + w), to rounding where w is small.
-C LogOfOneAnd(C w) {
-  return {0.5 * std::log1p(2.0 * w.real() + std::norm(w)), std::atan2(w.imag(), 1.0 + w.real())};
-}
 
 // sqrt(1 + 2 w)
 C RootOf(C w) { return std::sqrt(1.0 + 2.0 * w); }

@@ -62,6 +62,7 @@ struct FlameFilters {
     return ValueAt(before, s) * ValueAt(after, s);
   }
 };
+FlameFilters Product(const FlameFilters& first, const FlameFilters& second);
 
 // The units, and the flame's functions, that records of one operating point have in common.
 struct RecordScale {
