@@ -35,6 +35,16 @@ class Search {
   void Exchange(LoopStanding* out);
   LoopFit WithLines(const LoopFit& from, int PointStructure::*lines, const char* key) const;
 
+  // A loop that stands, and what drives its flames.
+  struct Stand {
+    LoopStanding loop;
+    LoopRecords records;
+  };
+  Stand Now(const LoopStanding& out) const { return {out, records_}; }
+  // What came in, went, and left another maximum or other driven flames need not be better than
+  // where it began.
+  bool KeepBetterOf(const Stand& before, LoopStanding* out);
+
   LoopRecords records_;
   LoopForm base_;
   double base_density_ = 0.0;
@@ -129,10 +139,19 @@ void Search::Exchange(LoopStanding* out) {
     const std::string key = "exchange/" + std::to_string(round) + "/";
     std::optional<LoopStanding> next = BestExchange(records_, base_, key, options_, out);
     if (!next) return;
+    const Stand before = Now(*out);
     *out = std::move(*next);
     out->best = Driven(out->best, key);
     Backward(key, out);
+    if (KeepBetterOf(before, out)) return;
   }
+}
+
+bool Search::KeepBetterOf(const Stand& before, LoopStanding* out) {
+  if (!(before.loop.best.Density() > out->best.Density())) return false;
+  *out = before.loop;
+  records_ = before.records;
+  return true;
 }
 
 LoopFound Search::Run() {
@@ -141,16 +160,17 @@ LoopFound Search::Run() {
   base_density_ = out.base.Density();
   VLOG(1) << "base " << base_density_ << " nats";
   out.best = out.base;
-  double before_pass = base_density_;
   std::string prefix;
-  for (int pass = 1; Forward(prefix, &out); ++pass) {
-    const std::size_t before = out.steps.size();
+  for (int pass = 1;; ++pass) {
+    const Stand before = Now(out);
+    if (!Forward(prefix, &out)) break;
+    const std::size_t came = out.steps.size();
     Backward(prefix, &out);
     // What has gone may have kept others out. Items come in and go by the same odds, and could go
     // to and fro: a pass that gains less than the least item must is the last.
-    if (out.steps.size() == before) break;
-    if (out.best.Density() < before_pass + std::log(kOddsOfItem)) break;
-    before_pass = out.best.Density();
+    const double gained = out.best.Density() - before.loop.best.Density();
+    KeepBetterOf(before, &out);
+    if (out.steps.size() == came || gained < std::log(kOddsOfItem)) break;
     prefix = "again/" + std::to_string(pass) + "/";
   }
   Exchange(&out);
