@@ -1,12 +1,13 @@
 // Known effects put into measured records, and what the budget of loops names beside what the
 // records lack anyway:
 //
-//   [EFFECTS=mains_hum,channel_skew] [WITH=own_damping,duct_noise]
+//   [EFFECTS=mains_hum,channel_skew] [WITH=own_damping,duct_noise] [MOST_ITEMS=2]
 //       loop_effects_study CONFIG [EXPERIMENT ...]
 //
 // EFFECTS: of known_effects.h, those asked for; all where not given.
 // WITH: the items that the rig's own budget has named (loop_budget_study), with which every search
 // begins, as `howl diagnose --with` does; where not given that budget is made first.
+// MOST_ITEMS: how many a search may add beside those, as `howl diagnose --most-items`.
 // A row for each effect: what was added beside those, its value and what is lost without it.
 #include <algorithm>
 #include <cstdio>
@@ -63,6 +64,7 @@ int Run(int argc, char** argv) {
   const MeasuredRig rig = LoadRig(config, {argv + 2, argv + argc});
   const LoopForm base = LoopBaseOf(config);
   LoopBudgetOptions how;
+  if (const char* const most = std::getenv("MOST_ITEMS")) how.most_items = std::stoul(most);
   if (const char* const with = std::getenv("WITH")) {
     how.given = ItemsOf(with);
   } else {
