@@ -14,8 +14,8 @@
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/loop_places.h"
 #include "diagnosis/loop_budget/sample_facts.h"
+#include "diagnosis/loop_budget/why_unknown.h"
 #include "diagnosis/verdict/calibration.h"
-#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {
@@ -167,33 +167,6 @@ std::string AdviceOf(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
-
-std::string ValueThatCannotBe(const Budget& budget) {
-  for (const BudgetEntry& entry : budget.entries) {
-    for (const EffectPointer& effect : Catalogue()) {
-      if (effect->id() != entry.item) continue;
-      for (const EstimatedParameter& estimate : entry.parameters) {
-        const auto known =
-            std::ranges::find(effect->parameters(), estimate.name, &EffectParameter::name);
-        if (known == effect->parameters().end() || !known->unit.empty()) continue;
-        if (estimate.value < known->low || estimate.value > known->high) {
-          return entry.item + " would have a " + estimate.name + " that it cannot have";
-        }
-      }
-    }
-  }
-  return "";
-}
-
-std::string WhyUnknown(const Budget& budget, bool errs_at_lines, std::ptrdiff_t named) {
-  if (errs_at_lines) return "the best loop still errs at the cycle's lines";
-  if (budget.gap_left > budget.floor) {
-    return "of what the best loop misses a free transfer foretells more than errors of its "
-           "parameters explain";
-  }
-  if (named > kMostNamed) return "so many items together can imitate what none of them is";
-  return ValueThatCannotBe(budget);
-}
 
 void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
