@@ -1,9 +1,12 @@
+#include <algorithm>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "app/files/digest.h"
 #include "app/trial/trial_run.h"
 #include "io/config/reading/config_reading.h"
+#include "io/config/schema/nearest_key.h"
 
 namespace howl {
 namespace {
@@ -11,10 +14,10 @@ namespace {
 constexpr int kDefaultCases = 200;
 constexpr int kMostCases = 100000;
 
-std::vector<std::string> Words(const std::string& text) {
+std::vector<std::string> Words(const std::string& text, char between = ',') {
   std::vector<std::string> words;
   std::istringstream in(text);
-  for (std::string word; std::getline(in, word, ',');) {
+  for (std::string word; std::getline(in, word, between);) {
     if (!word.empty()) words.push_back(word);
   }
   return words;
@@ -33,6 +36,21 @@ double Severity(const std::string& word) {
   return value;
 }
 
+// Each is a group, an effect that rigs have, or several joined by "+".
+void CheckEffects(const std::vector<std::string>& asked, const std::vector<RigEffect>& rigs) {
+  std::vector<std::string> known = {"catalogue", "outside", "none", "pairs"};
+  for (const RigEffect& each : rigs) known.push_back(each.id);
+  for (const std::string& joined : asked) {
+    for (const std::string& id : Words(joined, '+')) {
+      if (std::ranges::find(known, id) != known.end()) continue;
+      const std::optional<std::string> nearest = NearestKey(id, known);
+      throw UsageError(
+          "--effects: " + id + " is no effect that howl_rig --list shows, " +
+          (nearest ? "did you mean " + *nearest + "?" : "nor catalogue, outside, none or pairs"));
+    }
+  }
+}
+
 // The command line as it would be typed again on one machine, for the sheet.
 std::string CommandText(const Options& options) {
   return "howl trial " + options.config.string() + OptionsText(options) + " --seed " +
@@ -49,8 +67,10 @@ TrialRequest MakeTrialRequest(const Options& options) {
   for (const std::string& word : Words(options.Text("--severities").value_or("small,medium,large")))
     request.options.severities.push_back(Severity(word));
   request.options.seed = options.seed;
+  const std::vector<RigEffect> rigs = ListRigEffects();
+  CheckEffects(request.options.effects, rigs);
   try {
-    PlanCases(request.options, ListRigEffects());
+    PlanCases(request.options, rigs);
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--effects: ") + error.what());
   }

@@ -202,6 +202,7 @@ TEST(TrialMistakes, AreOneLine) {
   const std::string out = " --out " + (folder.path() / "out").string();
   for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
            {" --effects q_sensor_bandpass", "--effects: q_sensor_bandpass"},
+           {" --effects none,mains_humm+slow_drift", "did you mean mains_hum?"},
            {" --severities huge", "--severities: huge"},
            {" --cases 0", "--cases: 0"},
            {" --duration -1", "--duration: expected a positive number"}}) {
