@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "diagnosis/loop_budget/fine_steps.h"
+#include "diagnosis/samples/sample_limits.h"
 #include "estimation/health/sample_health.h"
 #include "estimation/health/stuck_samples.h"
 
@@ -14,10 +16,11 @@ namespace {
 
 struct Kind {
   const char* effect;
-  const char* subject;  // of a finding (sample_health.h)
+  std::string_view subject;  // of a finding (sample_health.h)
 };
 
-constexpr std::array<Kind, 5> kKinds = {{{"p_clipping", "p_clipped"},
+constexpr std::string_view kPressureClipped = "p_clipped";
+constexpr std::array<Kind, 5> kKinds = {{{"p_clipping", kPressureClipped},
                                          {"q_clipping", "q_clipped"},
                                          {"quantisation", "p_coarse"},
                                          {"p_dropouts", "p_stuck"},
@@ -28,6 +31,26 @@ Health FindingsOf(const LoopRecord& of) {
   Health out = CheckSamples(of.name, "p", record.pressure, record.sampling_hz);
   Append(CheckSamples(of.name, "q", record.heat_release, record.sampling_hz), out);
   return out;
+}
+
+// Of p's samples, those that a saturation held before noise was added to them.
+double ShareOnNoisyRails(const std::vector<double>& pressure) {
+  const Eigen::Map<const Eigen::VectorXd> x(pressure.data(),
+                                            static_cast<Eigen::Index>(pressure.size()));
+  if (!HasNoisyRails(x)) return 0.0;
+  const Plateaus plateaus = FindPlateaus(x);
+  return (plateaus.upper + plateaus.lower).mean();
+}
+
+// Zero where the samples do not show it.
+double ValueOf(const Kind& kind, const Health& findings, const Record& record) {
+  double value = 0.0;
+  // A signal may be clipped at both ends: its shares are added.
+  for (const Finding& finding : findings) {
+    if (finding.subject == kind.subject) value += finding.value;
+  }
+  if (value == 0.0 && kind.subject == kPressureClipped) return ShareOnNoisyRails(record.pressure);
+  return value;
 }
 
 // Of more than half of the records.
@@ -77,11 +100,7 @@ std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
   for (const LoopRecord& record : records) {
     const Health findings = FindingsOf(record);
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      double value = 0.0;
-      // A signal may be clipped at both ends: its shares are added.
-      for (const Finding& finding : findings) {
-        if (finding.subject == kKinds[k].subject) value += finding.value;
-      }
+      const double value = ValueOf(kKinds[k], findings, record.record);
       if (value == 0.0) continue;
       seen[k].value += value;
       ++seen[k].experiments;

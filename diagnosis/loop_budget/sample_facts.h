@@ -1,7 +1,8 @@
 // What the samples of a rig show before any loop is fitted to them (estimation/health): effects of
 // the catalogue that need no likelihood.
 //
-//   p_clipping, q_clipping   a signal stands at the end of its range
+//   p_clipping, q_clipping   a signal stands at the end of its range; p's density ends there in
+//                            edges (samples/sample_limits.h)
 //   quantisation             p has a few levels, or up to 256 whose steps are its noise
 //                            (fine_steps.h)
 //   p_dropouts, q_dropouts   a signal stands still for longer than by chance

@@ -140,6 +140,8 @@ Plateaus FindPlateaus(const Eigen::VectorXd& x) {
   return {SamplesOn(upper, x), SamplesOn(lower, -x), upper.level, -lower.level};
 }
 
+bool HasNoisyRails(const Eigen::VectorXd& x) { return HasEdges(x, Range(x)); }
+
 bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel) {
   const auto edges = std::count_if(records.begin(), records.end(), [&](const CutRecord& record) {
     return SharpEdge(SignalOf(record, channel));

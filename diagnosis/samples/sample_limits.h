@@ -24,6 +24,13 @@ struct Plateaus {
 
 Plateaus FindPlateaus(const Eigen::VectorXd& x);
 
+// True where the signal's density ends in an edge on both sides of its range: a saturation held it
+// there, and noise was added afterwards. So many samples lie no nearer the ends of a cycle's range:
+// of a sine, whose density rises most, three times as many as a little further in, where a
+// saturation makes eight times and more (tests/diagnosis/noisy_rails_test.cc). What a flame makes
+// of p may be as flat: of heat release that says nothing.
+bool HasNoisyRails(const Eigen::VectorXd& x);
+
 // True if in most records the density of the signal's values ends in an edge.
 bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel);
 
