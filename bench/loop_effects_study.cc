@@ -8,7 +8,8 @@
 // WITH: the items that the rig's own budget has named (loop_budget_study), with which every search
 // begins, as `howl diagnose --with` does; where not given that budget is made first.
 // MOST_ITEMS: how many a search may add beside those, as `howl diagnose --most-items`.
-// A row for each effect: what was added beside those, its value and what is lost without it.
+// A row for each effect: whether the verdict is unknown, what was added beside those, its value and
+// what is lost without it.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -31,7 +32,8 @@ namespace howl {
 namespace {
 
 void PrintRow(const std::string& what, const LoopDiagnosis& found, double seconds) {
-  std::printf("%-26s ", what.c_str());
+  std::printf("%-26s %s", what.c_str(),
+              found.diagnosis.kind == VerdictKind::kUnknown ? "unknown " : "");
   PrintBudget(*found.diagnosis.budget);
   std::printf(" | %.0f s\n", seconds);
   std::fflush(stdout);

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <sstream>
 
-#include "app/command_line/command.h"
+#include "app/command_line/known_name.h"
 #include "diagnosis/loop_budget/forms/loop_item.h"
 #include "diagnosis/loop_budget/sample_facts.h"
-#include "io/config/schema/nearest_key.h"
 #include "model/effects/catalogue.h"
 
 namespace howl {
@@ -19,11 +17,7 @@ std::vector<std::string> ListedNames(const Options& options, const std::string& 
   std::vector<std::string> out;
   std::istringstream list(options.Text(option).value_or(""));
   for (std::string id; std::getline(list, id, ',');) {
-    if (std::ranges::find(known, id) == known.end()) {
-      const std::optional<std::string> nearest = NearestKey(id, known);
-      throw UsageError(option + ": " + id + " is " + none_of_them +
-                       (nearest ? ", did you mean " + *nearest + "?" : ""));
-    }
+    RequireKnown(option, id, known, none_of_them);
     out.push_back(id);
   }
   return out;

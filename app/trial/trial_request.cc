@@ -1,12 +1,10 @@
-#include <algorithm>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "app/command_line/known_name.h"
 #include "app/files/digest.h"
 #include "app/trial/trial_run.h"
 #include "io/config/reading/config_reading.h"
-#include "io/config/schema/nearest_key.h"
 
 namespace howl {
 namespace {
@@ -42,11 +40,8 @@ void CheckEffects(const std::vector<std::string>& asked, const std::vector<RigEf
   for (const RigEffect& each : rigs) known.push_back(each.id);
   for (const std::string& joined : asked) {
     for (const std::string& id : Words(joined, '+')) {
-      if (std::ranges::find(known, id) != known.end()) continue;
-      const std::optional<std::string> nearest = NearestKey(id, known);
-      throw UsageError(
-          "--effects: " + id + " is no effect that howl_rig --list shows, " +
-          (nearest ? "did you mean " + *nearest + "?" : "nor catalogue, outside, none or pairs"));
+      RequireKnown("--effects", id, known,
+                   "no effect that howl_rig --list shows, nor catalogue, outside, none or pairs");
     }
   }
 }

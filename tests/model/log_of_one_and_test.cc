@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-namespace howl {
+namespace howl::log_of_one_and_test {
 namespace {
 
 using Long = std::complex<long double>;
@@ -19,8 +19,7 @@ Long Exact(Long w) {
   return sum;
 }
 
-// Around the unit circle, near the zero of 1 + w, and for w as small as any, against long
-// double.
+// Around the unit circle, near the zero of 1 + w, and for w as small as any, against long double.
 TEST(LogOfOneAnd, IsRightToRounding) {
   constexpr double kRounding = 4e-16;
   for (const double size : {1e-12, 1e-6, 1e-3, 0.1, 0.9, 0.999, 1.0, 1.1, 2.0, 50.0}) {
@@ -38,4 +37,4 @@ TEST(LogOfOneAnd, IsRightToRounding) {
 }
 
 }  // namespace
-}  // namespace howl
+}  // namespace howl::log_of_one_and_test
