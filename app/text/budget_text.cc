@@ -87,6 +87,10 @@ std::string DoubtfulText(const Budget& budget) {
 std::string SizeText(const SampleFact& fact) {
   if (fact.effect == "quantisation") return Fixed(fact.value, 0) + " levels";
   if (fact.effect.ends_with("dropouts")) return "up to " + Fixed(fact.value, 0) + " samples long";
+  if (fact.effect == "mains_hum") {
+    return Significant(100.0 * fact.value, 2) + " % of the cycle at " + Fixed(fact.line_hz, 0) +
+           " Hz, below the band of the fits";
+  }
   return Significant(100.0 * fact.value, 2) + " % at the ends of the range";
 }
 

@@ -12,7 +12,9 @@
 namespace howl {
 
 inline std::string ExtentText(const Place& place) {
-  return Fixed(place.low_hz, 0) + " to " + Fixed(place.high_hz, 0) + " Hz, " +
+  const std::string low = Fixed(place.low_hz, 0);
+  const std::string high = Fixed(place.high_hz, 0);
+  return (low == high ? low : low + " to " + high) + " Hz, " +
          Counted(place.experiments.size(), "experiment") + " (share " + Fixed(place.share, 2) + ")";
 }
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <numbers>
 
-#include "model/numerics/fft.h"
+#include "diagnosis/numerics/hann_power.h"
 
 namespace howl {
 namespace {
@@ -17,23 +16,13 @@ constexpr double kShareOfFloor = 0.5;
 
 // The variance of white noise with the power that the signal has at its upper frequencies.
 double FloorOf(const std::vector<double>& signal) {
-  const std::size_t n = signal.size();
-  std::vector<double> windowed(n);
-  double weights = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double phase = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5);
-    const double weight = 1.0 - std::cos(phase / static_cast<double>(n));
-    windowed[i] = weight * signal[i];
-    weights += weight * weight;
-  }
-  std::vector<std::complex<double>> spectrum(n / 2 + 1);
-  Fft::OfThisThread().Forward(windowed, spectrum);
-  std::vector<double> power;
-  for (std::size_t k = n / 4; k < n / 2; ++k) power.push_back(std::norm(spectrum[k]));
+  const Eigen::VectorXd spectrum = HannPower(signal);
+  const Eigen::Index from = spectrum.size() / 2;
+  std::vector<double> power(spectrum.begin() + from, spectrum.end());
   if (power.empty()) return 0.0;
   const auto middle = power.begin() + static_cast<std::ptrdiff_t>(power.size() / 2);
   std::ranges::nth_element(power, middle);
-  return *middle / std::numbers::ln2 / weights;
+  return *middle / std::numbers::ln2;
 }
 
 }  // namespace

@@ -167,6 +167,15 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
   return out;
 }
 
+// Hum has lines below the fits' band and in it.
+std::vector<SampleFact> NamedOnce(std::vector<SampleFact> facts,
+                                  const std::vector<BudgetEntry>& entries) {
+  std::erase_if(facts, [&](const SampleFact& fact) {
+    return std::ranges::find(entries, fact.effect, &BudgetEntry::item) != entries.end();
+  });
+  return facts;
+}
+
 }  // namespace
 
 LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& base,
@@ -189,7 +198,7 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   out.flame = LinesOf(records, found, found.with_flame_lines, &PointStructure::flame_lines);
   out.diagnosis.budget = BudgetOf(records, found, how);
   Budget& budget = *out.diagnosis.budget;
-  budget.seen_in_samples = seen;
+  budget.seen_in_samples = NamedOnce(seen, budget.entries);
   budget.acoustic_error = out.acoustics.size;
   budget.flame_error = out.flame.size;
   out.items = options.given;

@@ -2,23 +2,13 @@
 
 #include <algorithm>
 #include <functional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "diagnosis/loop_budget/sample_facts.h"
-#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {
-
-LoopBlock BlockOfSamples(const std::string& effect) {
-  for (const EffectPointer& each : Catalogue()) {
-    if (each->id() == effect) return each->block();
-  }
-  return effect.starts_with("q_") ? LoopBlock::kHeatReleaseInstrument
-                                  : LoopBlock::kPressureInstrument;
-}
 
 // The cuts that err at the cycle's lines, by what free errors gain there.
 std::vector<Place> PlacesOfLines(const LoopDiagnosis& of, double least) {
@@ -47,7 +37,8 @@ std::vector<Place> PlacesOf(const LoopDiagnosis& of, double least_of_lines) {
   if (diagnosis.kind != VerdictKind::kEffect) return out.empty() ? budget.left : out;
   for (const SampleFact& fact : budget.seen_in_samples) {
     Place place = budget.everywhere;
-    place.block = BlockOfSamples(fact.effect);
+    place.block = fact.block;
+    if (fact.line_hz > 0.0) place.low_hz = place.high_hz = fact.line_hz;
     place.share =
         budget.entries.empty() ? 1.0 / static_cast<double>(budget.seen_in_samples.size()) : 0.0;
     out.push_back(std::move(place));

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "diagnosis/loop_budget/fine_steps.h"
+#include "diagnosis/samples/hum_below_band.h"
 #include "diagnosis/samples/sample_limits.h"
 #include "estimation/health/sample_health.h"
 #include "estimation/health/stuck_samples.h"
+#include "model/effects/catalogue.h"
 
 namespace howl {
 namespace {
@@ -19,10 +22,11 @@ struct Kind {
   std::string_view subject;  // of a finding (sample_health.h)
 };
 
+constexpr const char* kQuantisation = "quantisation";
 constexpr std::string_view kPressureClipped = "p_clipped";
 constexpr std::array<Kind, 5> kKinds = {{{"p_clipping", kPressureClipped},
                                          {"q_clipping", "q_clipped"},
-                                         {"quantisation", "p_coarse"},
+                                         {kQuantisation, "p_coarse"},
                                          {"p_dropouts", "p_stuck"},
                                          {"q_dropouts", "q_stuck"}}};
 
@@ -42,6 +46,14 @@ double ShareOnNoisyRails(const std::vector<double>& pressure) {
   return (plateaus.upper + plateaus.lower).mean();
 }
 
+LoopBlock BlockOf(std::string_view effect) {
+  for (const EffectPointer& each : Catalogue()) {
+    if (each->id() == effect) return each->block();
+  }
+  return effect.starts_with("q_") ? LoopBlock::kHeatReleaseInstrument
+                                  : LoopBlock::kPressureInstrument;
+}
+
 // Zero where the samples do not show it.
 double ValueOf(const Kind& kind, const Health& findings, const Record& record) {
   double value = 0.0;
@@ -53,18 +65,44 @@ double ValueOf(const Kind& kind, const Health& findings, const Record& record) {
   return value;
 }
 
-// Of more than half of the records.
-std::optional<SampleFact> FineStepsOf(const std::vector<LoopRecord>& records,
-                                      const std::vector<std::string>& withheld) {
-  SampleFact out{.effect = "quantisation", .rest_can_be_found = true};
-  if (std::ranges::find(withheld, out.effect) != withheld.end()) return std::nullopt;
+// Of more than half of the records; `value_of` is zero for one that does not show it.
+std::optional<SampleFact> FactOf(const std::string& effect, const std::vector<LoopRecord>& records,
+                                 const std::vector<std::string>& withheld,
+                                 const std::function<double(const LoopRecord&)>& value_of) {
+  if (std::ranges::find(withheld, effect) != withheld.end()) return std::nullopt;
+  SampleFact out{.effect = effect, .rest_can_be_found = true, .block = BlockOf(effect)};
   for (const LoopRecord& each : records) {
-    const int levels = LevelsOfFineSteps(each.record.pressure);
-    out.value += levels;
-    if (levels > 0) ++out.experiments;
+    const double value = value_of(each);
+    out.value += value;
+    if (value > 0.0) ++out.experiments;
   }
   if (2 * out.experiments <= records.size()) return std::nullopt;
   out.value /= static_cast<double>(out.experiments);
+  return out;
+}
+
+double FineSteps(const LoopRecord& of) { return LevelsOfFineSteps(of.record.pressure); }
+
+// Of the channel that has more of it.
+std::optional<SampleFact> HumOf(const std::vector<LoopRecord>& records,
+                                const std::vector<std::string>& withheld) {
+  std::optional<SampleFact> out;
+  for (const auto& [block, signal] :
+       {std::pair(LoopBlock::kPressureInstrument, &Record::pressure),
+        std::pair(LoopBlock::kHeatReleaseInstrument, &Record::heat_release)}) {
+    double line_hz = 0.0;
+    std::optional<SampleFact> seen =
+        FactOf("mains_hum", records, withheld, [&, signal = signal](const LoopRecord& of) {
+          const MainsLine line =
+              HumBelowBand(of.record.*signal, of.record.sampling_hz, of.cycle_hz);
+          if (line.of_cycle > 0.0) line_hz = line.frequency_hz;
+          return line.of_cycle;
+        });
+    if (!seen || (out && out->value >= seen->value)) continue;
+    out = std::move(seen);
+    out->block = block;
+    out->line_hz = line_hz;
+  }
   return out;
 }
 
@@ -111,11 +149,15 @@ std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
     if (2 * seen[k].experiments <= records.size()) continue;
     if (std::ranges::find(withheld, kKinds[k].effect) != withheld.end()) continue;
     out.push_back({kKinds[k].effect, seen[k].value / static_cast<double>(seen[k].experiments),
-                   seen[k].experiments, CanBeFilled(kKinds[k].effect, records)});
+                   seen[k].experiments, CanBeFilled(kKinds[k].effect, records),
+                   BlockOf(kKinds[k].effect)});
+  }
+  if (std::optional<SampleFact> hum = HumOf(records, withheld)) {
+    out.push_back(*std::move(hum));
   }
   // Coarse steps are called so already.
-  if (std::ranges::find(out, "quantisation", &SampleFact::effect) != out.end()) return out;
-  if (std::optional<SampleFact> steps = FineStepsOf(records, withheld)) {
+  if (std::ranges::find(out, kQuantisation, &SampleFact::effect) != out.end()) return out;
+  if (std::optional<SampleFact> steps = FactOf(kQuantisation, records, withheld, FineSteps)) {
     out.insert(out.begin(), *std::move(steps));
   }
   return out;

@@ -6,12 +6,14 @@
 //   quantisation             p has a few levels, or up to 256 whose steps are its noise
 //                            (fine_steps.h)
 //   p_dropouts, q_dropouts   a signal stands still for longer than by chance
+//   mains_hum                either signal has a line at a multiple of the mains' frequency below
+//                            the band of the fits (samples/hum_below_band.h)
 //
 // A loop that is fitted to clipped samples speaks of what was done to them, whatever is added to
 // it: what clipping and coarse steps add goes with the signal, and no source of noise does. So
 // nothing else is looked for beside them, unless they are withheld as an item is. Fine steps alone
-// add white noise, and samples that a signal lost while it stood still are filled
-// (stuck_samples.h): both leave the rest to be found.
+// add white noise, samples that a signal lost while it stood still are filled (stuck_samples.h),
+// and hum below the band is in no fit: they leave the rest to be found.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
 

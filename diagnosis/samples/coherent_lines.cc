@@ -6,6 +6,7 @@
 
 #include "diagnosis/cuts/acoustic_cut.h"
 #include "diagnosis/numerics/local_power.h"
+#include "diagnosis/samples/mains.h"
 
 namespace howl {
 namespace {
@@ -142,7 +143,7 @@ LineOrigin ExplainLines(const std::vector<CutRecord>& records, const EffectFit& 
       out.frequency_hz = line.frequency_hz;
     }
   }
-  for (const double mains : {50.0, 60.0}) {
+  for (const double mains : kMains_hz) {
     const bool all = std::all_of(lines.begin(), lines.end(), [&](const CoherentLine& line) {
       const double off = line.frequency_hz - mains * std::round(line.frequency_hz / mains);
       return std::abs(off) < 0.012 * mains;

@@ -40,12 +40,14 @@ struct BudgetEntry {
 struct SampleFact {
   std::string effect;
   // Of clipping the share of samples at the range's ends; levels; of dropouts the samples of the
-  // longest.
+  // longest; of hum its amplitude over the cycle's.
   double value = 0.0;
   std::size_t experiments = 0;
-  // Whether it adds to the samples what the base has, white noise of p (fine_steps.h), or they are
-  // made good (stuck_samples.h).
+  // Whether it adds to the samples what the base has, white noise of p (fine_steps.h), or what no
+  // fit sees (hum_below_band.h), or they are made good (stuck_samples.h).
   bool rest_can_be_found = false;
+  LoopBlock block = LoopBlock::kPressureInstrument;
+  double line_hz = 0.0;  // of hum; 0: it is at all frequencies
 };
 
 struct Budget {

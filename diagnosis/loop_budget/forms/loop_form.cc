@@ -1,19 +1,16 @@
 #include "diagnosis/loop_budget/forms/loop_form.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
+
+#include "diagnosis/samples/mains.h"
 
 namespace howl {
 namespace {
 
-// Of the mains' frequency: 200 mHz of 50 Hz, the most that the grid of continental Europe may be
-// off by for long (Regulation (EU) 2017/1485, annex III).
-constexpr double kMainsWander = 0.004;
-
 bool IsOfMains(double line_hz) {
-  return std::ranges::any_of(std::array{50.0, 60.0}, [line_hz](double mains_hz) {
+  return std::ranges::any_of(kMains_hz, [line_hz](double mains_hz) {
     const double multiple = std::max(std::round(line_hz / mains_hz), 1.0);
     return std::abs(line_hz / (multiple * mains_hz) - 1.0) < kMainsWander;
   });
