@@ -42,6 +42,12 @@ double MeanLogPower(const Eigen::VectorXcd& x) {
   return Tapered(x).cwiseAbs2().array().log().mean();
 }
 
+// std::lgamma writes the sign where every thread does.
+double LogGamma(double x) {
+  int sign = 0;
+  return ::lgamma_r(x, &sign);
+}
+
 }  // namespace
 
 double PointPrior::LogDensity(const Eigen::VectorXd& parameters) const {
@@ -53,9 +59,8 @@ double PointPrior::LogDensity(const Eigen::VectorXd& parameters) const {
       const double least = LeastPrecision(i);
       const double end = least > 0.0 ? (n + 1.0) / least - n : z[i] * z[i];  // of z^2
       const double square = std::min(z[i] * z[i], end);
-      sum += std::lgamma(0.5 * (n + 1.0)) - std::lgamma(0.5 * n) -
-             0.5 * std::log(n * std::numbers::pi) - 0.5 * (n + 1.0) * std::log1p(square / n) -
-             0.5 * least * (z[i] * z[i] - square);
+      sum += LogGamma(0.5 * (n + 1.0)) - LogGamma(0.5 * n) - 0.5 * std::log(n * std::numbers::pi) -
+             0.5 * (n + 1.0) * std::log1p(square / n) - 0.5 * least * (z[i] * z[i] - square);
     } else {
       sum -= 0.5 * (z[i] * z[i] + std::log(2.0 * std::numbers::pi));
     }
