@@ -12,6 +12,9 @@ namespace howl {
 namespace {
 
 constexpr double kLeastProbability = 1e-6;
+// Rectifiers of three phases make the sixth multiple. Where the mains' frequency may be widens with
+// the multiple, so that higher ones would take in lines of another origin.
+constexpr int kMostMultiple = 6;
 constexpr Eigen::Index kBeside = 30;  // bins on each side
 constexpr Eigen::Index kReach = 1;    // of a line, on each side of its peak
 // Neighbouring values under Hann's window are correlated by 4 / 9, those beside them by 1 / 36.
@@ -54,13 +57,16 @@ MainsLine HumBelowBand(const std::vector<double>& signal, double sampling_hz, do
   double most = 0.0;
   MainsLine out;
   for (const double mains_hz : kMains_hz) {
-    for (double line_hz = mains_hz; line_hz < lowest_hz; line_hz += mains_hz) {
+    for (int multiple = 1; multiple <= kMostMultiple; ++multiple) {
+      const double line_hz = multiple * mains_hz;
+      if (line_hz >= lowest_hz) break;
       const Line line = LineNear(power, line_hz / bin_hz);
       if (!line.seen || line.power <= most) continue;
       most = line.power;
       out.frequency_hz = line_hz;
     }
   }
+  if (most == 0.0) return {};
   const auto from = static_cast<Eigen::Index>(0.5 * cycle_hz / bin_hz);
   const Eigen::Index to =
       std::min(static_cast<Eigen::Index>(1.5 * cycle_hz / bin_hz), power.size());

@@ -16,7 +16,7 @@ namespace howl {
 
 struct MainsLine {
   double of_cycle = 0.0;      // its amplitude over the cycle's in the same signal; 0: there is none
-  double frequency_hz = 0.0;  // a multiple of 50 or of 60 Hz
+  double frequency_hz = 0.0;  // one to six times 50 or 60 Hz
 };
 
 // The strongest.

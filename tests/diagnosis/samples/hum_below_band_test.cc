@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/loop_budget/sample_facts.h"
@@ -71,6 +72,20 @@ TEST(HumBelowBand, IsNoneInTheBand) {
   std::vector<double> high = Cycle(5);
   AddLine(0.1, 150.0, &high);
   EXPECT_EQ(HumIn(high), 0.0);
+}
+
+TEST(HumBelowBand, IsUpToTheSixthMultiple) {
+  const std::vector<double> cycle = Cycle(6);
+  for (const auto& [frequency_hz, seen] : {std::pair(300.0, true), std::pair(350.0, false)}) {
+    std::vector<double> signal = cycle;
+    AddLine(0.1, frequency_hz, &signal);
+    EXPECT_EQ(HumBelowBand(signal, kSampling_hz, 2500.0).of_cycle > 0.0, seen) << frequency_hz;
+  }
+}
+
+TEST(HumBelowBand, IsNoneOfASignalThatIsConstant) {
+  const MainsLine none = HumBelowBand(std::vector<double>(40000, 1.5), kSampling_hz, kCycle_hz);
+  EXPECT_EQ(none.of_cycle, 0.0);
 }
 
 TEST(HumBelowBand, IsAFactOfMostRecords) {
