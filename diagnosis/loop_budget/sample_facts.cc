@@ -65,23 +65,21 @@ double ValueOf(const Kind& kind, const Health& findings, const Record& record) {
   return value;
 }
 
-// Of more than half of the records; `value_of` is zero for one that does not show it.
-std::optional<SampleFact> FactOf(const std::string& effect, const std::vector<LoopRecord>& records,
+// Of more than half of the records; `value_of` the e-th is zero where it does not show it.
+std::optional<SampleFact> FactOf(const std::string& effect, std::size_t records,
                                  const std::vector<std::string>& withheld,
-                                 const std::function<double(const LoopRecord&)>& value_of) {
+                                 const std::function<double(std::size_t)>& value_of) {
   if (std::ranges::find(withheld, effect) != withheld.end()) return std::nullopt;
   SampleFact out{.effect = effect, .rest_can_be_found = true, .block = BlockOf(effect)};
-  for (const LoopRecord& each : records) {
-    const double value = value_of(each);
+  for (std::size_t e = 0; e < records; ++e) {
+    const double value = value_of(e);
     out.value += value;
-    if (value > 0.0) ++out.experiments;
+    if (value != 0.0) ++out.experiments;
   }
-  if (2 * out.experiments <= records.size()) return std::nullopt;
+  if (2 * out.experiments <= records) return std::nullopt;
   out.value /= static_cast<double>(out.experiments);
   return out;
 }
-
-double FineSteps(const LoopRecord& of) { return LevelsOfFineSteps(of.record.pressure); }
 
 // Of the channel that has more of it.
 std::optional<SampleFact> HumOf(const std::vector<LoopRecord>& records,
@@ -92,9 +90,10 @@ std::optional<SampleFact> HumOf(const std::vector<LoopRecord>& records,
         std::pair(LoopBlock::kHeatReleaseInstrument, &Record::heat_release)}) {
     double line_hz = 0.0;
     std::optional<SampleFact> seen =
-        FactOf("mains_hum", records, withheld, [&, signal = signal](const LoopRecord& of) {
+        FactOf("mains_hum", records.size(), withheld, [&, signal = signal](std::size_t e) {
+          const Record& record = records[e].record;
           const MainsLine line =
-              HumBelowBand(of.record.*signal, of.record.sampling_hz, of.cycle_hz);
+              HumBelowBand(record.*signal, record.sampling_hz, records[e].cycle_hz);
           if (line.of_cycle > 0.0) line_hz = line.frequency_hz;
           return line.of_cycle;
         });
@@ -134,30 +133,25 @@ bool CanBeRepaired(const std::vector<SampleFact>& facts) {
 
 std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
                                       const std::vector<std::string>& withheld) {
-  std::array<SampleFact, kKinds.size()> seen;
-  for (const LoopRecord& record : records) {
-    const Health findings = FindingsOf(record);
-    for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      const double value = ValueOf(kKinds[k], findings, record.record);
-      if (value == 0.0) continue;
-      seen[k].value += value;
-      ++seen[k].experiments;
-    }
-  }
+  std::vector<Health> findings;
+  for (const LoopRecord& record : records) findings.push_back(FindingsOf(record));
   std::vector<SampleFact> out;
-  for (std::size_t k = 0; k < kKinds.size(); ++k) {
-    if (2 * seen[k].experiments <= records.size()) continue;
-    if (std::ranges::find(withheld, kKinds[k].effect) != withheld.end()) continue;
-    out.push_back({kKinds[k].effect, seen[k].value / static_cast<double>(seen[k].experiments),
-                   seen[k].experiments, CanBeFilled(kKinds[k].effect, records),
-                   BlockOf(kKinds[k].effect)});
+  for (const Kind& kind : kKinds) {
+    std::optional<SampleFact> fact =
+        FactOf(kind.effect, records.size(), withheld,
+               [&](std::size_t e) { return ValueOf(kind, findings[e], records[e].record); });
+    if (!fact) continue;
+    fact->rest_can_be_found = CanBeFilled(kind.effect, records);
+    out.push_back(*std::move(fact));
   }
   if (std::optional<SampleFact> hum = HumOf(records, withheld)) {
     out.push_back(*std::move(hum));
   }
   // Coarse steps are called so already.
   if (std::ranges::find(out, kQuantisation, &SampleFact::effect) != out.end()) return out;
-  if (std::optional<SampleFact> steps = FactOf(kQuantisation, records, withheld, FineSteps)) {
+  if (std::optional<SampleFact> steps =
+          FactOf(kQuantisation, records.size(), withheld,
+                 [&](std::size_t e) { return LevelsOfFineSteps(records[e].record.pressure); })) {
     out.insert(out.begin(), *std::move(steps));
   }
   return out;

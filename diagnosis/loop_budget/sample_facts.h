@@ -6,8 +6,8 @@
 //   quantisation             p has a few levels, or up to 256 whose steps are its noise
 //                            (fine_steps.h)
 //   p_dropouts, q_dropouts   a signal stands still for longer than by chance
-//   mains_hum                either signal has a line at a multiple of the mains' frequency below
-//                            the band of the fits (samples/hum_below_band.h)
+//   mains_hum                either signal has a line at one to six times the mains' frequency
+//                            below the band of the fits (samples/hum_below_band.h)
 //
 // A loop that is fitted to clipped samples speaks of what was done to them, whatever is added to
 // it: what clipping and coarse steps add goes with the signal, and no source of noise does. So
