@@ -8,6 +8,7 @@
 #include "estimation/record_fit/point_posterior.h"
 #include "estimation/record_fit/spectra/middle_part.h"
 #include "estimation/record_fit/starts/path_starts.h"
+#include "estimation/record_fit/starts/raise_noise.h"
 
 namespace howl {
 namespace {
@@ -16,6 +17,23 @@ constexpr std::size_t kDelays = 8;
 constexpr double kSame = 0.25;  // radians of the cycle: a quarter of a period at the band's end
 constexpr int kMostDelayScans = 3;
 constexpr std::size_t kMostFollowed = 2;
+// That starts are made of beside those of other points: with three of them the rigs on which they
+// were compared came to the same maxima.
+constexpr std::size_t kDelaysOfCut = 1;
+
+// With the flame of that delay, as far as the prior reaches, and as much noise as it leaves; all
+// else of `parameters`.
+Eigen::VectorXd AtDelay(double tau, const PathStarts& paths, const RecordSpectra& record,
+                        const PointStructure& structure, const PointPrior& prior,
+                        const Eigen::VectorXd& parameters) {
+  const Eigen::Index flame = record.flame.cols();
+  LoopPoint point = ToPoint(structure, flame, parameters);
+  point.path.tau = tau;
+  point.flame = paths.Flame(point.path);
+  point = ToPoint(structure, flame, prior.Within(ToParameters(structure, point)));
+  RaiseNoise(record, structure, &point);
+  return ToParameters(structure, point);
+}
 
 // The maxima of different delays, that of `parameters` with them, the most likely first. Each delay
 // tried goes to the maximum of the record's middle (middle_part.h), and `followed` of them, the
@@ -31,10 +49,7 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
   std::vector<PointFit> begun;
   const PathStarts paths(record);
   for (const double tau : paths.Delays(kDelays)) {
-    Eigen::VectorXd start = parameters;
-    start[structure.Delay()] = std::log(tau);
-    const FlamePath path = ToPoint(structure, record.flame.cols(), start).path;
-    start.segment(structure.Flame(), record.flame.cols()) = paths.Flame(path);
+    const Eigen::VectorXd start = AtDelay(tau, paths, record, structure, prior, parameters);
     begun.push_back(FitPoint(MiddleOf(record), structure, prior,
                              BesideMiddle(record, structure, start), kToCompare));
   }
@@ -57,6 +72,28 @@ std::vector<PointFit> FitsByDelay(const RecordSpectra& record, const PointStruct
 }
 
 }  // namespace
+
+std::vector<Eigen::VectorXd> OtherDelayStarts(const RecordSpectra& record,
+                                              const PointStructure& structure,
+                                              const PointPrior& prior,
+                                              const Eigen::VectorXd& parameters,
+                                              const std::vector<Eigen::VectorXd>& of_other_points) {
+  const PathStarts paths(record);
+  std::vector<double> tried = {std::exp(parameters[structure.Delay()])};
+  std::vector<Eigen::VectorXd> out;
+  const auto add = [&](double tau, const Eigen::VectorXd& loop) {
+    if (std::ranges::any_of(tried, [&](double other) { return std::abs(other - tau) < kSame; })) {
+      return;
+    }
+    tried.push_back(tau);
+    out.push_back(AtDelay(tau, paths, record, structure, prior, loop));
+  };
+  for (const Eigen::VectorXd& other : of_other_points) {
+    add(std::exp(other[structure.Delay()]), other);
+  }
+  for (const double tau : paths.Delays(kDelaysOfCut)) add(tau, parameters);
+  return out;
+}
 
 PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structure,
                      const PointPrior& prior, PointFit fit) {

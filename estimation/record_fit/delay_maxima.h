@@ -22,6 +22,14 @@ namespace howl {
 PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structure,
                      const PointPrior& prior, PointFit fit);
 
+// Starts with other delays than `parameters` have: the loops of other operating points, and the
+// delays at which the flame leaves least of q; each with the flame of that delay.
+std::vector<Eigen::VectorXd> OtherDelayStarts(const RecordSpectra& record,
+                                              const PointStructure& structure,
+                                              const PointPrior& prior,
+                                              const Eigen::VectorXd& parameters,
+                                              const std::vector<Eigen::VectorXd>& of_other_points);
+
 struct DelayMaximum {
   double tau = 0.0;         // in radians of the cycle
   double nats_below = 0.0;  // the given parameters' posterior; below 0: more likely than they

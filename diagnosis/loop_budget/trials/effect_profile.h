@@ -69,6 +69,11 @@ class EffectProfile {
   // the first from there, with the values of the second from which they gain more than from those
   // beside them, or the null where none gains.
   std::vector<EffectPoint> Begin(const std::vector<Eigen::VectorXd>& at_null);
+  // Each operating point where it is likelier at another of its delay's maxima. An effect that
+  // turns the cycle's phase far moves the best delay to another: a low-pass of q at 0.34 of the
+  // cycle's frequency gained 12 000 nats from where the loop stood without it, and 81 000 with the
+  // delay that cut B tells beside it.
+  void AtOtherDelays(EffectPoint* point);
   // The maximum of the log posterior next to `best`, by Newton's steps, or as far as their top has
   // the evidence `least`.
   ProfileMaximum From(EffectPoint best, double least = -std::numeric_limits<double>::infinity());

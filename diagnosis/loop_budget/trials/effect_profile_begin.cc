@@ -7,6 +7,7 @@
 
 #include "diagnosis/loop_budget/trials/effect_profile.h"
 #include "estimation/parallel.h"
+#include "estimation/record_fit/delay_maxima.h"
 #include "estimation/record_fit/other_starts.h"
 #include "estimation/record_fit/spectra/middle_part.h"
 
@@ -85,6 +86,23 @@ std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>
     AgainFromNull(at_null, &out.back());
   }
   return out;
+}
+
+void EffectProfile::AtOtherDelays(EffectPoint* point) {
+  const LoopForm form = FormAt(point->u);
+  const std::string key = key_ + "delays/" + std::to_string(evaluations_++) + "/";
+  const std::vector<Eigen::VectorXd> all = ParametersOf(point->fits);
+  RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
+    PointFit& fit = point->fits[e];
+    fit = KeptFit(options_.units, key + std::to_string(e), [&] {
+      const RecordSpectra whole = records_.Whole(form, e);
+      const PointPrior prior = PriorOfTrial(records_, from_, form, e, whole);
+      return BestWith(whole, form.structure, prior, fit,
+                      OtherDelayStarts(MiddleOf(whole), form.structure, prior, fit.parameters, all),
+                      ToCompareWith(PosteriorWithout(e) - point->log_jacobian[e]));
+    });
+  });
+  point->SumUp();
 }
 
 void EffectProfile::AgainFromNull(const std::vector<Eigen::VectorXd>& at_null, EffectPoint* point) {

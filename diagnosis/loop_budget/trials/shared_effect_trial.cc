@@ -47,6 +47,7 @@ LoopTrial TrySharedEffect(const LoopRecords& records, const LoopFit& from, doubl
   }
   ProfileMaximum maximum;
   for (EffectPoint& begin : profile.Begin(ParametersOf(from))) {
+    if (begin.log_evidence > without) profile.AtOtherDelays(&begin);
     // As long as it may come out ahead.
     const double least = std::max(without, maximum.at.log_evidence);
     ProfileMaximum next = profile.From(std::move(begin), least);

@@ -10,6 +10,7 @@
 #include "estimation/record_fit/starts/hum_start.h"
 #include "estimation/record_fit/starts/path_starts.h"
 #include "estimation/record_fit/starts/pole_starts.h"
+#include "estimation/record_fit/starts/raise_noise.h"
 #include "estimation/record_fit/starts/start_least_squares.h"
 #include "model/numerics/dense_algebra.h"
 
@@ -42,7 +43,6 @@ class Starts {
   Eigen::VectorXd At(std::vector<LoopMode> modes, const FlamePath& path) const;
 
  private:
-  void RaiseNoise(LoopPoint* point) const;
   Eigen::VectorXd LogSpectrum(const Eigen::VectorXd& power, Eigen::Index terms) const;
 
   const RecordSpectra& record_;
@@ -110,24 +110,8 @@ Eigen::VectorXd Starts::At(std::vector<LoopMode> modes, const FlamePath& path) c
     point.noise.push_back(c);
   }
   if (HasBackground(structure_.noise)) point.background_ratio = BackgroundOf(record_).ratio;
-  RaiseNoise(&point);
+  RaiseNoise(record_, structure_, &point);
   return ToParameters(structure_, point);
-}
-
-// Together all sources have the level that is most likely: what a start misses at the cycle's lines
-// is far more than what smooth spectra hold. ln L = c - 2 n x - Q e^(-x) at x above the level.
-void Starts::RaiseNoise(LoopPoint* point) const {
-  const auto log_likelihood = [&](double x) {
-    LoopPoint moved = *point;
-    for (Eigen::VectorXd& source : moved.noise) source[0] += x;
-    return WhittleLogLikelihood(structure_.noise, record_.share,
-                                ResidualsOf(record_, structure_, moved));
-  };
-  const double twice_bins = 2.0 * record_.share.sum();
-  const double square =
-      (log_likelihood(1.0) - log_likelihood(0.0) + twice_bins) / (1.0 - std::exp(-1.0));
-  if (!(square > twice_bins)) return;
-  for (Eigen::VectorXd& source : point->noise) source[0] += std::log(square / twice_bins);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ class Filter final : public NamedEffect {
                       kInfinity,
                       60.0,
                       1e6,
-                      {250.0, 700.0, 2000.0},
+                      {85.0, 250.0, 700.0, 2000.0},
                       ParameterScale::kLogarithmic}}),
         order_(order) {}
   bool ChangesAcousticCut() const override { return true; }

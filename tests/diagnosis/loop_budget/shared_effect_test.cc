@@ -95,6 +95,14 @@ TEST(LongSharedEffect, FindsAStrongLowPass) {
   EXPECT_NEAR(BestOf(trials).model.effects.back().values[0], 120.0, 2.0);
 }
 
+// It turns the cycle's phase by 70 degrees: behind it the loop's delay lies at another maximum than
+// the loop that knows of no filter has taken.
+TEST(LongSharedEffect, FindsALowPassFarBelowTheCycle) {
+  const std::vector<LoopRecord> rig = Ducts([](Record* record) { LowPass(70.0, record); });
+  const LoopTrial best = BestOf(TrialsOn(rig, "q_sensor_lowpass"));
+  EXPECT_NEAR(best.model.effects.back().values[0], 70.0, 1.5);
+}
+
 // From where the middles of the records begin, one record of this rig comes to a lesser maximum
 // behind a filter of first order alone, which makes that of second order look the better one.
 TEST(SharedEffect, FindsAWeakLowPassInItsOwnOrder) {
