@@ -23,8 +23,8 @@ PointFit BestByDelay(const RecordSpectra& record, const PointStructure& structur
                      const PointPrior& prior, PointFit fit);
 
 // Starts with other delays than `parameters` have: the loops of other operating points, and
-// `parameters` at the delay at which the flame leaves least of q. Each has the flame of its delay, as
-// far as the prior reaches, and as much noise as that leaves.
+// `parameters` at the delay at which the flame leaves least of q. Each has the flame of its delay,
+// as far as the prior reaches, and as much noise as that leaves.
 std::vector<Eigen::VectorXd> OtherDelayStarts(const RecordSpectra& record,
                                               const PointStructure& structure,
                                               const PointPrior& prior,
