@@ -9,7 +9,7 @@
 
 #include "app/input/fit_state.h"
 #include "app/input/usable_records.h"
-#include "estimation/health/stuck_samples.h"
+#include "estimation/health/mended_records.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -45,8 +45,9 @@ RecordSolution SolveRecords(const Config& config, const Options& options, Solved
   std::vector<LoopRecord> records = LoopRecordsOf(std::move(usable));
   for (const LoopRecord& each : records) {
     out.stuck.push_back({ShareStuck(each.record.pressure), ShareStuck(each.record.heat_release)});
+    out.clipped.push_back(ShareClipped(each.record.pressure));
   }
-  records = WithStuckSamplesFilled(std::move(records), {}, options.threads);
+  records = MendedRecords(std::move(records), {}, options.seed, options.threads);
   FitState state(config, options, "fit.state");
   if (what == SolvedFor::kFit) state.BeginAnewIfComplete();
   if (!options.quiet) state.SayWhereItStands();

@@ -11,7 +11,7 @@
 
 #include "app/text/text_table.h"
 #include "estimation/analysis/spectra/half_width.h"
-#include "estimation/health/stuck_samples.h"
+#include "estimation/health/mended_records.h"
 #include "estimation/joint_records/loop_names.h"
 
 namespace howl {
@@ -40,8 +40,8 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
   return out + "\n";
 }
 
-// What was lost of the records while a signal stood still.
-std::string StuckText(const RecordSolution& solution) {
+// What was lost of the records while a signal stood still, and of p beyond the ends of its range.
+std::string LostText(const RecordSolution& solution) {
   std::string out;
   for (std::size_t e = 0; e < solution.stuck.size(); ++e) {
     for (std::size_t channel = 0; channel < 2; ++channel) {
@@ -56,6 +56,15 @@ std::string StuckText(const RecordSolution& solution) {
                      2) +
              "\n";
     }
+    const double clipped = solution.clipped[e];
+    if (clipped == 0.0) continue;
+    out += Wrapped(solution.names[e] + ": p is clipped in " + Significant(100.0 * clipped, 2) +
+                       " % of its samples, " +
+                       (clipped <= kMostClipped
+                            ? "which are drawn from q and from what stands beside them"
+                            : "too many to be made good: the loop is one of what stands there"),
+                   2) +
+           "\n";
   }
   return out;
 }
@@ -199,7 +208,7 @@ std::string TriedText(const ChosenLoop& loop) {
 }  // namespace
 
 std::string RecordFitText(const RecordSolution& solution, const std::string& operating_parameter) {
-  return LoopsText(solution, operating_parameter) + StuckText(solution) + HalvesText(solution) +
+  return LoopsText(solution, operating_parameter) + LostText(solution) + HalvesText(solution) +
          OnsetText(solution, operating_parameter) + DelaysText(solution) + LinesText(solution) +
          ModesText(solution) + TriedText(solution.loop);
 }

@@ -79,6 +79,17 @@ void AddSpread(const PredictedSignals& signals, const PredictedSignals& moved, d
               signals, weight, bands->begin() + static_cast<std::ptrdiff_t>(bands->size() / 2));
 }
 
+Eigen::VectorXd ForetoldPower(const Eigen::MatrixXcd& errors, const PredictedSignals& signals) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(errors.rows());
+  for (const auto& error : errors.colwise()) {
+    sum +=
+        error.cwiseAbs2() - FreeRemainder(error, signals.heat_release, signals.heat_release_power,
+                                          signals.share, Bins(signals, kReach));
+  }
+  // Of errors that no transfer foretells it is as often negative.
+  return sum.cwiseMax(0.0) / static_cast<double>(errors.cols());
+}
+
 void SetPredictionErrors(const Eigen::Vector2cd& residuals, const Eigen::Matrix2cd& w,
                          const Eigen::Vector2cd& by_pressure,
                          const Eigen::Vector2cd& by_heat_release, Eigen::Index bin,

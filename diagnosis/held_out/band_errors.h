@@ -48,6 +48,10 @@ void SetPredictionErrors(const Eigen::Vector2cd& residuals, const Eigen::Matrix2
 // The bands of p, then those of q. Their spread is nothing yet.
 std::vector<BandErrors> ErrorsOverBands(const PredictedSignals& signals);
 
+// Of errors of p, one column a draw: their mean power as far as a free transfer from q foretells
+// it.
+Eigen::VectorXd ForetoldPower(const Eigen::MatrixXcd& errors, const PredictedSignals& signals);
+
 // Adds |moved - signals|^2 / S of the predictions' errors, times `weight`, to the bands' spread.
 void AddSpread(const PredictedSignals& signals, const PredictedSignals& moved, double weight,
                std::vector<BandErrors>* bands);

@@ -17,7 +17,7 @@
 #include "diagnosis/loop_budget/sample_facts.h"
 #include "diagnosis/loop_budget/search/loop_search.h"
 #include "estimation/analysis/spectra/half_width.h"
-#include "estimation/health/stuck_samples.h"
+#include "estimation/health/mended_records.h"
 #include "estimation/joint_records/loop_names.h"
 #include "estimation/joint_records/shared_units.h"
 #include "estimation/parallel.h"
@@ -187,7 +187,8 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
     how.one_delay = false;
   }
   const LoopFound found = SearchLoopBudget(
-      LoopRecords(WithStuckSamplesFilled(all, options.withheld, options.threads), options.threads),
+      LoopRecords(MendedRecords(all, options.withheld, options.seed, options.threads),
+                  options.threads),
       base, how);
   const LoopRecords& records = found.records;
   LoopDiagnosis out;

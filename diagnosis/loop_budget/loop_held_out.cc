@@ -2,10 +2,12 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <vector>
 
+#include "diagnosis/held_out/record_signals.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/fit_under_prior.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
@@ -17,8 +19,7 @@ namespace howl {
 namespace {
 
 constexpr int kDraws = 8;
-constexpr double kStep = 1e-3;           // of a draw
-constexpr Eigen::Index kPowerReach = 4;  // bins to either side, of smoothed powers
+constexpr double kStep = 1e-3;  // of a draw
 
 // With what the modes hold at this record's ends: E_A is linear in it, so that one step is exact.
 Eigen::VectorXd WithTransientsOf(const RecordSpectra& record, const PointStructure& structure,
@@ -40,10 +41,10 @@ Eigen::VectorXd WithTransientsOf(const RecordSpectra& record, const PointStructu
 }
 
 // Of the signals as they were recorded, by which `record` moves so at each bin (ByRecorded): what
-// an instrument takes out of one of them is foretold by no loop.
+// an instrument takes out of one of them is foretold by no loop. `off`: of P, by bin.
 void SetErrors(const RecordSpectra& record, const std::vector<Eigen::Matrix2cd>& by_recorded,
                const PointStructure& structure, const Eigen::VectorXd& parameters,
-               PredictedSignals* signals) {
+               const Eigen::VectorXcd& off, PredictedSignals* signals) {
   const LoopPoint point = ToPoint(structure, record.flame.cols(), parameters);
   const LoopResiduals residuals = ResidualsOf(record, structure, point);
   signals->pressure_error.resize(record.bins());
@@ -53,37 +54,39 @@ void SetErrors(const RecordSpectra& record, const std::vector<Eigen::Matrix2cd>&
     Eigen::Matrix2cd cuts;
     cuts << 1.0, -residuals.r[i], -residuals.f[i], 1.0;
     const Eigen::Matrix2cd by = cuts * by_recorded[static_cast<std::size_t>(i)];
-    SetPredictionErrors({residuals.acoustic[i], residuals.flame[i]}, w, by.col(0), by.col(1), i,
-                        signals);
+    SetPredictionErrors(
+        {residuals.acoustic[i] + off[i], residuals.flame[i] - residuals.f[i] * off[i]}, w,
+        by.col(0), by.col(1), i, signals);
   }
 }
 
-// Their errors are none yet.
-PredictedSignals SignalsOf(const RecordSpectra& record) {
-  PredictedSignals signals;
-  signals.cycle_hz = record.scale.cycle_hz;
-  signals.bin_hz = record.bin_hz;
-  signals.frequency_hz = record.s.imag() * record.scale.cycle_hz;
-  signals.share = record.share;
-  signals.pressure = Tapered(record.pressure);
-  signals.heat_release = Tapered(record.heat_release);
-  signals.pressure_power = SmoothPower(signals.pressure, kPowerReach);
-  signals.heat_release_power = SmoothPower(signals.heat_release, kPowerReach);
-  return signals;
+// P's error where samples stand in the place of lost ones, as far as a free transfer foretells it:
+// this half's, and at most as much again that parameters took from the other half's.
+Eigen::VectorXcd DrawOff(const RecordSpectra& record, const Eigen::VectorXd& power,
+                         RandomStream* random) {
+  Eigen::VectorXcd out = Eigen::VectorXcd::Zero(record.bins());
+  for (Eigen::Index i = 0; i < power.size(); ++i) {
+    const double real = random->Normal();
+    out[i] = std::sqrt(power[i]) * std::complex<double>(real, random->Normal()) /
+             ValueAt(record.pressure_instrument, record.s[i]);
+  }
+  return out;
 }
 
-// The spread is that of parameters drawn from what the other half tells of them, to first order:
-// what moves a prediction but little is taken to move it in proportion.
+// The spread is that of parameters drawn from what the other half tells of them, and of samples in
+// the place of lost ones, to first order: what moves a prediction but little is taken to move it in
+// proportion.
 std::vector<BandErrors> ErrorsOf(const RecordSpectra& recorded, const RecordSpectra& record,
                                  const LoopForm& form, const Eigen::VectorXd& at,
-                                 const Eigen::MatrixXd& information, std::uint64_t seed) {
+                                 const Eigen::MatrixXd& information,
+                                 const Eigen::VectorXd& foretold_errors, std::uint64_t seed) {
   const PointStructure& structure = form.structure;
   std::vector<Eigen::Matrix2cd> by_recorded;
   for (const std::complex<double> s : record.s) {
     by_recorded.push_back(ByRecorded(form.effects, record.scale.cycle_hz, s));
   }
   PredictedSignals signals = SignalsOf(recorded);
-  SetErrors(record, by_recorded, structure, at, &signals);
+  SetErrors(record, by_recorded, structure, at, Eigen::VectorXcd::Zero(record.bins()), &signals);
   PredictedSignals moved = signals;
   std::vector<BandErrors> out = ErrorsOverBands(signals);
   const Eigen::LLT<Eigen::MatrixXd> root(information);
@@ -94,7 +97,8 @@ std::vector<BandErrors> ErrorsOf(const RecordSpectra& recorded, const RecordSpec
     root.matrixU().solveInPlace(step);
     // What this half holds at its ends is its own.
     step.segment(structure.Transfer(), structure.Transients()).setZero();
-    SetErrors(record, by_recorded, structure, at + kStep * step, &moved);
+    const Eigen::VectorXcd off = kStep * DrawOff(record, foretold_errors, &random);
+    SetErrors(record, by_recorded, structure, at + kStep * step, off, &moved);
     AddSpread(signals, moved, 1.0 / (kStep * kStep * kDraws), &out);
   }
   return out;
@@ -126,9 +130,9 @@ HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const 
     const Eigen::VectorXd at = WithTransientsOf(here, structure, prior[e], of_other.parameters);
     out.nats[e][half] =
         LogLikelihood(here, structure, at) + records.LogJacobianOfHalf(fit.model, e, half);
-    out.errors[e][half] =
-        ErrorsOf(records.Half(as_recorded, e, half), here, fit.model, at, of_other.information,
-                 UnitSeed(options.seed, "errors of parameters", i));
+    out.errors[e][half] = ErrorsOf(records.Half(as_recorded, e, half), here, fit.model, at,
+                                   of_other.information, records.ForetoldErrors(e, half),
+                                   UnitSeed(options.seed, "errors of parameters", i));
   });
   return out;
 }

@@ -10,6 +10,7 @@
 #include "diagnosis/loop_budget/fine_steps.h"
 #include "diagnosis/samples/hum_below_band.h"
 #include "diagnosis/samples/sample_limits.h"
+#include "estimation/health/clipped_samples.h"
 #include "estimation/health/sample_health.h"
 #include "estimation/health/stuck_samples.h"
 #include "model/effects/catalogue.h"
@@ -105,11 +106,15 @@ std::optional<SampleFact> HumOf(const std::vector<LoopRecord>& records,
   return out;
 }
 
-bool CanBeFilled(const std::string& effect, const std::vector<LoopRecord>& records) {
-  if (!effect.ends_with("dropouts")) return false;
+bool CanBeMadeGood(const std::string& effect, const std::vector<LoopRecord>& records) {
   return std::ranges::all_of(records, [&](const LoopRecord& each) {
     const Record& record = each.record;
-    return ShareStuck(effect[0] == 'p' ? record.pressure : record.heat_release) <= kMostStuck;
+    if (effect == "p_clipping") {
+      const double share = ShareClipped(record.pressure);
+      return share <= kMostClipped && (share > 0.0 || ShareOnNoisyRails(record.pressure) == 0.0);
+    }
+    if (effect == "p_dropouts") return ShareStuck(record.pressure) <= kMostStuck;
+    return effect == "q_dropouts" && ShareStuck(record.heat_release) <= kMostStuck;
   });
 }
 
@@ -141,7 +146,7 @@ std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
         FactOf(kind.effect, records.size(), withheld,
                [&](std::size_t e) { return ValueOf(kind, findings[e], records[e].record); });
     if (!fact) continue;
-    fact->rest_can_be_found = CanBeFilled(kind.effect, records);
+    fact->rest_can_be_found = CanBeMadeGood(kind.effect, records);
     out.push_back(*std::move(fact));
   }
   if (std::optional<SampleFact> hum = HumOf(records, withheld)) {

@@ -11,9 +11,10 @@
 //
 // A loop that is fitted to clipped samples speaks of what was done to them, whatever is added to
 // it: what clipping and coarse steps add goes with the signal, and no source of noise does. So
-// nothing else is looked for beside them, unless they are withheld as an item is. Fine steps alone
-// add white noise, samples that a signal lost while it stood still are filled (stuck_samples.h),
-// and hum below the band is in no fit: they leave the rest to be found.
+// nothing else is looked for beside a clipped q or coarse steps, unless they are withheld as an
+// item is. What p lost at the ends of its range is drawn anew (clipped_samples.h), what a signal
+// lost while it stood still is filled (stuck_samples.h), fine steps alone add white noise, and hum
+// below the band is in no fit: they leave the rest to be found.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_SAMPLE_FACTS_H_
 

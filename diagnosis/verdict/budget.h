@@ -44,7 +44,7 @@ struct SampleFact {
   double value = 0.0;
   std::size_t experiments = 0;
   // Whether it adds to the samples what the base has, white noise of p (fine_steps.h), or what no
-  // fit sees (hum_below_band.h), or they are made good (stuck_samples.h).
+  // fit sees (hum_below_band.h), or they are made good (mended_records.h).
   bool rest_can_be_found = false;
   LoopBlock block = LoopBlock::kPressureInstrument;
   double line_hz = 0.0;  // of hum; 0: it is at all frequencies

@@ -53,6 +53,11 @@ class SampleCheck {
 
   const Health& health() const { return health_; }
   const std::vector<Gap>& stuck() const { return stuck_; }
+  RangeEnds ends() const {
+    RangeEnds out;
+    for (const double end : clipped_) (end == sorted_.front() ? out.lower : out.upper) = end;
+    return out;
+  }
 
  private:
   void Add(const char* subject, double value, double limit, const std::string& text) {
@@ -192,6 +197,13 @@ std::vector<Gap> StuckSamples(std::span<const double> samples) {
   SampleCheck check("", "", samples, 1.0);
   check.Find();
   return check.stuck();
+}
+
+RangeEnds RepeatedEnds(std::span<const double> samples) {
+  if (samples.size() < 2) return {};
+  SampleCheck check("", "", samples, 1.0);
+  check.Find();
+  return check.ends();
 }
 
 }  // namespace howl

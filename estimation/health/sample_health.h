@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/analysis/instruments/draw_clipped.h"
 #include "estimation/analysis/spectra/gap.h"
 #include "estimation/health/finding.h"
 
@@ -28,6 +29,10 @@ Health CheckSamples(const std::string& experiment, const std::string& channel,
 // What was lost wherever a stuck signal stands still: all samples of such a run but its first. Of a
 // signal that is not stuck none.
 std::vector<Gap> StuckSamples(std::span<const double> samples);
+
+// The largest and the smallest value, where they stand as often as those of a clipped signal;
+// infinite where they do not.
+RangeEnds RepeatedEnds(std::span<const double> samples);
 
 }  // namespace howl
 

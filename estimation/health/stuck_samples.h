@@ -1,9 +1,8 @@
 // Samples that a channel lost while it stood still (estimation/health/sample_health.h): they are
 // filled from the other channel (fill_gaps.h), and the loop is fitted to what comes of it.
 //
-// What is filled in has no noise of the sensor and tells nothing new, so that intervals are too
-// narrow by half the share that is missing: up to an eighth where a quarter is. Beyond that the
-// rest of the record is not called enough.
+// What is filled in has no noise of the sensor and tells nothing new, so that the record counts for
+// as much less (record_spectra.h): beyond a quarter what is left is not called enough.
 #ifndef HOWL_ESTIMATION_HEALTH_STUCK_SAMPLES_H_
 #define HOWL_ESTIMATION_HEALTH_STUCK_SAMPLES_H_
 

@@ -119,6 +119,7 @@ Json ExperimentJson(const RecordSolution& solution, std::size_t e) {
           {"noise", NoiseJson(loop)},
           {"halves", HalvesJson(solution.halves[e])},
           {"stuck_share", {{"p", solution.stuck[e][0]}, {"q", solution.stuck[e][1]}}},
+          {"clipped_share", {{"p", solution.clipped[e]}}},
           {"log_density_left_out",
            NumberOrNull(solution.loop.tried[solution.loop.chosen].log_density[e])},
           {"converged", loop.converged}};

@@ -27,6 +27,8 @@ struct RecordSolution {
   Onset onset;
   // Of the samples of p and of q, in which the signal stands still (stuck_samples.h).
   std::vector<std::array<double, 2>> stuck;
+  // Of those of p, which are clipped (clipped_samples.h).
+  std::vector<double> clipped;
   // Of the fundamental of p; zero where the record shows no cycle.
   std::vector<double> cycle_amplitude;
 

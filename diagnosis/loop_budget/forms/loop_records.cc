@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "diagnosis/held_out/band_errors.h"
+#include "diagnosis/held_out/record_signals.h"
 #include "estimation/analysis/spectra/half_of_record.h"
 #include "estimation/parallel.h"
 
@@ -20,6 +22,7 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
     spectra.points.resize(records.size());
     spectra.halves.resize(records.size());
   }
+  foretold_errors_.resize(records.size());
   RunUnits(spectra_.size() * records.size(), threads, [&](std::size_t i) {
     const std::size_t input = i / records.size();
     const std::size_t e = i % records.size();
@@ -28,8 +31,11 @@ LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
     spectra.points[e] = {of.operating_parameter,
                          MakeRecordSpectra(of.record, of.cycle_hz, static_cast<FlameInput>(input))};
     for (std::size_t half = 0; half < 2; ++half) {
-      spectra.halves[e][half] =
-          MakeRecordSpectra(HalfOf(of.record, half == 1), spectra.points[e].record);
+      const Record record = HalfOf(of.record, half == 1);
+      RecordSpectra& there = spectra.halves[e][half];
+      there = MakeRecordSpectra(record, spectra.points[e].record);
+      if (input > 0 || record.pressure_errors.empty()) continue;
+      foretold_errors_[e][half] = ForetoldPower(PressureErrors(record, there), SignalsOf(there));
     }
   });
 }

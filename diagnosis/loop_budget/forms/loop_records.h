@@ -39,6 +39,12 @@ class LoopRecords {
   double LogJacobianOfWhole(const LoopForm& form, std::size_t e) const;
   double LogJacobianOfHalf(const LoopForm& form, std::size_t e, std::size_t half) const;
 
+  // Power of p's errors where samples stand in the place of lost ones (draw_clipped.h), by bin of a
+  // half, as far as a free transfer from q foretells it (band_errors.h); empty where none was lost.
+  const Eigen::VectorXd& ForetoldErrors(std::size_t e, std::size_t half) const {
+    return foretold_errors_[e][half];
+  }
+
   // From now on the flames are driven by p without this noise of each point, which the points tell
   // as `form` has them (PressureNoiseOf), and these loops of that form say what slow changes there
   // may be (slow_signals.h).
@@ -59,6 +65,7 @@ class LoopRecords {
   std::vector<double> cycle_hz_;
   std::vector<double> length_s_;
   std::array<Spectra, 3> spectra_;
+  std::vector<std::array<Eigen::VectorXd, 2>> foretold_errors_;
   std::vector<LoopPoint> fitted_;  // none before a loop was fitted
   FlameInput fitted_input_ = FlameInput::kPressureRate;
 };

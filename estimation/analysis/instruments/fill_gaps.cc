@@ -6,28 +6,16 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
-#include <numbers>
 #include <span>
 
+#include "estimation/analysis/instruments/cycle_span.h"
+#include "estimation/analysis/instruments/present_autocovariance.h"
 #include "estimation/analysis/instruments/response_by_least_squares.h"
-#include "model/numerics/fft.h"
-#include "model/numerics/smooth_length.h"
 
 namespace howl {
 namespace {
 
-// Memory of the acoustics, in periods of the cycle: of a resonance with a damping of 0.02 a twelfth
-// is left after twenty, which what stands beside a gap tells. Instruments may delay q by some.
-constexpr double kPeriodsAhead = 3.0;
-constexpr double kPeriodsBack = 20.0;
-constexpr double kPeriodsBeside = 3.0;
-constexpr std::size_t kSharePerEnd = 16;
-// Systems of more unknowns take longer than all else does.
-constexpr std::size_t kMostBack = 1000;
-constexpr std::size_t kMostElse = 200;
-constexpr double kLeastPower = 1e-3;  // of the median over all frequencies
 constexpr int kTurnsWhereBothMiss = 3;
 
 std::vector<bool> Present(std::size_t size, const std::vector<Gap>& gaps) {
@@ -37,52 +25,6 @@ std::vector<bool> Present(std::size_t size, const std::vector<Gap>& gaps) {
     std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(gap.first), gap.length, false);
   }
   return out;
-}
-
-// sum_t x_t x_(t+lag) for lag = 0 ... lags - 1.
-std::vector<double> LaggedProducts(std::span<const double> x, std::size_t lags) {
-  std::vector<double> padded(
-      static_cast<std::size_t>(SmoothLengthFrom(static_cast<std::ptrdiff_t>(x.size() + lags))),
-      0.0);
-  std::ranges::copy(x, padded.begin());
-  std::vector<std::complex<double>> spectrum(padded.size() / 2 + 1);
-  Fft::OfThisThread().Forward(padded, spectrum);
-  for (std::complex<double>& value : spectrum) value = std::norm(value);
-  Fft::OfThisThread().Inverse(spectrum, padded);
-  padded.resize(lags);
-  return padded;
-}
-
-// Of a signal without mean, over pairs of samples that are present; zero from `lags` on.
-std::vector<double> Autocovariance(std::span<const double> x, const std::vector<bool>& present,
-                                   std::size_t lags) {
-  std::vector<double> values(x.size(), 0.0);
-  std::vector<double> ones(x.size(), 0.0);
-  for (std::size_t t = 0; t < x.size(); ++t) {
-    if (!present[t]) continue;
-    values[t] = x[t];
-    ones[t] = 1.0;
-  }
-  const std::vector<double> sums = LaggedProducts(values, lags);
-  const std::vector<double> pairs = LaggedProducts(ones, lags);
-  std::vector<double> windowed(2 * lags, 0.0);
-  for (std::size_t k = 0; k < lags; ++k) {
-    const double angle = std::numbers::pi * static_cast<double>(k) / static_cast<double>(lags);
-    windowed[k] = 0.5 * (1.0 + std::cos(angle)) * sums[k] / std::max(pairs[k], 1.0);
-    if (k > 0) windowed[2 * lags - k] = windowed[k];
-  }
-  std::vector<std::complex<double>> power(lags + 1);
-  Fft::OfThisThread().Forward(windowed, power);
-  std::vector<double> sizes;
-  for (const std::complex<double>& value : power) sizes.push_back(std::abs(value.real()));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
-  for (std::complex<double>& value : power) {
-    value = std::max(value.real(), kLeastPower * *middle);
-  }
-  Fft::OfThisThread().Inverse(power, windowed);
-  windowed.resize(lags);
-  return windowed;
 }
 
 // The conditional mean of x in a gap, given what is present within `beside` samples of it.
@@ -137,7 +79,7 @@ void FillBeside(const std::vector<Gap>& gaps, std::span<const double> told, std:
   mean /= count;
   for (double& value : rest) value -= mean;
   const std::vector<double> covariance =
-      Autocovariance(rest, present, std::min(4 * beside, rest.size()));
+      PresentAutocovariance(rest, present, std::min(4 * beside, rest.size()));
   for (const Gap& gap : gaps) {
     const std::size_t from = std::max(gap.first, first);
     const std::size_t to = std::min(gap.first + gap.length, end);
@@ -179,18 +121,20 @@ Record WithGapsFilled(Record record, const std::vector<Gap>& pressure,
   std::vector<double>& q = record.heat_release;
   const std::size_t n = p.size();
   CHECK_EQ(q.size(), n);
-  const double period = record.sampling_hz / cycle_hz;
-  const auto samples = [&](double periods, std::size_t most) {
-    const auto asked = static_cast<std::size_t>(std::ceil(periods * period));
-    return std::min({asked, n / kSharePerEnd, most});
-  };
-  const ResponseSpan span{samples(kPeriodsAhead, kMostElse), samples(kPeriodsBack, kMostBack)};
-  const std::size_t beside = std::max<std::size_t>(samples(kPeriodsBeside, kMostElse), 2);
+  const CycleSpan of_cycle = SpanOfCycle(n, record.sampling_hz / cycle_hz);
+  const ResponseSpan& span = of_cycle.response;
+  const std::size_t beside = of_cycle.beside;
   const auto fill = [&](const std::vector<Gap>& gaps, const std::vector<double>& from,
                         std::vector<double>* x) {
-    const std::vector<double> told = PredictByResponse(from, *x, Present(n, gaps), span);
+    const std::vector<double> told =
+        ResponseByLeastSquares(from, Present(n, gaps), span).Predict(*x);
     FillBeside(gaps, told, span.back, n - span.ahead, beside, x);
   };
+  const std::vector<bool> p_is_there = Present(n, pressure);
+  const std::vector<bool> q_is_there = Present(n, heat_release);
+  std::size_t lost = 0;
+  for (std::size_t t = 0; t < n; ++t) lost += p_is_there[t] && q_is_there[t] ? 0 : 1;
+  record.lost_share = static_cast<double>(lost) / static_cast<double>(n);
   const bool both = !pressure.empty() && !heat_release.empty();
   if (both) {
     const std::vector<double> nothing(n, 0.0);

@@ -10,7 +10,9 @@
 namespace howl {
 
 inline Record HalfOf(Record record, bool second) {
-  for (std::vector<double>* signal : {&record.pressure, &record.heat_release}) {
+  std::vector<std::vector<double>*> signals = {&record.pressure, &record.heat_release};
+  for (std::vector<double>& draw : record.pressure_errors) signals.push_back(&draw);
+  for (std::vector<double>* signal : signals) {
     const auto middle = signal->begin() + static_cast<std::ptrdiff_t>(signal->size() / 2);
     if (second) {
       signal->erase(signal->begin(), middle);

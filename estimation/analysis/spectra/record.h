@@ -10,6 +10,11 @@ struct Record {
   double sampling_hz = 0.0;
   std::vector<double> pressure;
   std::vector<double> heat_release;  // empty for a pressure-only record
+  // Of the times, at which p or q was lost: what stands in its place tells nothing new.
+  double lost_share = 0.0;
+  // Where samples of p were lost and others stand in their place: draws of how far off these may
+  // be, alike in all periods (draw_clipped.h).
+  std::vector<std::vector<double>> pressure_errors;
 };
 
 }  // namespace howl

@@ -38,6 +38,7 @@ KeptLoop::KeptLoop(const RecordSpectra& record, const PointStructure& structure)
   for (const NoiseTerm& term : structure.noise) {
     noise_columns_.push_back(LogSpectrumColumns(term, record));
     noise_shapes_.push_back(NoiseShape(term, record));
+    lost_power_.push_back(LostPower(term, record));
   }
   residuals_.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
 }
@@ -99,8 +100,9 @@ bool KeptLoop::MoveTo(const Eigen::VectorXd& parameters) {
   for (std::size_t j = 0; j < structure_.noise.size(); ++j) {
     const Eigen::Index coefficients = structure_.noise[j].coefficients;
     if (Moved(parameters, next, coefficients)) {
-      residuals_.spectra.col(static_cast<Eigen::Index>(j)) =
-          (noise_columns_[j] * point_.noise[j]).array().exp() * noise_shapes_[j].array();
+      auto spectrum = residuals_.spectra.col(static_cast<Eigen::Index>(j));
+      spectrum = (noise_columns_[j] * point_.noise[j]).array().exp() * noise_shapes_[j].array();
+      if (lost_power_[j].size() > 0) spectrum += lost_power_[j];
     }
     next += coefficients;
   }

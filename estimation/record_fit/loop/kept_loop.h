@@ -67,6 +67,7 @@ class KeptLoop {
   Eigen::MatrixXd flame_real_, flame_imag_;     // b_k
   std::vector<Eigen::MatrixXd> noise_columns_;  // one a source
   std::vector<Eigen::VectorXd> noise_shapes_;   // noise_shape.h
+  std::vector<Eigen::VectorXd> lost_power_;     // of most sources empty
   Eigen::VectorXd parameters_;
   LoopPoint point_;
   LoopResiduals residuals_;

@@ -40,8 +40,16 @@ Eigen::VectorXd KeptLoop::Slope(const WhittleWeights& weights) {
   Eigen::Index next = structure_.Noise(flame);
   for (std::size_t j = 0; j < noise_columns_.size(); ++j) {
     const Eigen::MatrixXd& columns = noise_columns_[j];
-    out.segment(next, columns.cols()) =
-        columns.transpose() * weights.log_spectra.col(static_cast<Eigen::Index>(j));
+    const auto source = static_cast<Eigen::Index>(j);
+    const auto by_log_spectrum = weights.log_spectra.col(source);
+    if (lost_power_[j].size() > 0) {
+      const auto spectrum = residuals_.spectra.col(source).array();
+      out.segment(next, columns.cols()) =
+          columns.transpose() *
+          (by_log_spectrum.array() * (1.0 - lost_power_[j].array() / spectrum)).matrix();
+    } else {
+      out.segment(next, columns.cols()) = columns.transpose() * by_log_spectrum;
+    }
     next += columns.cols();
   }
   if (HasBackground(structure_.noise)) out[next] = weights.ratio;

@@ -1,6 +1,8 @@
 #include "estimation/record_fit/loop/loop_residuals.h"
 
 #include <complex>
+#include <cstddef>
+#include <utility>
 
 #include "estimation/record_fit/loop/line_shapes.h"
 #include "estimation/record_fit/loop/mode_slopes.h"
@@ -103,8 +105,10 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
                           .cwiseProduct(LineFactors(record.edge_s, point.flame_lines)));
   out.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
   for (std::size_t j = 0; j < structure.noise.size(); ++j) {
-    out.spectra.col(static_cast<Eigen::Index>(j)) =
-        NoiseSpectrum(structure.noise[j], record, point.noise[j]);
+    auto spectrum = out.spectra.col(static_cast<Eigen::Index>(j));
+    spectrum = NoiseSpectrum(structure.noise[j], record, point.noise[j]);
+    const Eigen::VectorXd lost = LostPower(structure.noise[j], record);
+    if (lost.size() > 0) spectrum += lost;
   }
   out.background_ratio = point.background_ratio;
   return out;
@@ -184,8 +188,15 @@ LoopDerivatives DerivativesOf(const RecordSpectra& record, const PointStructure&
   ForEachColumn(structure, kFlameChanges, [&](Eigen::Index column) {
     out.flame.col(next++) = TaperedColumns(record.slow.signals.col(column));
   });
-  for (const NoiseTerm& term : structure.noise) {
-    out.log_spectra.push_back(LogSpectrumColumns(term, record));
+  for (std::size_t j = 0; j < structure.noise.size(); ++j) {
+    const NoiseTerm& term = structure.noise[j];
+    Eigen::MatrixXd columns = LogSpectrumColumns(term, record);
+    const Eigen::VectorXd lost = LostPower(term, record);
+    if (lost.size() > 0) {
+      const Eigen::ArrayXd known = NoiseSpectrum(term, record, point.noise[j]).array();
+      columns.array().colwise() *= known / (known + lost.array());
+    }
+    out.log_spectra.push_back(std::move(columns));
   }
   return out;
 }

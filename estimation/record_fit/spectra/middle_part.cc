@@ -48,6 +48,17 @@ class Middle {
         .segment(first_, edges_);
   }
 
+  // The whole record's at the bins that lie nearest to the part's.
+  Eigen::VectorXd NearestOf(const Eigen::VectorXd& bins_of_whole) const {
+    Eigen::VectorXd out(bins());
+    for (Eigen::Index i = 0; i < bins(); ++i) {
+      const double at = (static_cast<double>(first_ + i) + 0.5) * bins_of_part_ - 0.5;
+      out[i] = bins_of_whole[std::clamp<Eigen::Index>(std::lround(at) - first_whole_, 0,
+                                                      bins_of_whole.size() - 1)];
+    }
+    return out;
+  }
+
  private:
   Eigen::Index whole_, instants_, first_whole_;
   double bins_of_part_;
@@ -94,7 +105,8 @@ void SetMiddle(RecordSpectra* of) {
   out.position = 2.0 * (out.s.imag().array() / low).log() / std::log(high / low) - 1.0;
   out.slopes = record.slopes;
   out.rest_slopes = record.rest_slopes;
-  out.share = Eigen::VectorXd::Constant(middle.bins(), kSineTaperShare);
+  out.share = Eigen::VectorXd::Constant(middle.bins(), record.share[0]);
+  if (record.lost_pressure.size() > 0) out.lost_pressure = middle.NearestOf(record.lost_pressure);
   out.pressure_instrument = record.pressure_instrument;
   out.heat_release_instrument = record.heat_release_instrument;
   of->middle = std::make_shared<const RecordSpectra>(std::move(out));

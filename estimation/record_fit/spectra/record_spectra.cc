@@ -87,8 +87,11 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
                                           static_cast<double>(band.first + band.count));
   out.position =
       2.0 * (middle.array() / middle[0]).log() / std::log(middle[band.count - 1] / middle[0]) - 1.0;
-  out.share = Eigen::VectorXd::Constant(band.count, kSineTaperShare);
+  out.share = Eigen::VectorXd::Constant(band.count, kSineTaperShare * (1.0 - record.lost_share));
   out.scale = std::move(scale);
+  if (!record.pressure_errors.empty()) {
+    out.lost_pressure = PressureErrors(record, out).cwiseAbs2().rowwise().mean();
+  }
   // What of p above the band is noise no loop has told yet: all is left out.
   SetFlame(PressureOf(out, Eigen::VectorXcd::Zero(out.above.size())), prior, &out);
   SetMiddle(&out);
@@ -142,6 +145,16 @@ RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInpu
 
 RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like) {
   return Make(record, like.scale, like.flame_input, {});
+}
+
+Eigen::MatrixXcd PressureErrors(const Record& of, const RecordSpectra& record) {
+  Eigen::MatrixXcd out(record.bins(), static_cast<Eigen::Index>(of.pressure_errors.size()));
+  for (Eigen::Index i = 0; i < out.cols(); ++i) {
+    const Eigen::VectorXcd spectrum = UnitarySpectrum(
+        Centred(of.pressure_errors[static_cast<std::size_t>(i)], record.scale.pressure));
+    out.col(i) = Tapered(spectrum.segment(record.below.size(), record.bins() + 1));
+  }
+  return out;
 }
 
 RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise) {

@@ -18,7 +18,7 @@
 // difference of neighbouring bins of its transform, so that no filter's transient at the ends is
 // left in it. Bin i stands in the middle of two of the transform's; under the taper neighbours are
 // correlated by -1/2, so that each counts for 1 / 1.5 of an independent one: two thirds of all that
-// the record holds.
+// the record holds, and as much less as samples of it were lost.
 //
 // Everything is without a unit: p and q over their root mean squares, frequencies over the cycle's.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_SPECTRA_RECORD_SPECTRA_H_
@@ -102,6 +102,9 @@ struct RecordSpectra {
   Eigen::VectorXd slopes;       // mean of d b_k / d v over the record
   Eigen::VectorXd rest_slopes;  // d b_k / d v at v = 0
   Eigen::VectorXd share;        // what each bin counts for
+  // Power of the errors of samples that stand in the place of lost ones of p (draw_clipped.h),
+  // under the taper, by bin; empty where none was lost.
+  Eigen::VectorXd lost_pressure;
   // That were taken out of the record: noise that came in behind them was divided by them.
   TransferFunction pressure_instrument, heat_release_instrument;
   SlowSignals slow;  // where they have been set
@@ -132,6 +135,10 @@ RecordSpectra MakeRecordSpectra(const Record& record, double cycle_hz, FlameInpu
                                 const FlamePrior& flame = {});
 // The same record, or another part of it, in the units and with the flame's functions of `like`.
 RecordSpectra MakeRecordSpectra(const Record& record, const RecordSpectra& like);
+
+// The spectra of `of`'s draws of errors of p at the bins of `record`, which is made of it, under
+// the taper, one column each.
+Eigen::MatrixXcd PressureErrors(const Record& of, const RecordSpectra& record);
 
 // With the flame's functions of p less this noise, over p's unit, one value a sample.
 RecordSpectra DrivenWithout(RecordSpectra record, const Eigen::VectorXd& noise);

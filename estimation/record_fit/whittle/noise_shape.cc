@@ -101,6 +101,13 @@ Eigen::MatrixXd LogSpectrumColumns(const NoiseTerm& term, const RecordSpectra& r
   return out;
 }
 
+Eigen::VectorXd LostPower(const NoiseTerm& term, const RecordSpectra& record) {
+  if (term.source != LoopNoise::kPressureSensor || record.lost_pressure.size() == 0) return {};
+  Eigen::VectorXd out = record.lost_pressure;
+  if (record.pressure_instrument) out.array() *= NoiseShape(term, record).array();
+  return out;
+}
+
 Eigen::VectorXd NoiseSpectrum(const NoiseTerm& term, const RecordSpectra& record,
                               const Eigen::VectorXd& coefficients) {
   return (LogSpectrumColumns(term, record) * coefficients).array().exp() *

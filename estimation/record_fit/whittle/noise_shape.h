@@ -17,6 +17,9 @@
 //
 // with 1 as its mean over the band. Noise and hum that come in behind an instrument which was taken
 // out of the record have 1 / |H|^2 of it as well. Of all other sources w is one.
+//
+// Errors of samples in the place of lost ones of p add to p's sensor at each bin what is known of
+// them, and hang on no coefficient: d ln S / d c_k is b_k times the coefficients' share of S there.
 #ifndef HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
 #define HOWL_ESTIMATION_RECORD_FIT_WHITTLE_NOISE_SHAPE_H_
 
@@ -33,7 +36,11 @@ Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record);
 // b_k at the record's bins, one column each.
 Eigen::MatrixXd LogSpectrumColumns(const NoiseTerm& term, const RecordSpectra& record);
 
-// S_j at the record's bins.
+// The power of those errors at the record's bins, where they add to this source; empty where they
+// add nothing.
+Eigen::VectorXd LostPower(const NoiseTerm& term, const RecordSpectra& record);
+
+// S_j at the record's bins, without that.
 Eigen::VectorXd NoiseSpectrum(const NoiseTerm& term, const RecordSpectra& record,
                               const Eigen::VectorXd& coefficients);
 

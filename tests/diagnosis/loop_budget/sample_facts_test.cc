@@ -67,18 +67,19 @@ TEST(SampleFacts, NoiseBehindTheRangeHidesNoClippingOfPressure) {
   ASSERT_EQ(facts.size(), 1u);
   EXPECT_EQ(facts[0].effect, "p_clipping");
   EXPECT_GT(facts[0].value, 0.02);
+  EXPECT_FALSE(facts[0].rest_can_be_found);
   EXPECT_TRUE(SampleFactsOf(records, {"p_clipping"}).empty());
 }
 
-// A loop that lacks nothing but what the clipping imitates: nothing else is named.
-TEST(SampleFacts, ClippingIsTheVerdict) {
+// Of q nothing else is looked for.
+TEST(SampleFacts, ClippingOfHeatReleaseIsTheVerdict) {
   std::vector<LoopRecord> records = Ducts();
-  for (LoopRecord& each : records) Clip(0.6, &each.record.pressure);
+  for (LoopRecord& each : records) Clip(0.6, &each.record.heat_release);
   const LoopDiagnosis found = DiagnoseLoops(records, DuctsForm(), Among({"complex_residues"}));
   EXPECT_EQ(found.diagnosis.kind, VerdictKind::kEffect);
-  EXPECT_EQ(found.diagnosis.effect, "p_clipping");
+  EXPECT_EQ(found.diagnosis.effect, "q_clipping");
   ASSERT_EQ(found.diagnosis.candidates.size(), 1u);
-  EXPECT_EQ(found.diagnosis.candidates[0].effect, "p_clipping");
+  EXPECT_EQ(found.diagnosis.candidates[0].effect, "q_clipping");
   EXPECT_TRUE(found.diagnosis.budget->entries.empty());
   EXPECT_NE(found.diagnosis.advice.find("record again"), std::string::npos);
 }
@@ -120,6 +121,26 @@ void ExpectBesideResidues(const std::vector<LoopRecord>& records, const std::str
   base.structure.complex_residues = false;
   const LoopDiagnosis both = DiagnoseLoops(records, base, Among({"complex_residues"}));
   EXPECT_EQ(both.diagnosis.effect, fact + "+complex_residues");
+}
+
+// What q tells of a clipped p leaves the loop as it is, and the rest to be found.
+TEST(SampleFacts, ClippingOfPressureLeavesTheRestToBeFound) {
+  std::vector<LoopRecord> records = Ducts();
+  for (LoopRecord& each : records) Clip(0.7, &each.record.pressure);
+  const std::vector<SampleFact> facts = SampleFactsOf(records);
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_EQ(facts[0].effect, "p_clipping");
+  EXPECT_TRUE(facts[0].rest_can_be_found);
+  ExpectBesideResidues(records, "p_clipping");
+}
+
+TEST(SampleFacts, WhereMostIsClippedTheRestIsNotEnough) {
+  std::vector<LoopRecord> records = Ducts();
+  for (LoopRecord& each : records) Clip(0.2, &each.record.pressure);
+  const std::vector<SampleFact> facts = SampleFactsOf(records);
+  ASSERT_EQ(facts.size(), 1u);
+  EXPECT_EQ(facts[0].effect, "p_clipping");
+  EXPECT_FALSE(facts[0].rest_can_be_found);
 }
 
 // Of 100 levels the steps are the noise of p, which the base has: the rest is looked for beside it.

@@ -7,41 +7,21 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <vector>
+
+#include "tests/estimation/analysis/resonant_record.h"
 
 namespace howl::fill_gaps_test {
 namespace {
 
 constexpr double kRateHz = 5000.0;
-constexpr double kCycleHz = 200.0;
+constexpr double kCycleHz = ResonantRecord::kCycleHz;
 constexpr std::size_t kSamples = 12000;
-constexpr double kNoise = 0.01;  // of p's sensor
-constexpr double kPole = 0.98;   // of the acoustics: a radius; they ring for two periods
+constexpr double kNoise = ResonantRecord::kNoise;
 
-// q with a cycle whose phase wanders, and broad noise; p through a resonance at the cycle.
 Record Loop(std::uint64_t seed, double rate_hz = kRateHz, std::size_t samples = kSamples) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  Record out{.sampling_hz = rate_hz, .pressure = {}, .heat_release = {}};
-  const double turn = 2.0 * std::numbers::pi * kCycleHz / rate_hz;
-  const double step = kRateHz / rate_hz;
-  const double pole = std::pow(kPole, step);
-  double phase = 0.0;
-  double before = 0.0;
-  double last = 0.0;
-  for (std::size_t t = 0; t < samples; ++t) {
-    phase += turn + 0.01 * std::sqrt(step) * normal(random);
-    const double q = std::sin(phase) + 0.2 * std::sin(2.0 * phase) + 0.3 * normal(random);
-    const double p =
-        2.0 * pole * std::cos(1.1 * turn) * last - pole * pole * before + 0.05 * step * step * q;
-    before = last;
-    last = p;
-    out.heat_release.push_back(q);
-    out.pressure.push_back(p + kNoise * normal(random));
-  }
-  return out;
+  return MakeResonantRecord(seed, rate_hz, samples);
 }
 
 // Twenty samples, a gap every hundred on average, where chance will have it; none near the ends.

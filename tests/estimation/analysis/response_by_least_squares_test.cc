@@ -32,7 +32,7 @@ TEST(ResponseByLeastSquares, FindsAResponseOfItsLengthExactly) {
     used[t] = t % 5 < 2;
     if (used[t]) x[t] = truth[t];
   }
-  const std::vector<double> found = PredictByResponse(y, x, used, kSpan);
+  const std::vector<double> found = ResponseByLeastSquares(y, used, kSpan).Predict(x);
   for (std::size_t t = 0; t < kSamples; ++t) EXPECT_NEAR(found[t], truth[t], 1e-7) << t;
 }
 
@@ -43,7 +43,7 @@ TEST(ResponseByLeastSquares, LeavesWhatIsOrthogonalToAllRegressors) {
   const std::vector<double> x = Noise(4);
   std::vector<bool> used(kSamples);
   for (std::size_t t = 0; t < kSamples; ++t) used[t] = t % 3 != 0;
-  const std::vector<double> found = PredictByResponse(y, x, used, kSpan);
+  const std::vector<double> found = ResponseByLeastSquares(y, used, kSpan).Predict(x);
   for (std::ptrdiff_t k = -2; k <= 5; ++k) {  // at 5 the constant
     double product = 0.0;
     for (std::size_t t = kSpan.back; t < kSamples - kSpan.ahead; ++t) {
@@ -59,7 +59,7 @@ TEST(ResponseByLeastSquares, LeavesWhatIsOrthogonalToAllRegressors) {
 TEST(ResponseByLeastSquares, WithoutAnySampleThereIsNone) {
   const std::vector<double> y = Noise(5);
   const std::vector<double> found =
-      PredictByResponse(y, y, std::vector<bool>(kSamples, false), kSpan);
+      ResponseByLeastSquares(y, std::vector<bool>(kSamples, false), kSpan).Predict(y);
   for (const double value : found) EXPECT_EQ(value, 0.0);
 }
 

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/loop/point_likelihood.h"
@@ -51,6 +53,47 @@ PointStructure ChangingStructure(PointStructure structure) {
   return structure;
 }
 
+void ExpectGradientOfDifferences(const RecordSpectra& spectra, const PointStructure& structure) {
+  const PointPrior prior = PriorOf(structure, spectra);
+  const LoopPoint start =
+      ToPoint(structure, spectra.flame.cols(), StartsOf(spectra, structure, prior, 4, 1).back());
+  LoopPoint point = start;
+  for (Eigen::Index h = 0; h < point.acoustic_lines.size(); ++h) {
+    point.acoustic_lines[h] = C(0.1, -0.2);
+  }
+  for (Eigen::Index h = 0; h < point.flame_lines.size(); ++h) point.flame_lines[h] = C(-0.3, 0.1);
+  if (structure.HasChanges()) {
+    point.changes = Eigen::Vector<double, kSlowColumns>::LinSpaced(-0.2, 0.3);
+  }
+  const Eigen::VectorXd at = ToParameters(structure, point);
+  const Eigen::VectorXd gradient = PointLikelihood(spectra, structure).Gradient(at);
+  // Without the determinant, by the matrices of derivatives that an information needs.
+  const Eigen::VectorXd of_whittle =
+      WhittleGradient(structure.noise, spectra.share, ResidualsOf(spectra, structure, point),
+                      DerivativesOf(spectra, structure, point));
+  const auto whittle = [&](const Eigen::VectorXd& parameters) {
+    return WhittleLogLikelihood(
+        structure.noise, spectra.share,
+        ResidualsOf(spectra, structure, ToPoint(structure, spectra.flame.cols(), parameters)));
+  };
+  const double scale = gradient.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    constexpr double kStep = 1e-5;
+    Eigen::VectorXd above = at;
+    Eigen::VectorXd below = at;
+    above[i] += kStep;
+    below[i] -= kStep;
+    const double difference =
+        (LogLikelihood(spectra, structure, above) - LogLikelihood(spectra, structure, below)) /
+        (2.0 * kStep);
+    EXPECT_NEAR(gradient[i], difference, 1e-6 * scale + 1e-4 * std::abs(difference))
+        << "parameter " << i << " of " << at.size();
+    const double of_whittle_alone = (whittle(above) - whittle(below)) / (2.0 * kStep);
+    EXPECT_NEAR(of_whittle[i], of_whittle_alone, 1e-6 * scale + 1e-4 * std::abs(of_whittle_alone))
+        << "parameter " << i << " of " << at.size();
+  }
+}
+
 TEST(Whittle, GradientIsThatOfTheLikelihood) {
   const ModalLoop loop = DuctOfModes(2);
   const Record record = SimulateModalLoop(loop, 0.5, 1);
@@ -67,45 +110,24 @@ TEST(Whittle, GradientIsThatOfTheLikelihood) {
     structure.noise.push_back({LoopNoise::kPressureHum, 5, 50.0});
     structure.noise.push_back({LoopNoise::kHeatReleaseHum, 2, 60.0});
     structure.noise.push_back({LoopNoise::kFlameGain, 1, 0.0, 4.0});
-    const PointPrior prior = PriorOf(structure, spectra);
-    const LoopPoint start =
-        ToPoint(structure, spectra.flame.cols(), StartsOf(spectra, structure, prior, 4, 1).back());
-    LoopPoint point = start;
-    for (Eigen::Index h = 0; h < point.acoustic_lines.size(); ++h) {
-      point.acoustic_lines[h] = C(0.1, -0.2);
-    }
-    for (Eigen::Index h = 0; h < point.flame_lines.size(); ++h) point.flame_lines[h] = C(-0.3, 0.1);
-    if (structure.HasChanges()) {
-      point.changes = Eigen::Vector<double, kSlowColumns>::LinSpaced(-0.2, 0.3);
-    }
-    const Eigen::VectorXd at = ToParameters(structure, point);
-    const Eigen::VectorXd gradient = PointLikelihood(spectra, structure).Gradient(at);
-    // Without the determinant, by the matrices of derivatives that an information needs.
-    const Eigen::VectorXd of_whittle =
-        WhittleGradient(structure.noise, spectra.share, ResidualsOf(spectra, structure, point),
-                        DerivativesOf(spectra, structure, point));
-    const auto whittle = [&](const Eigen::VectorXd& parameters) {
-      return WhittleLogLikelihood(
-          structure.noise, spectra.share,
-          ResidualsOf(spectra, structure, ToPoint(structure, spectra.flame.cols(), parameters)));
-    };
-    const double scale = gradient.cwiseAbs().maxCoeff();
-    for (Eigen::Index i = 0; i < at.size(); ++i) {
-      constexpr double kStep = 1e-5;
-      Eigen::VectorXd above = at;
-      Eigen::VectorXd below = at;
-      above[i] += kStep;
-      below[i] -= kStep;
-      const double difference =
-          (LogLikelihood(spectra, structure, above) - LogLikelihood(spectra, structure, below)) /
-          (2.0 * kStep);
-      EXPECT_NEAR(gradient[i], difference, 1e-6 * scale + 1e-4 * std::abs(difference))
-          << "parameter " << i << " of " << at.size();
-      const double of_whittle_alone = (whittle(above) - whittle(below)) / (2.0 * kStep);
-      EXPECT_NEAR(of_whittle[i], of_whittle_alone, 1e-6 * scale + 1e-4 * std::abs(of_whittle_alone))
-          << "parameter " << i << " of " << at.size();
-    }
+    ExpectGradientOfDifferences(spectra, structure);
   }
+}
+
+// Of p's sensor's spectrum a part hangs on no coefficient, at each bin another one.
+TEST(Whittle, SoItIsWhereSamplesOfPressureWereLost) {
+  const Record record = SimulateModalLoop(DuctOfModes(2), 0.5, 1);
+  RecordSpectra spectra = MakeRecordSpectra(record, 203.0, FlameInput::kPressureRate);
+  const PointStructure structure = FreeStructure(2);
+  const PointPrior prior = PriorOf(structure, spectra);
+  const LoopPoint start =
+      ToPoint(structure, spectra.flame.cols(), StartsOf(spectra, structure, prior, 4, 1).back());
+  const auto sensor =
+      std::ranges::find(structure.noise, LoopNoise::kPressureSensor, &NoiseTerm::source);
+  const double level =
+      std::exp(start.noise[static_cast<std::size_t>(sensor - structure.noise.begin())][0]);
+  spectra.lost_pressure = level * (1.0 + spectra.position.array().square());
+  ExpectGradientOfDifferences(spectra, structure);
 }
 
 // A linear loop with R = x0 g + x1 h and F = x2 k + x3 l, whose residuals are drawn from all five
