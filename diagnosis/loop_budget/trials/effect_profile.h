@@ -97,6 +97,11 @@ class EffectProfile {
   // By the first parameters, `count` of them.
   std::vector<Slopes> SlopesAt(const EffectPoint& point, Eigen::Index count) const;
   std::vector<EffectPoint> BeginFromNull(const EffectPoint& null);
+  // Where Newton's steps from the null gain much, the maximum may lie outside what they know of: a
+  // second path of 0.22 whose delay the profile at the null said nothing for was 750 nats better
+  // than the best that they led to. The likeliest two, by the records' middles, of the second
+  // parameter's values with the first half its range from the null.
+  std::vector<EffectPoint> FarFrom(const EffectPoint& null);
   // A record which the effect makes less likely than none does may be at a lesser maximum: it
   // begins again from where it stands without.
   void AgainFromNull(const std::vector<Eigen::VectorXd>& at_null, EffectPoint* point);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -161,7 +162,42 @@ std::vector<EffectPoint> EffectProfile::BeginFromNull(const EffectPoint& null) {
   best.resize(std::min(best.size(), kMostFollowed));
   std::vector<EffectPoint> out;
   for (const Beside& each : best) out.push_back(At(each.u, each.starts));
+  if (!best.empty() && best[0].gain > kWorthAnother) {
+    std::ranges::move(FarFrom(null), std::back_inserter(out));
+  }
   if (out.empty()) out.push_back(null);
+  return out;
+}
+
+std::vector<EffectPoint> EffectProfile::FarFrom(const EffectPoint& null) {
+  const std::vector<Eigen::VectorXd> at_null = ParametersOf(null.fits);
+  const double at_rest = At(null.u, at_null, kToCompare, RecordExtent::kMiddle).log_posterior;
+  std::vector<EffectPoint> tried;
+  for (std::size_t i = 0; i < kScanned; ++i) {
+    Eigen::VectorXd u = null.u;
+    u[0] = std::min(u[0] + kLongestBegin * span_[0], high_[0]);
+    u[1] = low_[1] + span_[1] * static_cast<double>(i) / static_cast<double>(kScanned - 1);
+    tried.push_back(At(u, at_null, kToCompare, RecordExtent::kMiddle));
+    fprintf(stderr, "far %g %g\n", std::exp(u[1]), tried.back().log_posterior);
+  }
+  std::vector<EffectPoint> best;
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    const double here = tried[i].log_posterior;
+    const bool top = (i == 0 || here >= tried[i - 1].log_posterior) &&
+                     (i + 1 == tried.size() || here > tried[i + 1].log_posterior);
+    if (top && here > at_rest) best.push_back(tried[i]);
+  }
+  std::ranges::stable_sort(best, std::ranges::greater(), &EffectPoint::log_posterior);
+  best.resize(std::min(best.size(), kMostFollowed));
+  std::vector<EffectPoint> out;
+  for (const EffectPoint& each : best) {
+    std::vector<Eigen::VectorXd> whole;
+    for (std::size_t e = 0; e < records_.size(); ++e) {
+      whole.push_back(
+          BesideMiddle(records_.WholeAlone(form_, e), form_.structure, each.fits[e].parameters));
+    }
+    out.push_back(At(each.u, whole));
+  }
   return out;
 }
 
