@@ -160,6 +160,22 @@ TEST(SharedEffect, FindsASecondPathBeforeTheCurve) {
   EXPECT_NEAR(values[1], 1e-3, 8e-5);
 }
 
+// Newton's steps from the null foretell 9 nats, and lead to a path that is later by 0.5 ms.
+TEST(SharedEffect, FindsASecondPathFarFromItsNull) {
+  const LoopTrial best = BestOf(TrialsOn(Changed(0.8,
+                                                 [](ModalLoop* loop) {
+                                                   loop->share = 0.3;
+                                                   loop->later_s = 7e-3;
+                                                 }),
+                                         std::string(kSecondPathId)));
+  EXPECT_EQ(KeyOf(best.item), "second_delay_pathbefore_flame");
+  EXPECT_GT(best.gain, 60.0);
+  const std::vector<double> values = best.model.effects.back().values;
+  ASSERT_EQ(values.size(), 2u);
+  EXPECT_NEAR(values[0], 0.3, 0.06);
+  EXPECT_NEAR(values[1], 7e-3, 2e-4);
+}
+
 // The loop's own spread, behind the curve, is as good to first order.
 TEST(SharedEffect, FindsASpreadBeforeTheCurve) {
   const std::vector<LoopRecord> rig = Changed(1.6, [](ModalLoop* loop) { loop->spread_s = 3e-4; });
