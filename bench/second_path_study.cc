@@ -53,8 +53,10 @@ bool PrintRow(double duration_s, double share, double later_s) {
   const LoopFit from = DuctsFit(records, options);
   const LoopItem item = PathBeforeTheCurve();
   const double begun = Seconds();
-  const LoopTrial trial = TrySharedEffect(
-      records, from, StandingEvidence(records, from, "", options), item, "", options);
+  const double standing = StandingEvidence(records, from, "", options);
+  const LoopTrial trial =
+      TryFarFromNull(records, from, standing,
+                     TrySharedEffect(records, from, standing, item, "", options), "", options);
   const double taken_s = Seconds() - begun;
   EffectProfile profile(records, from, item, MaximumKnown::kClosely, "", options);
   const auto maximum = [&](const std::vector<double>& values,

@@ -40,31 +40,31 @@ std::string LoopsText(const RecordSolution& solution, const std::string& operati
   return out + "\n";
 }
 
+std::string LostLine(const std::string& of_what, double share, const std::string& what_becomes) {
+  return Wrapped(
+             of_what + " " + Significant(100.0 * share, 2) + " % of its samples, " + what_becomes,
+             2) +
+         "\n";
+}
+
 // What was lost of the records while a signal stood still, and of p beyond the ends of its range.
 std::string LostText(const RecordSolution& solution) {
   std::string out;
   for (std::size_t e = 0; e < solution.stuck.size(); ++e) {
     for (std::size_t channel = 0; channel < 2; ++channel) {
-      const double share = solution.stuck[e][channel];
-      if (share == 0.0) continue;
-      const std::string of = channel == 0 ? "p" : "q";
-      out += Wrapped(solution.names[e] + ": " + of + " stands still for " +
-                         Significant(100.0 * share, 2) + " % of its samples, " +
-                         (share <= kMostStuck
-                              ? "which are filled from the other signal"
-                              : "too many to be filled: the loop is one of what stands there"),
-                     2) +
-             "\n";
+      const double stuck = solution.stuck[e][channel];
+      if (stuck == 0.0) continue;
+      out += LostLine(
+          solution.names[e] + (channel == 0 ? ": p" : ": q") + " stands still for", stuck,
+          stuck <= kMostStuck ? "which are filled from the other signal"
+                              : "too many to be filled: the loop is one of what stands there");
     }
     const double clipped = solution.clipped[e];
     if (clipped == 0.0) continue;
-    out += Wrapped(solution.names[e] + ": p is clipped in " + Significant(100.0 * clipped, 2) +
-                       " % of its samples, " +
-                       (clipped <= kMostClipped
-                            ? "which are drawn from q and from what stands beside them"
-                            : "too many to be made good: the loop is one of what stands there"),
-                   2) +
-           "\n";
+    out += LostLine(solution.names[e] + ": p is clipped in", clipped,
+                    clipped <= kMostClipped
+                        ? "which are drawn from q and from what stands beside them"
+                        : "too many to be made good: the loop is one of what stands there");
   }
   return out;
 }

@@ -69,6 +69,16 @@ class EffectProfile {
   // the first from there, with the values of the second from which they gain more than from those
   // beside them, or the null where none gains.
   std::vector<EffectPoint> Begin(const std::vector<Eigen::VectorXd>& at_null);
+  // Where the second of two parameters tells nothing at the first's null, which is finite.
+  bool HasFarFromNull() const;
+  // What lies outside that which Newton's steps from the null know of. A path turns the cycle's
+  // phase, of which a loop knows its delay but for half periods, and so may have another delay than
+  // the likeliest without it. From the delay at the null and from those half a period beside it, by
+  // the records' middles: a row of the second parameter's values a quarter of the first's range
+  // from the null, and from its tops further from it, as long as that gains. The likeliest two. Of
+  // 48 rigs with a second path (bench/second_path_study) the likeliest maximum is missed on 4, by
+  // up to 770 nats where its share is 0.45; with Newton's steps alone on 19.
+  std::vector<EffectPoint> BeginFarFromNull(const std::vector<Eigen::VectorXd>& at_null);
   // Each operating point where it is likelier at another of its delay's maxima. An effect that
   // turns the cycle's phase far moves the best delay to another: a low-pass of q at 0.34 of the
   // cycle's frequency gained 12 000 nats from where the loop stood without it, and 81 000 with the
@@ -106,14 +116,6 @@ class EffectProfile {
   // The first parameter so much of its range from its null; the second at a place of a row of them.
   Eigen::VectorXd Far(double first, std::size_t second) const;
   std::vector<EffectPoint> BeginFromNull(const EffectPoint& null);
-  // Where Newton's steps from the null gain much, the maximum may lie outside what they know of: a
-  // path turns the cycle's phase, of which a loop knows its delay but for half periods, and so may
-  // have another delay than the likeliest without it. From the delay at the null and from those
-  // half a period beside it, by the records' middles: a row of the second parameter's values a
-  // quarter of the first's range from the null, and from its tops further from it, as long as that
-  // gains. Of 48 rigs with a second path (bench/second_path_study) the likeliest is missed on 4, by
-  // up to 770 nats where its share is 0.45; with Newton's steps alone on 19.
-  std::vector<EffectPoint> FarFrom(const EffectPoint& null);
   EffectPoint Higher(EffectPoint top, std::size_t second);
   // The same cycle with the flame's slope of the other sign, for half a period.
   std::vector<Eigen::VectorXd> Later(double radians, std::vector<Eigen::VectorXd> starts) const;

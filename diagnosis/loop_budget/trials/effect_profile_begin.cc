@@ -27,9 +27,7 @@ EffectPoint BetterAtEach(EffectPoint a, EffectPoint b) {
 std::vector<EffectPoint> EffectProfile::Begin(const std::vector<Eigen::VectorXd>& at_null) {
   const Eigen::VectorXd null = NullEnd();
   const EffectParameter& parameter = effect().parameters()[0];
-  if (null.size() > 1 && std::isfinite(parameter.null_value)) {
-    return BeginFromNull(At(null, at_null));
-  }
+  if (HasFarFromNull()) return BeginFromNull(At(null, at_null));
   std::vector<double> starts;
   const double factor = RangeFactor(effect(), parameter, records_);
   for (const double start : parameter.starts) starts.push_back(ToSearch(parameter, factor * start));
@@ -76,7 +74,7 @@ void EffectProfile::KeepBest(std::vector<EffectPoint>* points) {
 std::vector<EffectPoint> EffectProfile::OnWholeRecords(const std::vector<EffectPoint>& of_middles) {
   std::vector<std::vector<Eigen::VectorXd>> starts(of_middles.size());
   for (std::size_t e = 0; e < records_.size() && !starts.empty(); ++e) {
-    const RecordSpectra record = records_.WholeAlone(form_, e);
+    const RecordSpectra record = records_.Whole(form_, e);
     for (std::size_t k = 0; k < starts.size(); ++k) {
       starts[k].push_back(BesideMiddle(record, form_.structure, of_middles[k].fits[e].parameters));
     }

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/trials/effect_profile.h"
 
 namespace howl {
@@ -36,10 +34,11 @@ std::vector<std::size_t> TopsOf(const std::vector<double>& row, std::size_t coun
   return out;
 }
 
-// Less is no item's, near the null or far from it.
-double MostByChance() { return std::log(kOddsOfItem * static_cast<double>(AllLoopItems().size())); }
-
 }  // namespace
+
+bool EffectProfile::HasFarFromNull() const {
+  return span_.size() > 1 && std::isfinite(effect().parameters()[0].null_value);
+}
 
 Eigen::VectorXd EffectProfile::Far(double first, std::size_t second) const {
   const EffectParameter& parameter = effect().parameters()[1];
@@ -82,23 +81,19 @@ std::vector<EffectPoint> EffectProfile::BeginFromNull(const EffectPoint& null) {
     }
   }
   std::vector<EffectPoint> out;
-  double foretold = 0.0;
   for (const std::size_t i : TopsOf(gains, kMostFollowed)) {
-    if (!(gains[i] > 0.0)) continue;
-    foretold = std::max(foretold, gains[i]);
-    out.push_back(At(tried[i].u, tried[i].starts));
+    if (gains[i] > 0.0) out.push_back(At(tried[i].u, tried[i].starts));
   }
-  if (foretold > MostByChance()) std::ranges::move(FarFrom(null), std::back_inserter(out));
   if (out.empty()) out.push_back(null);
   return out;
 }
 
-std::vector<EffectPoint> EffectProfile::FarFrom(const EffectPoint& null) {
-  const std::vector<Eigen::VectorXd> at_null = ParametersOf(null.fits);
+std::vector<EffectPoint> EffectProfile::BeginFarFromNull(
+    const std::vector<Eigen::VectorXd>& at_null) {
   std::vector<EffectPoint> best;
   for (const double half_period : {0.0, -std::numbers::pi, std::numbers::pi}) {
     const EffectPoint there =
-        At(null.u, Later(half_period, at_null), kToCompare, RecordExtent::kMiddle);
+        At(NullEnd(), Later(half_period, at_null), kToCompare, RecordExtent::kMiddle);
     std::vector<EffectPoint> row;
     std::vector<double> posteriors;
     for (std::size_t i = 0; i < kScanned; ++i) {

@@ -17,7 +17,12 @@ LoopTrial TrySharedEffect(const LoopRecords& records, const LoopFit& from, doubl
                           const LoopItem& item, const std::string& key,
                           const LoopBudgetOptions& options);
 
-// Of items of any kind: those that are no shared effects first.
+// The likelier of a trial and of one that begins far from the effect's null (effect_profile.h).
+LoopTrial TryFarFromNull(const LoopRecords& records, const LoopFit& from, double standing,
+                         LoopTrial near, const std::string& key, const LoopBudgetOptions& options);
+
+// Of items of any kind: those that are no shared effects first. What is not far behind the best
+// trial is tried far from its null too.
 std::vector<LoopTrial> TryAll(const LoopRecords& records, const LoopFit& from, double standing,
                               const std::vector<LoopItem>& items, const std::string& key,
                               const LoopBudgetOptions& options);

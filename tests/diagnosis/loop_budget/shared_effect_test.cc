@@ -39,7 +39,9 @@ std::vector<LoopTrial> TrialsOn(const std::vector<LoopRecord>& rig, const std::s
   std::vector<LoopTrial> out;
   for (const LoopItem& item : AllLoopItems()) {
     if (item.kind != LoopItemKind::kSharedEffect || (!id.empty() && item.id != id)) continue;
-    out.push_back(TrySharedEffect(records, from, standing, item, "", options));
+    out.push_back(TryFarFromNull(records, from, standing,
+                                 TrySharedEffect(records, from, standing, item, "", options), "",
+                                 options));
   }
   return out;
 }
