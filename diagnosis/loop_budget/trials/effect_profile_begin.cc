@@ -13,7 +13,9 @@
 #include "estimation/record_fit/spectra/middle_part.h"
 
 namespace howl {
-namespace {  // Of each operating point the likelier fit, of two at the same values.
+namespace {
+
+// Of each operating point the likelier fit, of two at the same values.
 EffectPoint BetterAtEach(EffectPoint a, EffectPoint b) {
   for (std::size_t e = 0; e < a.fits.size(); ++e) {
     if (b.fits[e].log_posterior > a.fits[e].log_posterior) a.fits[e] = std::move(b.fits[e]);
