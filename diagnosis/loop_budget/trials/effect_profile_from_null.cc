@@ -45,7 +45,7 @@ Eigen::VectorXd EffectProfile::Far(double first, std::size_t second) const {
   const double low = FromSearch(parameter, low_[1]);
   const double way = static_cast<double>(second) / static_cast<double>(kScanned - 1);
   Eigen::VectorXd u = NullEnd();
-  u[0] += first * span_[0];
+  u[0] = std::min(u[0] + first * span_[0], high_[0]);
   // Evenly over the values themselves: maxima of a delay lie a period apart.
   u[1] = ToSearch(parameter, low + way * (FromSearch(parameter, high_[1]) - low));
   return u;
