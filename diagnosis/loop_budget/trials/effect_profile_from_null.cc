@@ -92,8 +92,11 @@ std::vector<EffectPoint> EffectProfile::BeginFarFromNull(
     const std::vector<Eigen::VectorXd>& at_null) {
   std::vector<EffectPoint> best;
   for (const double half_period : {0.0, -std::numbers::pi, std::numbers::pi}) {
-    const EffectPoint there =
-        At(NullEnd(), Later(half_period, at_null), kToCompare, RecordExtent::kMiddle);
+    const std::vector<Eigen::VectorXd> starts = Later(half_period, at_null);
+    // Where all delays are too short for an earlier one its row would be the first once more, and
+    // each top stand twice among the best.
+    if (half_period != 0.0 && starts == at_null) continue;
+    const EffectPoint there = At(NullEnd(), starts, kToCompare, RecordExtent::kMiddle);
     std::vector<EffectPoint> row;
     std::vector<double> posteriors;
     for (std::size_t i = 0; i < kScanned; ++i) {
