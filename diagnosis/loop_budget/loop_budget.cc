@@ -133,10 +133,7 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     const LoopStep& step = found.steps[i];
     BudgetEntry entry;
     entry.item = step.item.id;
-    if (step.item.effect) {
-      const EffectForm form = step.item.effect->form();
-      if (!form.key.empty()) entry.form = form.key + " " + form.value;
-    }
+    entry.form = FormOf(step.item);
     entry.gap_before = before;
     entry.gap_after = ceiling.Gap(after[i]);
     before = entry.gap_after;

@@ -77,7 +77,9 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
   switch (item.kind) {
     case LoopItemKind::kNoise:
       add("amplitude", "", [&](const RecordSpectra& record, const LoopPoint& point) {
-        return RelativeAmplitude(record, fit.model.structure, point, item.noise.source);
+        const double of_signal =
+            RelativeAmplitude(record, fit.model.structure, point, item.noise.source);
+        return item.noise.before_curve ? of_signal / AnswerToGain(item.noise, record) : of_signal;
       });
       if (HasLines(item.noise.source)) {
         const double hz = item.noise.line_hz;

@@ -20,7 +20,7 @@ namespace howl {
 
 struct BudgetEntry {
   std::string item;  // loop_item.h
-  std::string form;  // of an effect that has several, as configs tell it: "side before_flame"
+  std::string form;  // of an item that has several, as configs tell it: "side before_flame"
   double gap_before = 0.0;
   double gap_after = 0.0;
   // What is lost when this item alone is taken away and the rest fitted anew.

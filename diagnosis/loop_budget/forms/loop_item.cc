@@ -86,10 +86,12 @@ std::vector<LoopItem> MakeItems() {
   out.push_back({.id = "flame_line_errors",
                  .kind = LoopItemKind::kLineErrors,
                  .lines = &PointStructure::flame_lines});
-  for (const double memory_cycles : kGainMemories) {
-    out.push_back({.id = "parametric_noise",
-                   .kind = LoopItemKind::kNoise,
-                   .noise = {LoopNoise::kFlameGain, 1, 0.0, memory_cycles}});
+  for (const bool before_curve : {false, true}) {
+    for (const double memory_cycles : kGainMemories) {
+      out.push_back({.id = "parametric_noise",
+                     .kind = LoopItemKind::kNoise,
+                     .noise = {LoopNoise::kFlameGain, 1, 0.0, memory_cycles, before_curve}});
+    }
   }
   for (const EffectPointer& effect : SharedEffects()) {
     out.push_back(SharedItem(effect));
@@ -144,13 +146,21 @@ std::vector<std::string> LoopItemIds() {
   return out;
 }
 
+std::string FormOf(const LoopItem& item) {
+  if (item.noise.before_curve) return "side before_flame";
+  if (!item.effect) return "";
+  const EffectForm form = item.effect->form();
+  return form.key.empty() ? "" : form.key + " " + form.value;
+}
+
 std::string KeyOf(const LoopItem& item) {
   if (IsHum(item.noise.source)) {
     return item.id + "_" + std::string(LoopNoiseName(item.noise.source)) + "_" +
            std::to_string(std::lround(item.noise.line_hz));
   }
   if (item.noise.source == LoopNoise::kFlameGain) {
-    return item.id + std::to_string(std::lround(item.noise.memory_cycles));
+    return item.id + std::to_string(std::lround(item.noise.memory_cycles)) +
+           (item.noise.before_curve ? "before" : "");
   }
   return item.id + (item.effect ? item.effect->form().value : "");
 }

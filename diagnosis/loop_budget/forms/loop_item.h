@@ -6,7 +6,8 @@
 //   mains_hum                        lines at multiples of 50 or 60 Hz in one of the channels, or
 //                                    the one of them at which p stands out (tone.h)
 //   external_tone                    another source drives the duct at one frequency (tone.h)
-//   parametric_noise                 the flame's gain fluctuates (noise_shape.h)
+//   parametric_noise                 the flame's gain fluctuates, behind its curve or before it
+//                                    (noise_shape.h)
 //   noise_shape                      spectra of sources have twice as many coefficients: peaks half
 //                                    an octave wide
 //   mode_detuning                    the modes' frequencies are free of the base's ratio
@@ -81,6 +82,8 @@ struct LoopItem {
 std::vector<std::string> LoopItemIds();
 // Where in the loop it lies.
 LoopBlock BlockOf(const LoopItem& item);
+// Of an item that has several, as configs tell it: "side before_flame"; else empty.
+std::string FormOf(const LoopItem& item);
 // In keys of finished units (fit_units.h): forms of one effect are different items.
 std::string KeyOf(const LoopItem& item);
 

@@ -2,14 +2,29 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "diagnosis/held_out/band_errors.h"
 #include "diagnosis/held_out/record_signals.h"
 #include "estimation/analysis/spectra/half_of_record.h"
 #include "estimation/parallel.h"
+#include "estimation/record_fit/spectra/curve_exponents.h"
 
 namespace howl {
+
+namespace {
+
+void SetCurveExponents(const Eigen::VectorXd& exponents, RecordSpectra* record) {
+  record->curve_exponents = exponents;
+  if (!record->middle) return;
+  RecordSpectra middle = *record->middle;
+  middle.curve_exponents = exponents;
+  record->middle = std::make_shared<const RecordSpectra>(std::move(middle));
+}
+
+}  // namespace
 
 LoopRecords::LoopRecords(const std::vector<LoopRecord>& records, int threads) {
   CHECK(!records.empty());
@@ -60,11 +75,20 @@ void LoopRecords::DriveWithout(const LoopForm& form, const std::vector<Eigen::Ve
     drive(&spectra.halves[e][0], 0);
     drive(&spectra.halves[e][1], spectra.halves[e][0].Samples());
   });
+  curve_exponents_.assign(size(), {});
+  RunUnits(size(), threads, [&](std::size_t e) {
+    curve_exponents_[e] = CurveExponents(WholeAlone(form, e), fitted_[e].flame);
+  });
 }
 
 RecordSpectra LoopRecords::Prepared(RecordSpectra record, const LoopForm& form, std::size_t e,
                                     const DriftRange& drift) const {
   record = RecordBeside(std::move(record), form.effects);
+  // A curve of another input is not known.
+  if (!fitted_.empty() && form.flame_input == fitted_input_ &&
+      std::ranges::any_of(form.structure.noise, &NoiseTerm::before_curve)) {
+    SetCurveExponents(curve_exponents_[e], &record);
+  }
   if (!form.structure.HasChanges()) return record;
   if (fitted_.empty()) {
     SetSlowSignals(form.structure, nullptr, drift, &record);

@@ -47,7 +47,8 @@ class LoopRecords {
 
   // From now on the flames are driven by p without this noise of each point, which the points tell
   // as `form` has them (PressureNoiseOf), and these loops of that form say what slow changes there
-  // may be (slow_signals.h).
+  // may be (slow_signals.h), and what a gain before the flame's curve makes of the cycle's
+  // harmonics (curve_exponents.h).
   void DriveWithout(const LoopForm& form, const std::vector<Eigen::VectorXd>& noise,
                     std::vector<LoopPoint> fitted, int threads);
 
@@ -66,7 +67,9 @@ class LoopRecords {
   std::vector<double> length_s_;
   std::array<Spectra, 3> spectra_;
   std::vector<std::array<Eigen::VectorXd, 2>> foretold_errors_;
-  std::vector<LoopPoint> fitted_;  // none before a loop was fitted
+  // None before a loop was fitted.
+  std::vector<LoopPoint> fitted_;
+  std::vector<Eigen::VectorXd> curve_exponents_;
   FlameInput fitted_input_ = FlameInput::kPressureRate;
 };
 

@@ -108,6 +108,9 @@ struct RecordSpectra {
   // That were taken out of the record: noise that came in behind them was divided by them.
   TransferFunction pressure_instrument, heat_release_instrument;
   SlowSignals slow;  // where they have been set
+  // How the cycle's harmonics follow what drives the flame's curve (curve_exponents.h); empty where
+  // no loop has told: as the answer itself does.
+  Eigen::VectorXd curve_exponents;
   // A part that is enough to compare starts (middle_part.h); of a short record none.
   std::shared_ptr<const RecordSpectra> middle;
 

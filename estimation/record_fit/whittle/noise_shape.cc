@@ -4,11 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "estimation/record_fit/spectra/curve_exponents.h"
+
 namespace howl {
 namespace {
-
-// Of the cycle's frequency: as far as its lines reach (loop_point.h).
-constexpr double kBesideCycle = 0.06;
 
 // The k-th of a term's lines. Which they are does not hang on the length of the part of a record
 // that is looked at.
@@ -35,18 +34,38 @@ Eigen::VectorXd LinesShape(const NoiseTerm& term, const RecordSpectra& record) {
   return out;
 }
 
+// Of the lines of q that the band holds, from the cycle's own on.
+Eigen::VectorXd LinePowers(const RecordSpectra& record) {
+  const Eigen::VectorXd x = record.s.imag();
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(x[x.size() - 1]));
+  for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
+    const double at = record.edge_s[i].imag();
+    const Eigen::Index line = std::lround(at);
+    if (line < 1 || line > out.size()) continue;
+    if (std::abs(at - static_cast<double>(line)) < kBesideCycle) {
+      out[line - 1] += std::norm(record.heat_release[i]);
+    }
+  }
+  return out;
+}
+
+// What a gain that moves by one adds to each of them.
+Eigen::VectorXd PowersByGain(const NoiseTerm& gain, const RecordSpectra& record) {
+  Eigen::VectorXd out = LinePowers(record);
+  if (!gain.before_curve) return out;
+  const Eigen::Index known = std::min(out.size(), record.curve_exponents.size());
+  out.head(known).array() *= record.curve_exponents.head(known).array().square();
+  return out;
+}
+
 Eigen::VectorXd BesideCycle(const NoiseTerm& term, const RecordSpectra& record) {
   const double width = 1.0 / (2.0 * std::numbers::pi * term.memory_cycles);
+  const Eigen::VectorXd powers = PowersByGain(term, record);
   const Eigen::VectorXd x = record.s.imag();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
-  for (double line = 1.0; line < x[x.size() - 1]; line += 1.0) {
-    double power = 0.0;
-    for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
-      if (std::abs(record.edge_s[i].imag() - line) < kBesideCycle) {
-        power += std::norm(record.heat_release[i]);
-      }
-    }
-    out.array() += power * width / (width * width + (x.array() - line).square());
+  for (Eigen::Index k = 0; k < powers.size(); ++k) {
+    const auto line = static_cast<double>(k + 1);
+    out.array() += powers[k] * width / (width * width + (x.array() - line).square());
   }
   return out / out.mean();
 }
@@ -99,6 +118,10 @@ Eigen::MatrixXd LogSpectrumColumns(const NoiseTerm& term, const RecordSpectra& r
     if (k >= 0 && k < Lines(term)) out(i, 1 + k) = 1.0;
   }
   return out;
+}
+
+double AnswerToGain(const NoiseTerm& gain, const RecordSpectra& record) {
+  return std::sqrt(PowersByGain(gain, record).sum() / LinePowers(record).sum());
 }
 
 Eigen::VectorXd LostPower(const NoiseTerm& term, const RecordSpectra& record) {

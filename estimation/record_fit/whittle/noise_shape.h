@@ -13,10 +13,12 @@
 // A gain that fluctuates about its mean, and forgets exponentially, moves what each of the cycle's
 // lines Q_h holds to its sides (as does one that jumps between two values at random times):
 //
-//   w(f) = sum over h of |Q_h|^2 g / (g^2 + (f - h f_c)^2),   g = f_c / (2 pi memory),
+//   w(f) = sum over h of |k_h Q_h|^2 g / (g^2 + (f - h f_c)^2),   g = f_c / (2 pi memory),
 //
-// with 1 as its mean over the band. Noise and hum that come in behind an instrument which was taken
-// out of the record have 1 / |H|^2 of it as well. Of all other sources w is one.
+// with 1 as its mean over the band. Of a gain behind the flame's curve k is one, of a gain of what
+// drives it the curve's exponent (curve_exponents.h). Noise and hum that come in behind an
+// instrument which was taken out of the record have 1 / |H|^2 of it as well. Of all other sources w
+// is one.
 //
 // Errors of samples in the place of lost ones of p add to p's sensor at each bin what is known of
 // them, and hang on no coefficient: d ln S / d c_k is b_k times the coefficients' share of S there.
@@ -35,6 +37,9 @@ Eigen::VectorXd NoiseShape(const NoiseTerm& term, const RecordSpectra& record);
 
 // b_k at the record's bins, one column each.
 Eigen::MatrixXd LogSpectrumColumns(const NoiseTerm& term, const RecordSpectra& record);
+
+// What a gain that moves by one moves q by, over q.
+double AnswerToGain(const NoiseTerm& gain, const RecordSpectra& record);
 
 // The power of those errors at the record's bins, where they add to this source; empty where they
 // add nothing.

@@ -48,6 +48,7 @@ struct NoiseTerm {
   Eigen::Index coefficients = 1;
   double line_hz = 0.0;        // of hum the first of its lines, of a tone its frequency
   double memory_cycles = 0.0;  // of a gain: how long it stays what it is
+  bool before_curve = false;   // of a gain: of what drives the flame's curve, not of its answer
 };
 
 inline bool IsHum(LoopNoise source) {

@@ -51,7 +51,8 @@ struct ModalLoop {
   double gain_per_amplitude = 0.0;   // of the flame's answer, added to one
   double frequency_span = 0.0;       // of omega, from the record's start to its end
   double gain_rms = 0.0;             // of the flame's answer, relative: it fluctuates
-  double gain_memory_s = 0.02;
+  double input_gain_rms = 0.0;       // of what drives the flame's curve
+  double gain_memory_s = 0.02;       // of both
   double slope = 0.0;
   double range = 1000.0;
   double noise = 0.1;          // of q at saturation, root mean square
@@ -177,6 +178,7 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
   double q = 0.0;
   double square = 0.0;
   double gain = 0.0;
+  double input_gain = 0.0;
   for (std::size_t i = 0; i < settle + steps; ++i) {
     const double added = loop.damping_per_square * square;
     const double place =
@@ -213,11 +215,14 @@ inline Record SimulateModalLoop(const ModalLoop& loop, double duration_s, std::u
     };
     double v = 0.0;
     for (const Part& part : parts) v += part.share * before(delay - sooner + part.later);
+    const double keep = std::exp(-h / loop.gain_memory_s);
+    const auto wander = [&](double rms, double* of) {
+      if (rms > 0.0) *of = keep * *of + std::sqrt(1.0 - keep * keep) * rms * random.Normal();
+    };
+    wander(loop.input_gain_rms, &input_gain);
+    v *= 1.0 + input_gain;
     burning += lag * (-loop.slope * loop.range * std::tanh(v / loop.range) - burning);
-    if (loop.gain_rms > 0.0) {
-      const double keep = std::exp(-h / loop.gain_memory_s);
-      gain = keep * gain + std::sqrt(1.0 - keep * keep) * loop.gain_rms * random.Normal();
-    }
+    wander(loop.gain_rms, &gain);
     const double follows = 1.0 + loop.gain_per_amplitude * std::sqrt(square);
     const double next = (1.0 + gain) * follows * burning + drawn;
     const double mean = 0.5 * (q + next);
