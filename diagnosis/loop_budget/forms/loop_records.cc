@@ -13,7 +13,6 @@
 #include "estimation/record_fit/spectra/curve_exponents.h"
 
 namespace howl {
-
 namespace {
 
 void SetCurveExponents(const Eigen::VectorXd& exponents, RecordSpectra* record) {
