@@ -223,8 +223,10 @@ TEST(SharedEffect, FindsAResonanceOfThePressureSensor) {
 // A signal without a mean, which a high-pass leaves none of, tells the loop all the same. Free
 // modes with complex residues do much of what a high-pass does: what it gains beside them is what
 // an item must gain to come in.
+// Of 30 Hz that of p is worth 16 nats in records as short as these, as a weak second path is: the
+// last digits of linear algebra would choose between them.
 TEST(SharedEffect, FindsHighPassesOfEitherSensor) {
-  constexpr double kCutoff_hz = 30.0;
+  constexpr double kCutoff_hz = 60.0;
   const auto response = [](double hz) {
     return std::complex<double>(0.0, hz) / std::complex<double>(kCutoff_hz, hz);
   };
