@@ -121,10 +121,9 @@ struct RecordSpectra {
   Eigen::Index Samples() const { return std::lround(sampling_hz / bin_hz); }
   // Over the record's time, evenly: where its flame's functions are taken, however finely it was
   // sampled. Of what a curve makes only that is taken for the band's which lies beyond twice the
-  // input's highest frequency, or one and a half times where the sampling ends both. A Fourier
-  // transform of this length is fast.
+  // input's highest frequency. A Fourier transform of this length is fast.
   Eigen::Index Instants() const {
-    return SmoothLengthFrom(std::lround(2.5 * static_cast<double>(driving.size() - 1)));
+    return SmoothLengthFrom(2 * (driving.size() - 1) + below.size() + bins());
   }
   // What a state of one unit, that begins with the record, has in its spectrum but for 1 / s.
   double OneSample() const {
