@@ -1,13 +1,15 @@
 #include "model/numerics/parallel_for.h"
 
-#ifdef __SANITIZE_THREAD__
 #include <algorithm>
+
+#ifdef __SANITIZE_THREAD__
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 #else
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -55,7 +57,9 @@ void ParallelFor(std::size_t count, const std::function<void(std::size_t)>& unit
 }
 
 void ParallelFor(std::size_t count, int threads, const std::function<void(std::size_t)>& unit) {
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  // More than the cores that the process may use would have libtbb warn of it on standard error.
+  const int most = tbb::info::default_concurrency();
+  tbb::task_arena arena(threads > 0 ? std::min(threads, most) : most);
   arena.execute([&] { ParallelFor(count, unit); });
 }
 

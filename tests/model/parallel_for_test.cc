@@ -1,7 +1,10 @@
 #include "model/numerics/parallel_for.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 
+#include <cstdlib>
 #include <stdexcept>
 #include <vector>
 
@@ -35,6 +38,24 @@ TEST(ParallelFor, UnitsRunUnitsOfTheirOwnOnTheCallersThreads) {
   for (const std::vector<int>& row : runs) {
     for (const int count : row) EXPECT_EQ(count, 1);
   }
+}
+
+// libtbb warns on standard error, once a process, where more is asked of it than it has.
+TEST(ParallelForDeathTest, SaysNothingWhereTheProcessHasOneCore) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto on_one_core = [] {
+    cpu_set_t all;
+    cpu_set_t one;
+    sched_getaffinity(0, sizeof all, &all);
+    CPU_ZERO(&one);
+    for (int core = 0; CPU_COUNT(&one) == 0; ++core) {
+      if (CPU_ISSET(core, &all)) CPU_SET(core, &one);
+    }
+    sched_setaffinity(0, sizeof one, &one);
+    ParallelFor(kUnits, 4, [](std::size_t) {});
+    std::exit(0);
+  };
+  EXPECT_EXIT(on_one_core(), testing::ExitedWithCode(0), testing::Eq(""));
 }
 
 }  // namespace
