@@ -21,7 +21,8 @@ constexpr double kHighestOfCycle = 6.4;
 // Of the sampling rate, where that ends the band first. From there on an anti-alias filter takes
 // from p and from q alike. What is linear does not notice, but a curve of p that lacks a hundredth
 // of a harmonic is not the curve of p that lacks it: with bands to 0.4 spread delays and second
-// paths were seen where there are none (bench/band_end_study).
+// paths were seen where there are none (bench/band_end_study.py, in which p drives the flame up to
+// 0.4 as well).
 constexpr double kHighestOfSampling = 0.35;
 constexpr double kInputOfSampling = 0.4;
 // Of the band's upper end: how far the flame's input reaches. A flame that is nearly a switch
