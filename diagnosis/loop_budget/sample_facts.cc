@@ -132,7 +132,7 @@ bool RestCanBeFound(const std::vector<SampleFact>& facts) {
 
 bool CanBeRepaired(const std::vector<SampleFact>& facts) {
   return !RestCanBeFound(facts) && std::ranges::none_of(facts, [](const SampleFact& fact) {
-    return fact.effect.ends_with("dropouts");
+    return fact.effect == "q_clipping" || fact.effect.ends_with("dropouts");
   });
 }
 

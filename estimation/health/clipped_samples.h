@@ -1,8 +1,9 @@
 // Samples of p that a converter, or an amplifier before it, cut off at the ends of its range. They
 // are drawn from what q and the samples beside them tell (draw_clipped.h), and the loop is fitted
 // to what comes of it, with the power of their errors as noise of p's sensor. q cannot be made good
-// in this way: a flame is not linear, so that of q p tells too little. Where noise came to p behind
-// the range, its samples do not say which were lost, and stay.
+// in this way: the acoustics turn p's noise into more than what is known of q's cycle
+// (docs/validation.md). Where noise came to p behind the range, its samples do not say which were
+// lost, and stay.
 #ifndef HOWL_ESTIMATION_HEALTH_CLIPPED_SAMPLES_H_
 #define HOWL_ESTIMATION_HEALTH_CLIPPED_SAMPLES_H_
 

@@ -302,6 +302,28 @@ TEST(Diagnose, WhatNeedsRecordsIsAMistakeOnATable) {
   }
 }
 
+// What was lost of q is not put back, and nothing is named beside it.
+TEST(Diagnose, AClippedHeatReleaseIsTheWholeAnswer) {
+  const TemporaryFolder folder;
+  std::string rig = kRig;
+  rig.replace(rig.find("duration_s: 1.7"), 15,
+              "duration_s: 1.7, effects: [{effect: q_clipping, fraction: 0.8}]");
+  const std::string config = folder.Write("rig.yaml", rig).string();
+  const std::string records = (folder.path() / "rig").string();
+  ASSERT_EQ(RunHowl("simulate " + config + " --quiet --out " + records).status, 0);
+  const std::string out = (folder.path() / "out").string();
+  const ProgramResult run = RunHowl("diagnose " + records + "/records.yaml --out " + out);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, testing::HasSubstr("verdict: q_clipping ("));
+  EXPECT_THAT(run.out, testing::HasSubstr("next: record again, within the converter's range"));
+  const auto found = nlohmann::json::parse(ReadFile(out + "/diagnosis.json"));
+  EXPECT_EQ(found.at("verdict").at("effect"), "q_clipping");
+  EXPECT_TRUE(found.at("verdict").at("indistinguishable").empty());
+  EXPECT_EQ(found.at("candidates").size(), 1u);
+  ASSERT_EQ(found.at("seen_in_samples").size(), 1u);
+  EXPECT_GT(found.at("seen_in_samples")[0].at("value").get<double>(), 0.2);
+}
+
 // Before any measurement the records are simulated from the table's fit.
 TEST(Diagnose, APlanIsMadeForATableAndForRecords) {
   const TemporaryFolder folder;
