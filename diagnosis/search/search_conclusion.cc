@@ -20,8 +20,8 @@ namespace {
 constexpr double kSlackOfASecond = 0.3;
 
 // Odds of clipped q with a second effect over clipped q alone, where the second may be an artefact
-// of the rough repair of q: one of 38 such seconds was true (results/trial), and three of seven
-// that took more off than the clipping's repair itself is wrong by (docs/validation.md).
+// of the rough repair of q: of 38 with small gains one was true (results/trial), of seven with
+// large gains three (docs/validation.md), 4 to 41 together.
 constexpr double kSpuriousOdds = 0.1;
 
 bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
