@@ -25,9 +25,7 @@
 #include "app/process/interruption.h"
 #include "app/process/progress_line.h"
 #include "app/text/diagnose_text.h"
-#include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/loop_budget/sample_facts.h"
 #include "io/config/reading/config_reading.h"
 #include "io/results/diagnosis_json.h"
 #include "io/whole_file.h"
@@ -85,30 +83,13 @@ bool LooksForOneCause(const Config& config, const Options& options) {
                                        [](const auto& each) { return each->IsOneTransfer(); });
 }
 
-// Whether clipping or few levels have changed the samples, so that no likelihood of a loop holds
-// for them, and the search for one cause can make that good.
-bool RepairComesFirst(const std::vector<NamedRecord>& read, const Options& options) {
-  std::vector<LoopRecord> records;
-  for (const NamedRecord& each : read) {
-    if (each.record.heat_release.empty()) return false;
-    records.push_back({each.name, each.phi, 0.0, each.record});
-  }
-  if (!CanBeRepaired(SampleFactsOf(records, Withheld(options)))) return false;
-  std::vector<DiagnosisExperiment> experiments;
-  for (LoopRecord& each : records) {
-    experiments.push_back({std::move(each.name), each.operating_parameter, std::move(each.record)});
-  }
-  return !FindCutObstacle(experiments);
-}
-
 int RunDiagnoseCommand(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   if (config.record_loop) return RunLoopDiagnosis(config, options, LoadRecords(config));
   const std::optional<Shard> shard = ShardOfReplicates(options);
   std::vector<NamedRecord> records;
   if (HasRecords(config) && !options.Has("--plan")) records = LoadRecords(config);
-  if (!records.empty() && !LooksForOneCause(config, options) &&
-      (options.Has("--with") || !RepairComesFirst(records, options))) {
+  if (!records.empty() && !LooksForOneCause(config, options)) {
     return RunLoopDiagnosis(config, options, std::move(records));
   }
   if (options.Has("--with")) {

@@ -90,8 +90,8 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
           "verdict: unknown; no effect of the catalogue explains the gap (probability "
           "%.2f)\n",
           diagnosis.probability_unknown);
-      for (const std::string& remark : RemarksOnUnknown(diagnosis.repaired, diagnosis.together)) {
-        std::printf("  %s\n", remark.c_str());
+      if (!diagnosis.together.empty()) {
+        std::printf("  %s\n", RemarkOnTogether(diagnosis.together).c_str());
       }
       break;
     case VerdictKind::kEffect:

@@ -34,10 +34,6 @@ bool ShowsInFlame(const Attempt& attempt) {
   return attempt.fit && attempt.fit->effect->ChangesFlameCut();
 }
 
-const std::vector<CutRecord>& AsRecorded(const AttemptContext& at) {
-  return at.recorded ? *at.recorded : *at.records;
-}
-
 double NoiseGivenReference(const AttemptContext& at) { return at.reference ? kNearNoise : 0.0; }
 
 bool ShowsLimits(const AttemptContext& at, Channel channel) {
@@ -47,7 +43,7 @@ bool ShowsLimits(const AttemptContext& at, Channel channel) {
       known && (pressure ? known->pressure_sharp_edge : known->heat_release_sharp_edge);
   const bool known_levels = known && known->quantisation_levels > 0.0;
   return (!known_edge && HasSharpEdge(*at.records, channel)) ||
-         (pressure && !known_levels && FindQuantisation(AsRecorded(at)).found);
+         (pressure && !known_levels && FindQuantisation(*at.records).found);
 }
 
 EstimatedParameter WithoutError(const std::string& name, double value, const std::string& unit) {

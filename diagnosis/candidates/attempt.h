@@ -4,8 +4,6 @@
 #ifndef HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_
 #define HOWL_DIAGNOSIS_CANDIDATES_ATTEMPT_H_
 
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,9 +22,8 @@ namespace howl {
 struct Attempt {
   Candidate candidate;
   EffectKind kind = EffectKind::kTransfer;
-  // Where the attempt joins two or three effects: the blocks of those after the first, and the gain
-  // of the last.
-  std::vector<LoopBlock> also;
+  // Where the attempt joins another effect to a line: that one's block and gain.
+  std::optional<LoopBlock> also;
   double second_gain = 0.0;
   std::vector<ExperimentFit> held_out;
   bool without_lines = false;
@@ -37,13 +34,6 @@ struct Attempt {
   // crude form that the catalogue gives the effect.
   bool confirmed = false;
   bool model_free = false;  // detected in the samples themselves, without a model
-  // The second of two effects brings no more than the errors of the first's rough repair may bring.
-  bool may_be_spurious = false;
-  // The records without the effect, where it was taken out of the samples.
-  std::vector<DiagnosisExperiment> repaired;
-  // The records that this is a fit to, where p's plateaus were declipped under the fit itself
-  // (search_repair.cc).
-  std::shared_ptr<const std::vector<CutRecord>> redeclipped;
 };
 
 // What all attempts share: the records, the fit of the loop with no effect, and what goes with
@@ -54,17 +44,8 @@ struct AttemptContext {
   const std::vector<DiagnosisExperiment>* experiments = nullptr;
   std::vector<ExperimentFit> base_held_out;
   FitUnits* memory = nullptr;
-  const ReferenceModel* reference = nullptr;         // in the model's place; null: there is none
-  const std::vector<CutRecord>* recorded = nullptr;  // before a repair; null: records
-  // After a repair: takes a fit to records that the base declipped, and returns one to records that
-  // were declipped under that fit itself.
-  std::function<EffectFit(const EffectFit&)> refit = {};
+  const ReferenceModel* reference = nullptr;  // in the model's place; null: there is none
 };
-
-// A fit to the records that the base declipped is fitted anew to records declipped under itself if
-// it has at least this share of the best candidate's gain. The new fit raises the gain, and in
-// trials never doubled it.
-inline constexpr double kWorthRedeclipping = 0.3;
 
 // An effect with several forms (orders of a filter, say): the best of them. unit: the name under
 // which the memory keeps the fits (fit_memory.h).
@@ -87,9 +68,6 @@ Attempt Named(const AttemptContext& at, const Effect& effect);
 // B at all.
 bool ShowsInFlameAlone(const Attempt& attempt);
 bool ShowsInFlame(const Attempt& attempt);
-
-// The records before any repair: quantisation levels are those of the samples as recorded.
-const std::vector<CutRecord>& AsRecorded(const AttemptContext& at);
 
 // The gain that noise may give where a reference takes the model's place: no replicate of a
 // reference can be simulated to measure it. Zero without a reference.

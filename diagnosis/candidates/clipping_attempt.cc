@@ -1,5 +1,3 @@
-#include <glog/logging.h>
-
 #include "diagnosis/candidates/attempt.h"
 #include "diagnosis/records/channel_signal.h"
 #include "diagnosis/samples/static_map.h"
@@ -30,16 +28,6 @@ Attempt TryClipping(const AttemptContext& at, const Effect& effect) {
   }
   out.model_free = clipping.sharp_edge;
   out.confirmed = clipping.sharp_edge || clipping.plateau_noise < kPlateauNoise;
-  if (clipping.sharp_edge) {
-    CHECK(!pressure) << "an edge in p is repaired before the search (search_repair.cc)";
-    out.repaired = *at.experiments;
-    for (std::size_t e = 0; e < out.repaired.size(); ++e) {
-      const Eigen::VectorXd& signal = clipping.repaired[e];
-      Record& record = out.repaired[e].record;
-      record.pressure.resize(static_cast<std::size_t>(signal.size()));
-      record.heat_release.assign(signal.data(), signal.data() + signal.size());
-    }
-  }
   out.parameters = kClippingShapes * static_cast<double>(out.held_out.size());
   return out;
 }

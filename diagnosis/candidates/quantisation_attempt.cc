@@ -5,7 +5,7 @@ namespace howl {
 
 Attempt TryQuantisation(const AttemptContext& at, const Effect& effect) {
   Attempt out = Named(at, effect);
-  FewLevels found = FindQuantisation(AsRecorded(at));
+  FewLevels found = FindQuantisation(*at.records);
   if (at.reference && at.reference->quantisation_levels > 0.0) {
     found.found &= found.levels < 0.67 * at.reference->quantisation_levels;
   }

@@ -109,24 +109,14 @@ std::vector<BlockSlack> Localise(const AttemptContext& at, const std::vector<Coh
   if (at.records->size() > 2) {
     add(FreePoint((*at.records)[OddOne(*at.base)].at.phi_position));
   }
-  std::vector<EffectFit> fits(forms.size());
   std::vector<BlockSlack> out(forms.size() + 2);
   RunUnits(out.size(), threads, [&](std::size_t i) {
     if (i >= forms.size()) {
       out[i] = OfMap(at, i == forms.size() ? Channel::kPressure : Channel::kHeatRelease);
       return;
     }
-    fits[i] = FitEffect(*at.records, forms[i], *at.base);
-    out[i] = OfForm(at, fits[i]);
+    out[i] = OfForm(at, FitEffect(*at.records, forms[i], *at.base));
   });
-  if (at.refit) {
-    double best = 0.0;
-    for (const BlockSlack& slack : out) best = std::max(best, slack.gain);
-    RunUnits(forms.size(), threads, [&](std::size_t i) {
-      if (!forms[i]->ChangesAcousticCut() || out[i].gain <= kWorthRedeclipping * best) return;
-      out[i] = OfForm(at, at.refit(fits[i]));
-    });
-  }
   const AdditiveGain additive = FitFreeAdditive(*at.records, *at.base);
   const auto paid = [&](LoopBlock block, const std::string& form, double gain) {
     out.push_back({block, form, gain - PriceOfParameters(additive.parameters), false,

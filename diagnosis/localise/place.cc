@@ -54,9 +54,7 @@ std::vector<Place> FindPlaces(const std::vector<CutRecord>& records,
     for (Score& score : scores) {
       score.gain = 0.0;
       for (const Attempt& attempt : attempts) {
-        const auto& also = attempt.also;
-        if (attempt.candidate.block == score.block ||
-            std::find(also.begin(), also.end(), score.block) != also.end()) {
+        if (attempt.candidate.block == score.block || attempt.also == score.block) {
           score.gain += attempt.candidate.probability;
         }
       }

@@ -15,6 +15,7 @@
 #include "diagnosis/loop_budget/loop_places.h"
 #include "diagnosis/loop_budget/sample_facts.h"
 #include "diagnosis/loop_budget/why_unknown.h"
+#include "diagnosis/verdict/advice.h"
 #include "diagnosis/verdict/calibration.h"
 
 namespace howl {
@@ -149,8 +150,7 @@ void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
 
 std::string AdviceOf(const Diagnosis& diagnosis) {
   if (!RestCanBeFound(diagnosis.budget->seen_in_samples)) {
-    return "record again, within the converter's range and with finer steps: whatever is fitted to "
-           "such samples speaks of what was done to them";
+    return kRecordAgain;
   }
   const std::string& model = diagnosis.budget->best_model;
   switch (diagnosis.kind) {

@@ -130,12 +130,6 @@ bool RestCanBeFound(const std::vector<SampleFact>& facts) {
   return std::ranges::all_of(facts, &SampleFact::rest_can_be_found);
 }
 
-bool CanBeRepaired(const std::vector<SampleFact>& facts) {
-  return !RestCanBeFound(facts) && std::ranges::none_of(facts, [](const SampleFact& fact) {
-    return fact.effect == "q_clipping" || fact.effect.ends_with("dropouts");
-  });
-}
-
 std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
                                       const std::vector<std::string>& withheld) {
   std::vector<Health> findings;

@@ -35,9 +35,6 @@ std::vector<SampleFact> SampleFactsOf(const std::vector<LoopRecord>& records,
 
 // Whether all of these leave the rest to be found.
 bool RestCanBeFound(const std::vector<SampleFact>& facts);
-// Whether the search for one cause (diagnosis.h) makes good what these have done to the samples. Of
-// a clipped q it does so too roughly to name what else there is.
-bool CanBeRepaired(const std::vector<SampleFact>& facts);
 
 }  // namespace howl
 

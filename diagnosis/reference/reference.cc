@@ -132,11 +132,6 @@ std::vector<CutRecord> CutAsRecorded(const std::vector<DiagnosisExperiment>& exp
 
 }  // namespace
 
-double DataRatio(const std::vector<DiagnosisExperiment>& rig,
-                 const std::vector<DiagnosisExperiment>& reference) {
-  return Samples(rig) / Samples(reference);
-}
-
 void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* to) {
   for (std::size_t e = 0; e < from.size(); ++e) {
     if (from[e].reference.acoustic.size() == (*to)[e].extended()) {
@@ -145,15 +140,6 @@ void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* t
       (*to)[e].flame_share = from[e].flame_share;
     }
   }
-}
-
-std::vector<CutRecord> RemakeCutRecords(const std::vector<DiagnosisExperiment>& changed,
-                                        const std::vector<CutRecord>& like,
-                                        const std::vector<CoherentLine>& lines) {
-  std::vector<CutRecord> records = MakeCutRecords(changed, like[0].model);
-  KeepReference(like, &records);
-  MaskLines(lines, &records);
-  return records;
 }
 
 std::vector<CoherentLine> NewLines(const std::vector<CoherentLine>& lines,
@@ -188,7 +174,7 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
       std::all_of(reference.begin(), reference.end(), [](const DiagnosisExperiment& each) {
         return each.record.pressure.size() >= 2 * kFewestSamples;
       });
-  const double data_ratio = DataRatio(rig, reference);
+  const double data_ratio = Samples(rig) / Samples(reference);
   const double length_ratio =
       data_ratio * static_cast<double>(reference.size()) / static_cast<double>(rig.size());
   // The ratio of the lengths of the predicted and the predicting record in the self-test.

@@ -72,16 +72,8 @@ ReferenceModel AbsorbReference(const std::vector<DiagnosisExperiment>& reference
                                const std::vector<DiagnosisExperiment>& rig,
                                std::vector<CutRecord>* records);
 
-// The number of the rig's samples over that of the reference's: gains grow in that ratio.
-double DataRatio(const std::vector<DiagnosisExperiment>& rig,
-                 const std::vector<DiagnosisExperiment>& reference);
-
 // The same records made anew from changed signals keep what the reference says of them.
 void KeepReference(const std::vector<CutRecord>& from, std::vector<CutRecord>* to);
-// With the lines masked too.
-std::vector<CutRecord> RemakeCutRecords(const std::vector<DiagnosisExperiment>& changed,
-                                        const std::vector<CutRecord>& like,
-                                        const std::vector<CoherentLine>& lines);
 
 // The lines that the reference does not have, or has four times weaker.
 std::vector<CoherentLine> NewLines(const std::vector<CoherentLine>& lines,

@@ -25,8 +25,7 @@ struct Bumps {
   Eigen::MatrixXcd spectrum;  // extended band x kBumps
   Eigen::VectorXd mean;       // of each column over the record, outwards
   double plateau = 0.0;
-  Eigen::MatrixXd signal;  // samples x kBumps
-  Eigen::ArrayXd on;       // one on either plateau
+  Eigen::ArrayXd on;  // one on either plateau
 };
 
 Bumps MakeBumps(const CutRecord& record, Channel channel) {
@@ -45,7 +44,6 @@ Bumps MakeBumps(const CutRecord& record, Channel channel) {
   out.plateau = amplitude;
   out.spectrum.resize(record.extended(), kBumps);
   out.mean.resize(kBumps);
-  out.signal.resize(record.samples, kBumps);
   out.on.setZero(record.samples);
   for (const int sign : {1, -1}) {
     const double threshold = SampleQuantile(sign * x, kTopQuantile) - kDepth * amplitude;
@@ -55,7 +53,6 @@ Bumps MakeBumps(const CutRecord& record, Channel channel) {
     Eigen::ArrayXd shape = sign * amplitude * on;
     for (Eigen::Index j = sign > 0 ? 0 : kShapes; j < (sign > 0 ? kShapes : kBumps); ++j) {
       out.spectrum.col(j) = BandSpectrum(record, shape, record.acoustic_count);
-      out.signal.col(j) = shape;
       out.mean[j] = sign * shape.sum() / count;
       shape *= x_1;
     }
@@ -125,7 +122,6 @@ ClippingFit FitClipping(const std::vector<CutRecord>& records, Channel channel,
       at.acoustic_noise = FitAcousticNoise(record, at.acoustic_residual,
                                            r.segment(kTapReach, record.acoustic_count).cwiseAbs2());
     }
-    out.repaired.push_back(SignalOf(record, channel) + bumps.signal * c);
     if (!pressure) {
       const Eigen::ArrayXd noise = FlameResidualInTime(record, base, e);
       const double on = (noise.square() * bumps.on).sum() / std::max(bumps.on.sum(), 1.0);

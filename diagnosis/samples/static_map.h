@@ -25,7 +25,6 @@ struct ClippingFit {
   // Variance of cut B's residual while q is on its plateaus, over that elsewhere: combustion noise
   // is as large there, unless the record is cut off.
   double plateau_noise = 1.0;
-  std::vector<Eigen::VectorXd> repaired;  // the signals with the bumps given back, without mean
   bool sharp_edge = false;  // the amplitude density ends in an edge, which needs no model
 };
 

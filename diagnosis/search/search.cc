@@ -10,7 +10,6 @@
 #include <string>
 
 #include "diagnosis/cuts/make_cut_records.h"
-#include "diagnosis/reference/reference_clipping.h"
 #include "diagnosis/samples/sample_limits.h"
 #include "diagnosis/search/bootstrap.h"
 #include "estimation/parallel.h"
@@ -75,7 +74,6 @@ Search::Search(const std::vector<DiagnosisExperiment>& experiments, const Diagno
   if (!reference_) TakeLinesLeftOver();
   at_ = {&records_, &base_, &experiments, {}, options.memory, reference_ ? &*reference_ : nullptr};
   at_.base_held_out = HoldOutEach(records_, base_);
-  RepairPressure();
   slack_before_ = ComputeSlack(records_, base_);
 }
 
@@ -90,38 +88,7 @@ void Search::TakeLinesLeftOver() {
   base_ = FitBase(records_);
 }
 
-// A gain is the square of a misfit. The spurious misfit that clipping gives may add to a chance
-// misfit in phase, so it is subtracted from the misfit and not from the gain.
-void Search::SubtractSpuriousGain(Channel channel) {
-  DiagnosisOptions options = options_;
-  options.memory = nullptr;
-  options.progress = {};
-  const std::vector<DiagnosisExperiment> clipped =
-      ClippedAlike(options.reference, AsRecorded(at_), channel);
-  Search alike(clipped, options);
-  alike.TryEach();
-  const double ratio = DataRatio(*at_.experiments, clipped);
-  for (Attempt& attempt : attempts_) {
-    double& gain = attempt.candidate.gain;
-    if (!attempt.fit || gain <= 0.0) continue;
-    for (const Attempt& other : alike.attempts_) {
-      if (other.candidate.effect != attempt.candidate.effect) continue;
-      const double spurious = ratio * std::max(other.candidate.gain, 0.0);
-      gain = std::pow(std::max(std::sqrt(gain) - std::sqrt(spurious), 0.0), 2);
-    }
-  }
-}
-
 void Search::TryAll() {
-  TryEach();
-  if (!reference_ || Stopped()) return;
-  if (repair_) SubtractSpuriousGain(Channel::kPressure);
-  if (!reference_->heat_release_sharp_edge && HasSharpEdge(records_, Channel::kHeatRelease)) {
-    SubtractSpuriousGain(Channel::kHeatRelease);
-  }
-}
-
-void Search::TryEach() {
   VLOG(1) << "base: cost " << base_.cost() << ", tau " << base_.tau_s << " s";
   origin_ = ExplainLines(records_, base_, lines_);
   fluctuation_ = EstimateGainFluctuation(records_, base_);
@@ -148,7 +115,6 @@ void Search::TryEach() {
     attempt.candidate.p_value = PValue(attempt.candidate.gain, attempt.parameters, units_.size());
     PayForParameters(&attempt);
   }
-  RedeclipBest();
 }
 
 std::optional<double> Search::LargestGain() {

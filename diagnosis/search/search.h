@@ -1,12 +1,11 @@
 // One diagnosis, from records to verdict: fit the base, try every effect, measure the gaps, weigh,
-// conclude. Inner workings of diagnosis.h: search.cc fits, search_repair.cc takes saturation out of
-// p first, search_evidence.cc measures, search_own_delays.cc asks whether the delays differ,
-// search_conclusion.cc concludes; diagnosis.cc chooses the base.
+// conclude. Inner workings of diagnosis.h: search.cc fits, search_evidence.cc measures,
+// search_own_delays.cc asks whether the delays differ, search_conclusion.cc concludes; diagnosis.cc
+// chooses the base.
 #ifndef HOWL_DIAGNOSIS_SEARCH_SEARCH_H_
 #define HOWL_DIAGNOSIS_SEARCH_SEARCH_H_
 
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,23 +13,12 @@
 #include "diagnosis/candidates/effect_forms.h"
 #include "diagnosis/gap/gap.h"
 #include "diagnosis/gap/slack.h"
-#include "diagnosis/pair/pair.h"
 #include "diagnosis/search/diagnosis_options.h"
+#include "diagnosis/search/second_effect.h"
 #include "diagnosis/verdict/diagnosis_result.h"
 #include "diagnosis/verdict/verdict.h"
 
 namespace howl {
-
-// Saturation of p is detected without a model and taken out of the samples before the search for
-// anything else. What the base does not explain in the repaired records is due to another effect.
-struct PressureRepair {
-  Candidate clipping;
-  std::vector<CutRecord> recorded;
-  EffectFit recorded_base;
-  Slack recorded_slack;
-  std::vector<ExperimentFit> recorded_held_out;
-  std::vector<DiagnosisExperiment> experiments;  // repaired
-};
 
 // True where the gain by own delays is evidence that the experiments' delays differ; that shows in
 // cut B alone.
@@ -45,19 +33,6 @@ class Search {
 
  private:
   void TakeLinesLeftOver();
-  void RepairPressure();
-  // A fit to records that were declipped under the fit itself instead of under the base.
-  struct RedeclippedFit {
-    EffectFit fit;
-    std::shared_ptr<const std::vector<CutRecord>> records;
-  };
-  RedeclippedFit Redeclip(const EffectFit& under_base) const;
-  Attempt Redeclipped(const Attempt& attempt, const EffectForms& forms) const;
-  void RedeclipBest();
-  void TryEach();
-  // With a reference, the gain that saturation alone gives a transfer function is no evidence of
-  // it.
-  void SubtractSpuriousGain(Channel channel);
   void TryAll();
   void Bootstrap();
   // From the bootstrap if there was one; else, where the best is weak, from a few replicates with
@@ -89,8 +64,6 @@ class Search {
   // Fills in where the error is, how large it is, and what the base had absorbed of it.
   void Describe(const Judgement& at, Diagnosis* out);
   std::vector<Candidate> Candidates() const;
-  // Puts the clipping that was repaired before whatever else was found.
-  void AddClipping(Diagnosis* diagnosis);
 
   const DiagnosisOptions& options_;
   std::vector<EffectForms> units_;
@@ -98,7 +71,6 @@ class Search {
   std::vector<CoherentLine> lines_;
   std::optional<ReferenceModel> reference_;
   EffectFit base_;
-  std::optional<PressureRepair> repair_;
   AttemptContext at_;
   Slack slack_before_;
   LineOrigin origin_;

@@ -7,7 +7,6 @@
 #include "diagnosis/gap/gap_map.h"
 #include "diagnosis/localise/localise.h"
 #include "diagnosis/localise/place.h"
-#include "diagnosis/pair/pair.h"
 #include "diagnosis/search/search.h"
 #include "diagnosis/verdict/advice.h"
 #include "diagnosis/verdict/calibration.h"
@@ -19,13 +18,8 @@ namespace {
 // least this share of that as slack (results/trial). With less slack the search does not pay.
 constexpr double kSlackOfASecond = 0.3;
 
-// Odds of clipped q with a second effect over clipped q alone, where the second may be an artefact
-// of the rough repair of q: of 38 with small gains one was true (results/trial), of seven with
-// large gains three (docs/validation.md), 4 to 41 together.
-constexpr double kSpuriousOdds = 0.1;
-
 bool LeavesRoomForASecond(const Attempt& first, const Slack& after) {
-  return !first.model_free && first.also.empty() &&
+  return !first.model_free && !first.also &&
          after.acoustic_excess + after.flame_excess > kSlackOfASecond * LeastCompeting(first);
 }
 
@@ -54,7 +48,6 @@ Diagnosis Search::Run() {
   }
   MeasureGaps();
   std::stable_sort(attempts_.begin(), attempts_.end(), Better);
-  if (!attempts_.empty() && attempts_[0].redeclipped) records_ = *attempts_[0].redeclipped;
   gain_of_noise_ = GainOfNoiseForTheBest();
   Judgement at = Judge();
   Diagnosis out = Conclude(at.evidence, at.belief);
@@ -67,10 +60,8 @@ Diagnosis Search::Run() {
     attempts_.insert(attempts_.begin() + 1, std::move(*at.together));
   }
   const bool model_free =
-      (repair_ && out.kind == VerdictKind::kNone) ||
-      (!attempts_.empty() && (attempts_[0].model_free || attempts_[0].without_lines));
+      !attempts_.empty() && (attempts_[0].model_free || attempts_[0].without_lines);
   out.candidates = Candidates();
-  if (repair_) AddClipping(&out);
   out.advice = Advice(out, model_free);
   Calibrate(DoubtOfOneCause(out.kind, model_free), &out);
   return out;
@@ -80,14 +71,10 @@ Search::Judgement Search::Judge() {
   Judgement at;
   at.evidence = Look(attempts_.empty() ? nullptr : &attempts_[0], &at.after);
   at.belief = Weigh(at.evidence);
-  if (at.belief.none < 0.5) {
-    std::vector<Attempt> combined =
-        TryDistinctEffects(at_, attempts_, units_, lines_, options_.threads);
+  if (at.belief.none < 0.5 && !at.evidence.model_free) {
+    std::vector<Attempt> combined = BesideALine(attempts_);
     if (!combined.empty()) {
       const double p_value = attempts_[0].candidate.p_value;
-      // The best alone keeps its place before a combination whose second may be spurious.
-      const bool again = combined[0].candidate.effect == attempts_[0].candidate.effect;
-      if (again) attempts_.erase(attempts_.begin());
       for (Attempt& each : combined) {
         each.candidate.p_value = p_value;
         MeasureGap(&each);
@@ -113,24 +100,18 @@ Search::Judgement Search::Judge() {
 }
 
 void Search::Describe(const Judgement& at, Diagnosis* out) {
-  const bool only_clipping = repair_ && out->kind == VerdictKind::kNone;
-  const Slack& before = repair_ ? repair_->recorded_slack : slack_before_;
   out->bootstrap_gains = bootstrap_gains_;
-  out->slack_acoustic_before = before.acoustic_excess;
-  out->slack_flame_before = before.flame_excess;
+  out->slack_acoustic_before = slack_before_.acoustic_excess;
+  out->slack_flame_before = slack_before_.flame_excess;
   out->slack_acoustic_after = at.after.acoustic_excess;
   out->slack_flame_after = at.after.flame_excess;
   out->placebo_shrinkage = at.placebo_shrinkage;
   const bool no_lines = lines_.empty();
   GapSide left;
-  if (only_clipping) {
-    left = {&at_.base_held_out, no_lines};
-  } else if (!attempts_.empty()) {
+  if (!attempts_.empty()) {
     left = {&attempts_[0].held_out, no_lines || attempts_[0].without_lines};
   }
-  out->map =
-      GapMap(records_, {repair_ ? &repair_->recorded_held_out : &at_.base_held_out, no_lines}, left,
-             flame_noise_);
+  out->map = GapMap(records_, {&at_.base_held_out, no_lines}, left, flame_noise_);
   if (out->kind != VerdictKind::kNone) {
     std::vector<BlockSlack> blocks;
     if (out->kind == VerdictKind::kUnknown) {
@@ -138,15 +119,11 @@ void Search::Describe(const Judgement& at, Diagnosis* out) {
     }
     out->where = FindPlaces(records_, attempts_, out->kind, slack_before_, blocks);
   }
-  const bool best_is_fitted = out->kind == VerdictKind::kEffect && !only_clipping &&
-                              attempts_[0].fit.has_value() && attempts_[0].repaired.empty();
+  const bool best_is_fitted = out->kind == VerdictKind::kEffect && attempts_[0].fit.has_value();
   out->model = records_[0].model;
   out->delay_scatter = best_is_fitted ? attempts_[0].fit->delay_scatter : base_.delay_scatter;
-  const EffectFit& without = repair_ ? repair_->recorded_base : base_;
-  if (only_clipping) {
-    out->base_parameters = MovedParameters(records_, without, base_);
-  } else if (best_is_fitted) {
-    out->base_parameters = MovedParameters(records_, without, *attempts_[0].fit);
+  if (best_is_fitted) {
+    out->base_parameters = MovedParameters(records_, base_, *attempts_[0].fit);
   }
 }
 
@@ -170,16 +147,14 @@ Diagnosis Search::Conclude(const Evidence& evidence, const Belief& belief) {
   out.probability_unknown = (1.0 - belief.none) * belief.unknown;
   // The odds of a pair against its first effect alone depend on the gain of the second.
   const double temperature = Temperature(
-      !attempts_.empty() && !attempts_[0].also.empty() ? attempts_[0].second_gain : evidence.gain);
+      !attempts_.empty() && attempts_[0].also ? attempts_[0].second_gain : evidence.gain);
   std::vector<double> weight;
   double total = 0.0;
   for (const Attempt& attempt : attempts_) {
     const double behind = attempts_[0].candidate.gain - attempt.candidate.gain;
     // If the best was detected in the samples, no other single effect can replace it.
-    const bool out_of_question = attempts_[0].model_free && !weight.empty() && attempt.also.empty();
-    weight.push_back(out_of_question           ? 0.0
-                     : attempt.may_be_spurious ? kSpuriousOdds
-                                               : std::exp(-behind / temperature));
+    const bool out_of_question = attempts_[0].model_free && !weight.empty();
+    weight.push_back(out_of_question ? 0.0 : std::exp(-behind / temperature));
     total += weight.back();
   }
   for (std::size_t i = 0; i < attempts_.size(); ++i) {

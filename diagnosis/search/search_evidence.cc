@@ -42,7 +42,7 @@ void Search::MeasureGap(Attempt* attempt) const {
 }
 
 double Search::PlaceboShrinkage(const Attempt& best) const {
-  if (!best.fit || !best.also.empty() || !best.repaired.empty()) {
+  if (!best.fit || best.also) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   const Effect& effect = *best.fit->effect;
@@ -62,7 +62,7 @@ double Search::PlaceboShrinkage(const Attempt& best) const {
 Evidence Search::Look(const Attempt* top, Slack* after) const {
   EffectFit best = base_;
   if (top) {
-    if (top->fit && top->repaired.empty()) best = *top->fit;
+    if (top->fit) best = *top->fit;
     if (!top->fit || top->kind != EffectKind::kTransfer) {
       for (std::size_t e = 0; e < records_.size(); ++e) {
         best.experiments[e].acoustic_residual = top->held_out[e].acoustic_residual;

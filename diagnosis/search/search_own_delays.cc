@@ -24,7 +24,6 @@ double Search::OwnDelaysGain() const {
   const auto best = std::ranges::max_element(
       attempts_, {}, [](const Attempt& attempt) { return attempt.candidate.gain; });
   if (best == attempts_.end() || best->candidate.gain <= 0.0 || !ShowsInFlame(*best) ||
-      !best->repaired.empty() || best->redeclipped ||
       GainOver(base, *best->fit) < kLogOddsToAccuse) {
     return base_.cost() - base.cost();
   }

@@ -36,14 +36,10 @@ std::string Advice(const Diagnosis& diagnosis, bool model_free) {
       diagnosis.candidates[0].gain < kNearNoise) {
     return "--bootstrap 19 tells whether noise alone, on a rig like this, gains as much";
   }
-  const auto clips = [](const Effect& effect) { return effect.kind() == EffectKind::kClipping; };
-  const bool clipped_alone = std::ranges::any_of(catalogue, [&](const EffectPointer& effect) {
-    return clips(*effect) && diagnosis.effect == effect->id();
-  });
-  if (clipped_alone || (diagnosis.indistinguishable.empty() && has(clips))) {
-    return "record again within the sensor's range: what its plateaus cut off can hide a weaker "
-           "effect";
-  }
+  const auto changes_samples = [](const Effect& effect) {
+    return effect.kind() == EffectKind::kClipping || effect.kind() == EffectKind::kQuantisation;
+  };
+  if (diagnosis.indistinguishable.empty() && has(changes_samples)) return kRecordAgain;
   if (diagnosis.indistinguishable.empty()) return "the effect stands alone: no further experiment";
   if (separated_by(Separation::kHighFrequencies)) {
     return "a point with a stronger line near the second crossing, or a stable, noise-driven one: "

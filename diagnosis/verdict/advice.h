@@ -8,6 +8,11 @@
 
 namespace howl {
 
+// Where samples are clipped or have few levels.
+inline constexpr const char* kRecordAgain =
+    "record again, within the converter's range and with finer steps: whatever is fitted to such "
+    "samples speaks of what was done to them";
+
 // model_free: the effect was detected in the samples themselves, without a likelihood.
 std::string Advice(const Diagnosis& diagnosis, bool model_free);
 

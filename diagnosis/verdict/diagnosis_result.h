@@ -37,10 +37,6 @@ struct Candidate {
 struct Diagnosis {
   VerdictKind kind = VerdictKind::kNone;
   std::string effect;  // empty unless kEffect; "a+b": two at once
-  // p_clipping where it was detected in the samples and taken out of them before the search; else
-  // empty. It comes first in `effect` and in every candidate; a verdict of unknown is then about
-  // what is left once it is repaired.
-  std::string repaired;
   std::vector<std::string> indistinguishable;
   // With the verdict unknown: two effects of the catalogue that together would leave little; empty
   // if there are none.

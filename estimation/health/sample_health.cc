@@ -46,8 +46,8 @@ class SampleCheck {
     if (!is_coarse) {
       CheckEnd("largest", sorted_.rbegin(), sorted_.rend());
       CheckEnd("smallest", sorted_.begin(), sorted_.end());
+      CheckRepeats();
     }
-    CheckRepeats();
     CheckAppended();
   }
 

@@ -19,7 +19,6 @@ Json VerdictJson(const Diagnosis& diagnosis) {
       {"effect", diagnosis.kind == VerdictKind::kEffect ? Json(diagnosis.effect) : Json(nullptr)},
       {"indistinguishable", diagnosis.indistinguishable},
       {"together", diagnosis.together.empty() ? Json(nullptr) : Json(diagnosis.together)},
-      {"repaired", diagnosis.repaired.empty() ? Json(nullptr) : Json(diagnosis.repaired)},
       {"probability", probability}};
 }
 

@@ -14,7 +14,6 @@
 #include "diagnosis/cuts/make_cut_records.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/noise/cut_noise.h"
-#include "diagnosis/reference/reference_clipping.h"
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
@@ -72,40 +71,6 @@ TEST(LongReference, WhatBothHaveIsNotNamed) {
   ASSERT_FALSE(skewed.candidates.empty());
   EXPECT_NEAR(skewed.candidates[0].parameters.at(0).value, 2e-4, 2e-5);
   EXPECT_EQ(skewed.where.at(0).block, LoopBlock::kHeatReleaseInstrument);
-}
-
-double ShareAt(const std::vector<double>& samples, double value) {
-  return static_cast<double>(std::count(samples.begin(), samples.end(), value)) /
-         static_cast<double>(samples.size());
-}
-
-TEST(Reference, IsClippedAsOftenAsTheRig) {
-  std::vector<DiagnosisExperiment> rig = SimulateRig({}, 7);
-  CutOff(0.85, &Record::heat_release, &rig);
-  const std::vector<DiagnosisExperiment> reference = SimulateRig({}, 70);
-  const std::vector<DiagnosisExperiment> alike =
-      ClippedAlike(reference, MakeCutRecords(rig), Channel::kHeatRelease);
-  for (std::size_t e = 0; e < alike.size(); ++e) {
-    const std::vector<double>& q = alike[e].record.heat_release;
-    EXPECT_NEAR(ShareAt(q, *std::max_element(q.begin(), q.end())), 0.15, 0.01);
-    EXPECT_NEAR(ShareAt(q, *std::min_element(q.begin(), q.end())), 0.15, 0.01);
-    EXPECT_EQ(alike[e].record.pressure, reference[e].record.pressure);
-  }
-}
-
-// Behind a low-pass, which the reference has as a factor after the flame, a saturation is no part
-// of the flame's any more: cut B sees it as a slower flame.
-TEST(LongReference, SpuriousGainOfClippingIsNotNamed) {
-  const std::shared_ptr<const Instrument> low_pass =
-      std::make_shared<FirstOrderLowPass>(Channel::kHeatRelease, 150.0);
-  DiagnosisOptions options;
-  options.withheld = AllBut({"q_clipping", "channel_skew", "flame_lowpass", "second_delay_path"});
-  options.reference = SimulateRig({low_pass}, 7);
-  std::vector<DiagnosisExperiment> rig = SimulateRig({low_pass}, 70);
-  CutOff(0.8, &Record::heat_release, &rig);
-  const Diagnosis clipped = Diagnose(rig, options);
-  ASSERT_EQ(clipped.kind, VerdictKind::kEffect);
-  EXPECT_EQ(clipped.effect, "q_clipping");
 }
 
 // The factors against a known one: what the base predicts of p, times 1 + 0.3 j f / f0.

@@ -167,14 +167,8 @@ std::string DiagnosisSummary(const ReportInput& input) {
     }
   }
   out += ".";
-  const auto named = [&](const char* key) {
-    return verdict.contains(key) && verdict[key].is_string() ? verdict[key].get<std::string>()
-                                                             : std::string();
-  };
-  if (kind == "unknown") {
-    for (const std::string& remark : RemarksOnUnknown(named("repaired"), named("together"))) {
-      out += " " + EscapeHtml(remark) + ".";
-    }
+  if (kind == "unknown" && verdict.contains("together") && verdict["together"].is_string()) {
+    out += " " + EscapeHtml(RemarkOnTogether(verdict["together"].get<std::string>())) + ".";
   }
   out += "</p>\n";
   std::vector<TableRow> rows;

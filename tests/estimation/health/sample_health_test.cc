@@ -93,6 +93,14 @@ TEST(SampleHealth, StuckForAWhile) {
   EXPECT_THAT(health[0].text, testing::HasSubstr("for 300 samples, from 0.5 to 0.53 s"));
 }
 
+// Where a cycle dies away for a while, coarse steps stand still though nothing is lost.
+TEST(SampleHealth, CoarseStepsStandStillByThemselves) {
+  std::vector<double> samples = Signal(0.2);
+  for (std::size_t i = 5000; i < 5300; ++i) samples[i] = 0.2 * std::round(0.1 * samples[i] / 0.2);
+  EXPECT_THAT(Subjects(samples), testing::ElementsAre("p_coarse"));
+  EXPECT_TRUE(StuckSamples(samples).empty());
+}
+
 TEST(SampleHealth, HeldOverSeveralSamples) {
   std::vector<double> samples = Signal(1e-6);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = samples[i - i % 4];
