@@ -188,8 +188,9 @@ Command DiagnoseCommand() {
        {"--with", "ITEMS",
         "begin the budget with these items (a,b,...), as an earlier diagnosis named them"},
        {"--most-items", "N",
-        "end a budget after N items: more than two make the verdict unknown in any case, and a rig "
-        "that lacks many takes minutes for each further one (default: 6; at most 24)"},
+        "end a budget after N items (default: 6; at most 24): more than two make the verdict "
+        "unknown in any case, and a rig that lacks many takes minutes for each further one; with 0 "
+        "nothing is looked for, and the gap alone is measured"},
        ShardOption()},
       RunDiagnoseCommand,
       true,

@@ -102,7 +102,7 @@ int RunLoopDiagnosis(const Config& config, const Options& options, std::vector<N
   how.given = ListedNames(options, "--with", LoopItemIds(), kNoItem);
   how.declared = DeclaredIn(config);
   how.most_items = static_cast<std::size_t>(
-      options.Count("--most-items", 1, static_cast<int>(kMostItems)).value_or(kFirstItems));
+      options.Count("--most-items", 0, static_cast<int>(kMostItems)).value_or(kFirstItems));
   how.one_delay = !config.record_loop && !(StatesDelays(config) && BaseOf(config).own_delays);
   const LoopForm base = LoopBaseOf(config);
   const std::vector<LoopRecord> records =

@@ -127,7 +127,8 @@ void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   }
   const bool seen = !diagnosis.budget->seen_in_samples.empty();
   const auto named = std::ranges::count_if(found.steps, IsCause) + (trend > 0.0 ? 1 : 0);
-  out->unknown_because = WhyUnknown(*diagnosis.budget, errs, named);
+  out->unknown_because = found.looked ? WhyUnknown(*diagnosis.budget, errs, named)
+                                      : "nothing that the loop may lack was looked for";
   const bool unknown = !out->unknown_because.empty();
   const bool any = seen || trend > 0.0 || std::ranges::any_of(found.steps, IsCause);
   diagnosis.kind = unknown ? VerdictKind::kUnknown

@@ -62,6 +62,19 @@ TEST_F(LoopDiagnosis, SaysWhatTheConfigsLoopLacks) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/diagnosis.state"));
 }
 
+// The gap of an account, and nothing said of what it lacks.
+TEST_F(LoopDiagnosis, ScoresAnAccountWithoutASearch) {
+  const ProgramResult run = Diagnose("{modes: 1, flame_input: velocity}",
+                                     "--with flame_input_pressure_rate --most-items 0");
+  ASSERT_EQ(run.status, 0) << run.err << run.out;
+  const Json json = Json::parse(ReadFile(folder_.path() / "out/diagnosis.json"));
+  EXPECT_EQ(json["verdict"]["kind"], "unknown");
+  EXPECT_EQ(json["unknown_because"], "nothing that the loop may lack was looked for");
+  EXPECT_TRUE(json["budget"].empty());
+  EXPECT_EQ(json["base"]["flame_input"], "pressure_rate");
+  EXPECT_LE(json["gap"]["after"].get<double>(), json["gap"]["without_given"].get<double>());
+}
+
 TEST_F(LoopDiagnosis, RefusesWhatItDoesNotTake) {
   const std::string loop = "{modes: 1, residue: complex}";
   const auto refuses = [&](const std::string& model, const std::string& options,
@@ -74,6 +87,7 @@ TEST_F(LoopDiagnosis, RefusesWhatItDoesNotTake) {
   refuses(loop, "--plan", "--plan: the config's model states a loop");
   refuses(loop, "--bootstrap 19", "--bootstrap: the config's model states a loop");
   refuses(loop, "--one-cause", "--one-cause: the config's model states a loop");
+  refuses(loop, "--most-items -1", "--most-items");
   refuses(loop, "--without duct_nois", "did you mean duct_noise?");
   refuses(loop, "--with duct_nois", "did you mean duct_noise?");
   refuses("{modes: 1}", "--one-cause --with duct_noise", "--with begins a budget of records");

@@ -156,6 +156,7 @@ bool Search::KeepBetterOf(const Stand& before, LoopStanding* out) {
 
 LoopFound Search::Run() {
   LoopFound out;
+  out.looked = options_.most_items > 0;
   FitBase(&out);
   base_density_ = out.base.Density();
   VLOG(1) << "base " << base_density_ << " nats";

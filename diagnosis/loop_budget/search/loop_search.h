@@ -34,6 +34,7 @@ struct LoopFound : LoopStanding {
   LoopFit with_acoustic_lines;
   LoopFit with_flame_lines;
   std::map<std::string, double> alone;  // nats (ForwardSearch::alone)
+  bool looked = true;                   // for what the loop may lack
 };
 
 LoopFound SearchLoopBudget(LoopRecords records, const LoopForm& base,
