@@ -162,12 +162,4 @@ Eigen::MatrixXcd FlameJacobian(const CutRecord& record, const Effect& effect, Ef
   return jacobian;
 }
 
-Eigen::VectorXd PredictedHeatRelease(const CutRecord& record, const Effect& effect, EffectValues x,
-                                     double tau_s, const FlameColumns& columns,
-                                     const Eigen::VectorXd& coefficients) {
-  const Eigen::VectorXcd phi = columns.spectrum * coefficients;
-  const Eigen::VectorXcd multiplier = FlameMultiplier(record, effect, x, tau_s);
-  return InTime(record, multiplier.cwiseProduct(phi));
-}
-
 }  // namespace howl

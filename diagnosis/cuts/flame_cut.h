@@ -46,11 +46,6 @@ Eigen::MatrixXcd FlameJacobian(const CutRecord& record, const Effect& effect, Ef
                                double tau_s, const FlameColumns& columns,
                                const FlameSolution& solution, const Eigen::VectorXd& steps);
 
-// Phi(v) in time, as recorded q would show it, from which slow fluctuations are estimated.
-Eigen::VectorXd PredictedHeatRelease(const CutRecord& record, const Effect& effect, EffectValues x,
-                                     double tau_s, const FlameColumns& columns,
-                                     const Eigen::VectorXd& coefficients);
-
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_CUTS_FLAME_CUT_H_

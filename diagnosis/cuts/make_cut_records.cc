@@ -211,11 +211,6 @@ std::vector<CutRecord> MakeCutRecords(const std::vector<DiagnosisExperiment>& ex
   return records;
 }
 
-Eigen::VectorXcd BareDerivativeFilter(const CutRecord& record) {
-  const auto bins = static_cast<double>(record.first + record.flame_count);
-  return DerivativeFilter(record, kFilterOverBand * bins * record.bin_hz);
-}
-
 void DriveAsRecorded(CutRecord* record) {
   record->driving_heat_release =
       record->heat_release_spectrum.segment(record->first - kTapReach, record->extended());

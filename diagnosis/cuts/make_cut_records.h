@@ -32,9 +32,6 @@ std::vector<DiagnosisExperiment> HalfOfRecords(const std::vector<DiagnosisExperi
 // Cut A's input without the shrinkage.
 void DriveAsRecorded(CutRecord* record);
 
-// The same of the flame's: s times the low-pass alone.
-Eigen::VectorXcd BareDerivativeFilter(const CutRecord& record);
-
 }  // namespace howl
 
 #endif  // HOWL_DIAGNOSIS_CUTS_MAKE_CUT_RECORDS_H_

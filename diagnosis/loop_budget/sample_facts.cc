@@ -38,13 +38,9 @@ Health FindingsOf(const LoopRecord& of) {
   return out;
 }
 
-// Of p's samples, those that a saturation held before noise was added to them.
-double ShareOnNoisyRails(const std::vector<double>& pressure) {
-  const Eigen::Map<const Eigen::VectorXd> x(pressure.data(),
-                                            static_cast<Eigen::Index>(pressure.size()));
-  if (!HasNoisyRails(x)) return 0.0;
-  const Plateaus plateaus = FindPlateaus(x);
-  return (plateaus.upper + plateaus.lower).mean();
+double ShareOnRails(const std::vector<double>& samples) {
+  return ShareOnNoisyRails(
+      Eigen::Map<const Eigen::VectorXd>(samples.data(), static_cast<Eigen::Index>(samples.size())));
 }
 
 LoopBlock BlockOf(std::string_view effect) {
@@ -62,7 +58,7 @@ double ValueOf(const Kind& kind, const Health& findings, const Record& record) {
   for (const Finding& finding : findings) {
     if (finding.subject == kind.subject) value += finding.value;
   }
-  if (value == 0.0 && kind.subject == kPressureClipped) return ShareOnNoisyRails(record.pressure);
+  if (value == 0.0 && kind.subject == kPressureClipped) return ShareOnRails(record.pressure);
   return value;
 }
 
@@ -111,7 +107,7 @@ bool CanBeMadeGood(const std::string& effect, const std::vector<LoopRecord>& rec
     const Record& record = each.record;
     if (effect == "p_clipping") {
       const double share = ShareClipped(record.pressure);
-      return share <= kMostClipped && (share > 0.0 || ShareOnNoisyRails(record.pressure) == 0.0);
+      return share <= kMostClipped && (share > 0.0 || ShareOnRails(record.pressure) == 0.0);
     }
     if (effect == "p_dropouts") return ShareStuck(record.pressure) <= kMostStuck;
     return effect == "q_dropouts" && ShareStuck(record.heat_release) <= kMostStuck;

@@ -59,12 +59,6 @@ bool RepeatedExtreme(const Eigen::VectorXd& x, double range) {
          static_cast<double>(at_top) > kRepeatedRatio * static_cast<double>(most);
 }
 
-struct Plateau {
-  double floor = std::numeric_limits<double>::infinity();  // of its samples
-  double level = std::numeric_limits<double>::infinity();  // at most that of saturation
-  bool noisy = false;
-};
-
 // The level where the samples near the top are densest: the middle of the shortest interval that
 // holds a share of them.
 double DensestNear(const Eigen::VectorXd& x, double top, double reach) {
@@ -85,27 +79,12 @@ double DensestNear(const Eigen::VectorXd& x, double top, double reach) {
   return level;
 }
 
-// The plateau at the signal's upper end, if it has one.
-Plateau FindPlateau(const Eigen::VectorXd& x, double range, bool edges) {
-  if (RepeatedExtreme(x, range)) return {x.maxCoeff() - kSameValue * range, x.maxCoeff(), false};
-  if (!edges) return {};
+// Of samples at the signal's upper end, about the level where they are densest: as far below it as
+// noise reaches above it.
+double ShareAtTop(const Eigen::VectorXd& x, double range) {
   const double top = SampleQuantile(x, kTop);
   const double level = DensestNear(x, top, kNearTop * 0.5 * range);
-  // The plateau reaches as far below the level as the noise reaches above it.
-  const double floor = 2.0 * level - top;
-  return {floor, floor, true};
-}
-
-// The plateau's samples with their neighbours where there is noise, because the noise hides whether
-// the neighbours are held.
-Eigen::ArrayXd SamplesOn(const Plateau& plateau, const Eigen::VectorXd& x) {
-  Eigen::ArrayXd on = (x.array() > plateau.floor).cast<double>();
-  if (!plateau.noisy) return on;
-  const Eigen::Index n = on.size() - 1;
-  const Eigen::ArrayXd before = on.head(n);
-  on.head(n) = on.head(n).max(Eigen::ArrayXd(on.tail(n)));
-  on.tail(n) = on.tail(n).max(before);
-  return on;
+  return (x.array() > 2.0 * level - top).cast<double>().mean();
 }
 
 double Range(const Eigen::VectorXd& x) {
@@ -132,15 +111,10 @@ double SampleQuantile(const Eigen::VectorXd& x, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-Plateaus FindPlateaus(const Eigen::VectorXd& x) {
+double ShareOnNoisyRails(const Eigen::VectorXd& x) {
   const double range = Range(x);
-  const bool edges = HasEdges(x, range);
-  const Plateau upper = FindPlateau(x, range, edges);
-  const Plateau lower = FindPlateau(-x, range, edges);
-  return {SamplesOn(upper, x), SamplesOn(lower, -x), upper.level, -lower.level};
+  return HasEdges(x, range) ? ShareAtTop(x, range) + ShareAtTop(-x, range) : 0.0;
 }
-
-bool HasNoisyRails(const Eigen::VectorXd& x) { return HasEdges(x, Range(x)); }
 
 bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel) {
   const auto edges = std::count_if(records.begin(), records.end(), [&](const CutRecord& record) {

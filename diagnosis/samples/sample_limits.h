@@ -11,25 +11,13 @@
 
 namespace howl {
 
-// The plateaus on which saturation holds the signal at either end of its range. Noise that was
-// added after the saturation spreads the samples about the level.
-struct Plateaus {
-  Eigen::ArrayXd upper;  // one there, zero elsewhere
-  Eigen::ArrayXd lower;
-  // The levels are no farther out than where the signal is held, because a true value beyond them
-  // was not recorded as it was.
-  double upper_level = 0.0;
-  double lower_level = 0.0;
-};
-
-Plateaus FindPlateaus(const Eigen::VectorXd& x);
-
-// True where the signal's density ends in an edge on both sides of its range: a saturation held it
-// there, and noise was added afterwards. So many samples lie no nearer the ends of a cycle's range:
-// of a sine, whose density rises most, three times as many as a little further in, where a
-// saturation makes eight times and more (tests/diagnosis/noisy_rails_test.cc). What a flame makes
-// of p may be as flat: of heat release that says nothing.
-bool HasNoisyRails(const Eigen::VectorXd& x);
+// The share of the samples that a saturation held at either end of the range before noise was
+// added: the signal's density ends in an edge on both sides. So many samples lie no nearer the ends
+// of a cycle's range: of a sine, whose density rises most, three times as many as a little further
+// in, where a saturation makes eight times and more (tests/diagnosis/samples/noisy_rails_test.cc).
+// Zero without such edges. What a flame makes of p may be as flat: of heat release that says
+// nothing.
+double ShareOnNoisyRails(const Eigen::VectorXd& x);
 
 // True if in most records the density of the signal's values ends in an edge.
 bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel);

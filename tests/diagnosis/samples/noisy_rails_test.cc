@@ -38,7 +38,9 @@ TEST(NoisyRails, AreSeenUnderNoiseThatIsNarrowerThanWhatIsCutOff) {
   for (const double level : {0.9, 0.8, 0.7, 0.5}) {  // of the cycle's amplitude
     for (const double noise : {1e-5, 1e-3, 3e-3}) {
       const Eigen::VectorXd before = Cycle(0.0) + Noise(0.05);
-      EXPECT_TRUE(HasNoisyRails(Clipped(before, level) + Noise(noise))) << level << " " << noise;
+      const double held = (before.array().abs() > level).cast<double>().mean();
+      EXPECT_NEAR(ShareOnNoisyRails(Clipped(before, level) + Noise(noise)), held, 0.1 * held)
+          << level << " " << noise;
     }
   }
 }
@@ -46,16 +48,16 @@ TEST(NoisyRails, AreSeenUnderNoiseThatIsNarrowerThanWhatIsCutOff) {
 TEST(NoisyRails, AreNoneOfCyclesAndOfNoise) {
   for (const double third : {-0.3, -0.1, 0.0, 0.05}) {
     for (const double noise : {0.0, 1e-3, 1e-2, 0.1}) {
-      EXPECT_FALSE(HasNoisyRails(Cycle(third) + Noise(noise))) << third << " " << noise;
+      EXPECT_EQ(ShareOnNoisyRails(Cycle(third) + Noise(noise)), 0.0) << third << " " << noise;
     }
   }
-  EXPECT_FALSE(HasNoisyRails(Noise(1.0)));
+  EXPECT_EQ(ShareOnNoisyRails(Noise(1.0)), 0.0);
 }
 
 // One end alone may be the signal's own, as of what is squared.
 TEST(NoisyRails, AreAtBothEnds) {
   const Eigen::VectorXd one = Cycle(0.0).cwiseMin(0.7) + Noise(1e-3);
-  EXPECT_FALSE(HasNoisyRails(one));
+  EXPECT_EQ(ShareOnNoisyRails(one), 0.0);
 }
 
 }  // namespace
