@@ -91,7 +91,7 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
           "%.2f)\n",
           diagnosis.probability_unknown);
       if (!diagnosis.together.empty()) {
-        std::printf("  %s\n", RemarkOnTogether(diagnosis.together).c_str());
+        std::printf("%s\n", Wrapped("  " + RemarkOnTogether(diagnosis.together), 2).c_str());
       }
       break;
     case VerdictKind::kEffect:
@@ -134,7 +134,7 @@ void PrintDiagnosis(const Diagnosis& diagnosis) {
   std::printf("%s", table.Text().c_str());
   std::printf("%s", BoundText(diagnosis).c_str());
   std::printf("%s", MovedText(diagnosis).c_str());
-  std::printf("next: %s\n", diagnosis.advice.c_str());
+  std::printf("%s\n", Wrapped("next: " + diagnosis.advice, 2).c_str());
 }
 
 }  // namespace howl
