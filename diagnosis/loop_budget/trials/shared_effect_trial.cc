@@ -51,7 +51,9 @@ LoopTrial TrialFrom(std::vector<EffectPoint> begins, double without, const LoopI
                     EffectProfile* profile) {
   ProfileMaximum maximum;
   for (EffectPoint& begin : begins) {
-    if (begin.log_evidence > without) profile->AtOtherDelays(&begin);
+    // At its null the loop is that which stands, whose delays are known.
+    const bool at_null = begin.u[0] == profile->NullEnd()[0];
+    if (!at_null && begin.log_evidence > without) profile->AtOtherDelays(&begin);
     // As long as it may come out ahead.
     const double least = std::max(without, maximum.at.log_evidence);
     ProfileMaximum next = profile->From(std::move(begin), least);
