@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <mutex>
 #include <string>
 
 #include "diagnosis/cuts/make_cut_records.h"
-#include "diagnosis/samples/sample_limits.h"
 #include "diagnosis/search/bootstrap.h"
 #include "estimation/parallel.h"
 #include "model/effects/catalogue.h"

@@ -14,7 +14,6 @@
 #include "diagnosis/gap/gap.h"
 #include "diagnosis/gap/slack.h"
 #include "diagnosis/search/diagnosis_options.h"
-#include "diagnosis/search/second_effect.h"
 #include "diagnosis/verdict/diagnosis_result.h"
 #include "diagnosis/verdict/verdict.h"
 

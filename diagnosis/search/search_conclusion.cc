@@ -8,6 +8,7 @@
 #include "diagnosis/localise/localise.h"
 #include "diagnosis/localise/place.h"
 #include "diagnosis/search/search.h"
+#include "diagnosis/search/second_effect.h"
 #include "diagnosis/verdict/advice.h"
 #include "diagnosis/verdict/calibration.h"
 

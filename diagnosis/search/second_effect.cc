@@ -46,10 +46,8 @@ double Detection(const Attempt& attempt) { return DetectionGain(ShowsInFlameAlon
 }  // namespace
 
 std::vector<Attempt> BesideALine(const std::vector<Attempt>& attempts) {
-  const auto line = std::ranges::find_if(
-      attempts, [](const Attempt& attempt) { return IsLineKind(attempt.kind); });
-  const auto other = std::ranges::find_if_not(
-      attempts, [](const Attempt& attempt) { return IsLineKind(attempt.kind); });
+  const auto line = std::ranges::find_if(attempts, IsLineKind, &Attempt::kind);
+  const auto other = std::ranges::find_if_not(attempts, IsLineKind, &Attempt::kind);
   if (line == attempts.end() || other == attempts.end()) return {};
   const double most = other->candidate.gain;
   if (line->candidate.gain <= DetectionGain(false) || most <= Detection(*other)) return {};

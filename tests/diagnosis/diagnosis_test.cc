@@ -78,34 +78,6 @@ TEST(Effects, NullResidualsAreTheBasesBitForBit) {
   }
 }
 
-TEST(AcousticCut, JacobianAgreesWithCentralDifferences) {
-  const std::vector<CutRecord> records = MakeCutRecords({CleanRig()[0]});
-  const CutRecord& record = records[0];
-  const AcousticLocals locals(std::log(200.0), std::log(0.2), 6000.0, 1500.0);
-  for (const EffectPointer& effect : Catalogue()) {
-    if (effect->kind() != EffectKind::kTransfer || !effect->ChangesAcousticCut()) continue;
-    std::vector<double> x;
-    Eigen::VectorXd steps(static_cast<Eigen::Index>(effect->parameters().size()));
-    for (const EffectParameter& p : effect->parameters()) {
-      x.push_back(p.starts.back());
-      steps[static_cast<Eigen::Index>(x.size()) - 1] = 1e-5 * std::max(std::abs(x.back()), 1e-3);
-    }
-    const Eigen::VectorXcd residual = AcousticResidual(record, *effect, x, locals);
-    const Eigen::MatrixXcd jacobian = AcousticJacobian(record, *effect, x, locals, residual, steps);
-    for (Eigen::Index j = 0; j < steps.size(); ++j) {
-      std::vector<double> up = x;
-      std::vector<double> down = x;
-      up[static_cast<std::size_t>(j)] += steps[j];
-      down[static_cast<std::size_t>(j)] -= steps[j];
-      const Eigen::VectorXcd numeric = (AcousticResidual(record, *effect, up, locals) -
-                                        AcousticResidual(record, *effect, down, locals)) /
-                                       (2.0 * steps[j]);
-      EXPECT_LT((jacobian.col(4 + j) - numeric).norm(), 1e-3 * numeric.norm() + 1e-9)
-          << effect->id() << " " << j;
-    }
-  }
-}
-
 TEST(Diagnose, CleanRigIsNotAccused) {
   const Diagnosis diagnosis = Diagnose(CleanRig(), {});
   EXPECT_EQ(diagnosis.kind, VerdictKind::kNone) << diagnosis.effect;

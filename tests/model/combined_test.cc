@@ -3,24 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <complex>
-#include <string_view>
+#include <numbers>
 #include <vector>
 
 #include "model/effects/catalogue.h"
+#include "tests/model/find_effect.h"
 
 namespace howl::combined_test {
 namespace {
 
-EffectPointer Find(std::string_view id) {
-  for (EffectPointer& effect : Catalogue()) {
-    if (effect->id() == id) return effect;
-  }
-  return nullptr;
-}
-
 TEST(Combined, FactorsMultiplyAndNullsAreTheOther) {
-  const EffectPointer low_pass = Find("q_sensor_lowpass");
-  const EffectPointer skew = Find("channel_skew");
+  const EffectPointer low_pass = FindIn(Catalogue(), "q_sensor_lowpass");
+  const EffectPointer skew = FindIn(Catalogue(), "channel_skew");
   const EffectPointer both = Combine(low_pass, skew);
   EXPECT_EQ(both->id(), "q_sensor_lowpass+channel_skew");
   ASSERT_EQ(both->parameters().size(), 2U);
@@ -38,8 +32,8 @@ TEST(Combined, FactorsMultiplyAndNullsAreTheOther) {
 }
 
 TEST(Combined, AcousticsAddTheirChanges) {
-  const EffectPointer mode = Find("extra_acoustic_mode");
-  const EffectPointer detuned = Find("mode_detuning");
+  const EffectPointer mode = FindIn(Catalogue(), "extra_acoustic_mode");
+  const EffectPointer detuned = FindIn(Catalogue(), "mode_detuning");
   const EffectPointer both = Combine(mode, detuned);
   const Acoustics<double> base{205.0, 0.15, 6000.0, 1500.0, 3.0};
   std::vector<double> x;

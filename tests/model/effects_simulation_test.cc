@@ -14,6 +14,7 @@
 #include "model/cycles/harmonic_balance.h"
 #include "model/effects/catalogue.h"
 #include "model/simulation/simulate.h"
+#include "tests/model/find_effect.h"
 
 namespace howl::effects_simulation_test {
 namespace {
@@ -22,10 +23,7 @@ constexpr double kTone_hz = 250.0;
 constexpr double kTone = 0.03;  // units of q
 
 EffectPointer Find(std::string_view id, std::size_t form = 0) {
-  for (const EffectPointer& effect : SimulationCatalogue()) {
-    if (effect->id() == id && form-- == 0) return effect;
-  }
-  return nullptr;
+  return FindIn(SimulationCatalogue(), id, form);
 }
 
 SimulationScale Scale() {

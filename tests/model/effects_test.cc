@@ -8,6 +8,7 @@
 #include <string>
 
 #include "model/effects/catalogue.h"
+#include "tests/model/find_effect.h"
 
 namespace howl::effects_test {
 namespace {
@@ -18,10 +19,7 @@ const EffectContext kContext{0.31, 207.0, 1.2, 0.08};
 bool SameBits(Response a, Response b) { return a.real() == b.real() && a.imag() == b.imag(); }
 
 EffectPointer Find(std::string_view id, std::size_t form = 0) {
-  for (const EffectPointer& effect : Catalogue()) {
-    if (effect->id() == id && form-- == 0) return effect;
-  }
-  return nullptr;
+  return FindIn(Catalogue(), id, form);
 }
 
 TEST(Effects, NullIsTheBaseBitForBit) {

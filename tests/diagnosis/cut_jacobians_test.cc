@@ -1,17 +1,57 @@
-#include "diagnosis/cuts/flame_cut.h"
-
+// The Jacobians of the two cuts against central differences.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "diagnosis/cuts/acoustic_cut.h"
+#include "diagnosis/cuts/flame_cut.h"
 #include "diagnosis/cuts/make_cut_records.h"
 #include "model/effects/catalogue.h"
 #include "tests/diagnosis/simulated_rig.h"
 
-namespace howl::flame_cut_test {
+namespace howl::cut_jacobians_test {
 namespace {
+
+// Away from the null, where effects do something.
+std::vector<double> ValuesOf(const Effect& effect) {
+  std::vector<double> out;
+  for (const EffectParameter& p : effect.parameters()) out.push_back(p.starts.back());
+  return out;
+}
+
+Eigen::VectorXd StepsAt(const std::vector<double>& x) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(x.size()));
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    out[i] = 1e-5 * std::max(std::abs(x[static_cast<std::size_t>(i)]), 1e-3);
+  }
+  return out;
+}
+
+TEST(AcousticCut, JacobianAgreesWithCentralDifferences) {
+  const std::vector<CutRecord> records = MakeCutRecords({SimulateRig()[0]});
+  const CutRecord& record = records[0];
+  const AcousticLocals locals(std::log(200.0), std::log(0.2), 6000.0, 1500.0);
+  for (const EffectPointer& effect : Catalogue()) {
+    if (effect->kind() != EffectKind::kTransfer || !effect->ChangesAcousticCut()) continue;
+    const std::vector<double> x = ValuesOf(*effect);
+    const Eigen::VectorXd steps = StepsAt(x);
+    const Eigen::VectorXcd residual = AcousticResidual(record, *effect, x, locals);
+    const Eigen::MatrixXcd jacobian = AcousticJacobian(record, *effect, x, locals, residual, steps);
+    for (Eigen::Index j = 0; j < steps.size(); ++j) {
+      std::vector<double> up = x;
+      std::vector<double> down = x;
+      up[static_cast<std::size_t>(j)] += steps[j];
+      down[static_cast<std::size_t>(j)] -= steps[j];
+      const Eigen::VectorXcd numeric = (AcousticResidual(record, *effect, up, locals) -
+                                        AcousticResidual(record, *effect, down, locals)) /
+                                       (2.0 * steps[j]);
+      EXPECT_LT((jacobian.col(4 + j) - numeric).norm(), 1e-3 * numeric.norm() + 1e-9)
+          << effect->id() << " " << j;
+    }
+  }
+}
 
 // The columns of every transfer effect against central differences of the residual at fixed
 // coefficients.
@@ -23,12 +63,8 @@ TEST(FlameCut, JacobianAgreesWithCentralDifferences) {
   std::size_t checked = 0;
   for (const EffectPointer& effect : Catalogue()) {
     if (effect->kind() != EffectKind::kTransfer || !effect->ChangesFlameCut()) continue;
-    std::vector<double> x;
-    Eigen::VectorXd steps(static_cast<Eigen::Index>(effect->parameters().size()));
-    for (const EffectParameter& p : effect->parameters()) {
-      x.push_back(p.starts.back());
-      steps[static_cast<Eigen::Index>(x.size()) - 1] = 1e-5 * std::max(std::abs(x.back()), 1e-3);
-    }
+    const std::vector<double> x = ValuesOf(*effect);
+    const Eigen::VectorXd steps = StepsAt(x);
     const FlameColumns columns = MakeFlameColumns(record, *effect, x, tau);
     const FlameSolution at = SolveFlame(record, *effect, x, tau, columns, weight);
     const Eigen::MatrixXcd jacobian = FlameJacobian(record, *effect, x, tau, columns, at, steps);
@@ -75,4 +111,4 @@ TEST(FlameCut, JacobianAgreesWithCentralDifferences) {
 }
 
 }  // namespace
-}  // namespace howl::flame_cut_test
+}  // namespace howl::cut_jacobians_test
