@@ -15,12 +15,14 @@ namespace howl {
 inline constexpr double kOddsOfItem = 20.0;
 // No cause has the very form that an item gives it: a real low-pass is not of first order, a drift
 // is not even. An item whose form is off by this share of its size leaves the share's square of
-// what it gains, and what is left passes for other causes: so these must gain as much more. Unlike
-// nats it hangs on nothing but how well forms are known; it decides where records tell most. Of
-// 16 rigs of the second simulator with one effect the form was off by 0.03 at most, where a
-// resonance of p gained 30 059 nats and left 23, but of a gain that fluctuates by a quarter, which
-// is modelled to first order, 0.1 (bench/diagnose_rigs.py, with 0 here); real rigs are further off.
-inline constexpr double kFormError = 0.05;
+// what it gains, and what is left passes for other causes, or for errors at the cycle's lines: so
+// these must gain as much more. Unlike nats it hangs on nothing but how well forms are known; it
+// decides where records tell most. Of some 100 rigs of two simulators with one effect
+// (bench/diagnose_rigs.py, bench/loop_practice_study, with a twentieth here) seven left more than a
+// twentieth: 0.07 of a damping that follows the amplitude, 0.08 of a mode and of clipped p, and of
+// gains that fluctuate or jump, which are modelled to first order, 0.10, 0.11, 0.17 and 0.19. The
+// price of a tenth is a cause that is worth less than a hundredth of another: it is not named.
+inline constexpr double kFormError = 0.1;
 
 // What another item must gain beside those that gained so much, in nats.
 inline double LeftByForms(double gained_nats) {
@@ -30,8 +32,9 @@ inline double LeftByForms(double gained_nats) {
 // Against another item in the place of one that came in: within them the two are a class.
 inline constexpr double kOddsOfClass = 50.0;
 
-// Of a trial's gain what need not be known: a tenth of what forms leave of it.
-inline double UnknownOfTrial(double gained_nats) { return 0.1 * LeftByForms(gained_nats); }
+// Of a trial's gain what need not be known, from which fits to all points go on: with it what the
+// item brings is off by a sixtieth of its size, and what forms leave is 40 times as much.
+inline double UnknownOfTrial(double gained_nats) { return LeftByForms(gained_nats) / 40.0; }
 
 // Nats by which a trial that gained less than one of so many may be as good.
 inline double WithinReach(double gained_nats) {
