@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "app/command_line/command.h"
+#include "app/diagnose/clipped_heat_release.h"
 #include "app/diagnose/diagnose_plan.h"
 #include "app/diagnose/diagnose_state.h"
 #include "app/diagnose/diagnose_table.h"
 #include "app/diagnose/listed_names.h"
 #include "app/diagnose/loop_diagnosis_run.h"
 #include "app/diagnose/planned_records.h"
+#include "app/diagnose/search_options.h"
 #include "app/files/digest.h"
 #include "app/input/diagnose_input.h"
 #include "app/input/record_input.h"
@@ -83,6 +85,24 @@ bool LooksForOneCause(const Config& config, const Options& options) {
                                        [](const auto& each) { return each->IsOneTransfer(); });
 }
 
+int Write(const Diagnosis& diagnosis, const Options& options) {
+  const std::filesystem::path path = options.out / "diagnosis.json";
+  WriteWholeFile(path, DiagnosisJson(diagnosis).dump(2) + "\n");
+  if (!options.quiet) {
+    PrintDiagnosis(diagnosis);
+    std::printf("written: %s\n", path.c_str());
+  }
+  return kDone;
+}
+
+int RunBudget(const Config& config, const Options& options, std::vector<NamedRecord> records) {
+  if (const std::optional<Diagnosis> clipped =
+          DiagnoseClippedHeatRelease(records, SearchOptions(config, options))) {
+    return Write(*clipped, options);
+  }
+  return RunLoopDiagnosis(config, options, std::move(records));
+}
+
 int RunDiagnoseCommand(const Options& options) {
   const Config config = LoadConfig(options.config, LoopsTaken::kAny);
   if (config.record_loop) return RunLoopDiagnosis(config, options, LoadRecords(config));
@@ -90,7 +110,7 @@ int RunDiagnoseCommand(const Options& options) {
   std::vector<NamedRecord> records;
   if (HasRecords(config) && !options.Has("--plan")) records = LoadRecords(config);
   if (!records.empty() && !LooksForOneCause(config, options)) {
-    return RunLoopDiagnosis(config, options, std::move(records));
+    return RunBudget(config, options, std::move(records));
   }
   if (options.Has("--with")) {
     throw UsageError(
@@ -101,20 +121,9 @@ int RunDiagnoseCommand(const Options& options) {
   if (!HasRecords(config)) return RunTable(config, options);
   const std::vector<DiagnosisExperiment> experiments =
       MakeDiagnosisExperiments(config, std::move(records));
-  DiagnosisOptions how;
-  how.model = BaseOf(config);
-  how.choose_modes = !StatesModes(config);
-  how.choose_delays = !StatesDelays(config);
-  how.threads = options.threads;
-  how.withheld = Withheld(options);
-  how.seed = options.seed;
+  DiagnosisOptions how = SearchOptions(config, options);
   how.bootstrap = Replicates(options);
-  std::ranges::copy(DeclaredEffectsOf(config), std::back_inserter(how.further));
   if (!options.quiet && isatty(STDERR_FILENO) != 0) {
-    how.progress = [](std::size_t done, std::size_t total) {
-      static ProgressLine line("starts of the search", false);
-      line.Show(done, total);
-    };
     how.bootstrap_progress = [](std::size_t done, std::size_t total) {
       static ProgressLine line("replicates of the bootstrap", false);
       line.Show(done, total);
@@ -136,7 +145,6 @@ int RunDiagnoseCommand(const Options& options) {
   if (!options.quiet) SayWhereItGoesOn(store, state_path);
   DiagnoseState state(store);
   how.memory = &state;
-  how.stopped = IsInterrupted;
   if (shard) how.owns_replicate = [&](std::size_t replicate) { return shard->Owns(replicate); };
   const Diagnosis diagnosis = Diagnose(experiments, how);
   if (IsInterrupted() && diagnosis.stopped) {
@@ -148,14 +156,9 @@ int RunDiagnoseCommand(const Options& options) {
     store.Forget();
     return kDone;
   }
-  const std::filesystem::path path = options.out / "diagnosis.json";
-  WriteWholeFile(path, DiagnosisJson(diagnosis).dump(2) + "\n");
+  const int status = Write(diagnosis, options);
   store.Forget();
-  if (!options.quiet) {
-    PrintDiagnosis(diagnosis);
-    std::printf("written: %s\n", path.c_str());
-  }
-  return kDone;
+  return status;
 }
 
 }  // namespace

