@@ -13,9 +13,7 @@ namespace {
 constexpr char kClipping[] = "q_clipping";
 
 bool MayBeClipped(const std::vector<double>& q) {
-  return !q.empty() && ShareClipped(q) == 0.0 &&
-         ShareOnNoisyRails(Eigen::Map<const Eigen::VectorXd>(
-             q.data(), static_cast<Eigen::Index>(q.size()))) > 0.0;
+  return !q.empty() && ShareClipped(q) == 0.0 && ShareOnNoisyRails(q) > 0.0;
 }
 
 }  // namespace

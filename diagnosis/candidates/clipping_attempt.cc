@@ -42,11 +42,10 @@ Attempt TryClipping(const AttemptContext& at, const Effect& effect) {
   for (std::size_t e = 0; e < out.held_out.size(); ++e) {
     out.held_out[e].acoustic_residual = clipping.fit.experiments[e].acoustic_residual;
   }
-  out.model_free = clipping.sharp_edge && (pressure || Repeats(*at.records, channel));
-  // A flame that saturates makes as sharp an edge, and then p shows nothing of what is cut off.
-  if (clipping.sharp_edge && !out.model_free) {
-    out.model_free = clipping.gain > PriceOfParameters(out.parameters);
-  }
+  // A flame that saturates makes as sharp an edge of q, and then p shows nothing of what is cut
+  // off.
+  out.model_free = clipping.sharp_edge && (pressure || Repeats(*at.records, channel) ||
+                                           clipping.gain > PriceOfParameters(out.parameters));
   out.confirmed = out.model_free || clipping.plateau_noise < kPlateauNoise;
   return out;
 }

@@ -38,11 +38,6 @@ Health FindingsOf(const LoopRecord& of) {
   return out;
 }
 
-double ShareOnRails(const std::vector<double>& samples) {
-  return ShareOnNoisyRails(
-      Eigen::Map<const Eigen::VectorXd>(samples.data(), static_cast<Eigen::Index>(samples.size())));
-}
-
 LoopBlock BlockOf(std::string_view effect) {
   for (const EffectPointer& each : Catalogue()) {
     if (each->id() == effect) return each->block();
@@ -58,7 +53,7 @@ double ValueOf(const Kind& kind, const Health& findings, const Record& record) {
   for (const Finding& finding : findings) {
     if (finding.subject == kind.subject) value += finding.value;
   }
-  if (value == 0.0 && kind.subject == kPressureClipped) return ShareOnRails(record.pressure);
+  if (value == 0.0 && kind.subject == kPressureClipped) return ShareOnNoisyRails(record.pressure);
   return value;
 }
 
@@ -107,7 +102,7 @@ bool CanBeMadeGood(const std::string& effect, const std::vector<LoopRecord>& rec
     const Record& record = each.record;
     if (effect == "p_clipping") {
       const double share = ShareClipped(record.pressure);
-      return share <= kMostClipped && (share > 0.0 || ShareOnRails(record.pressure) == 0.0);
+      return share <= kMostClipped && (share > 0.0 || ShareOnNoisyRails(record.pressure) == 0.0);
     }
     if (effect == "p_dropouts") return ShareStuck(record.pressure) <= kMostStuck;
     return effect == "q_dropouts" && ShareStuck(record.heat_release) <= kMostStuck;

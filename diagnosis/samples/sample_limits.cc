@@ -121,6 +121,12 @@ double ShareOnNoisyRails(const Eigen::VectorXd& x) {
   return HasEdges(x, range) ? ShareAtTop(x, range) + ShareAtTop(-x, range) : 0.0;
 }
 
+double ShareOnNoisyRails(const std::vector<double>& samples) {
+  const Eigen::VectorXd x =
+      Eigen::Map<const Eigen::VectorXd>(samples.data(), static_cast<Eigen::Index>(samples.size()));
+  return ShareOnNoisyRails(x);
+}
+
 bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel) {
   const auto edges = std::count_if(records.begin(), records.end(), [&](const CutRecord& record) {
     return SharpEdge(SignalOf(record, channel));

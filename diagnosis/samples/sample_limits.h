@@ -18,6 +18,7 @@ namespace howl {
 // Zero without such edges. What a flame makes of p may be as flat: of heat release that says
 // nothing.
 double ShareOnNoisyRails(const Eigen::VectorXd& x);
+double ShareOnNoisyRails(const std::vector<double>& samples);
 
 // True if in most records the density of the signal's values ends in an edge.
 bool HasSharpEdge(const std::vector<CutRecord>& records, Channel channel);

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
+#include <optional>
 #include <random>
 #include <string>
+#include <vector>
+
+#include "tests/practice_records.h"
 
 namespace howl::clipped_heat_release_test {
 namespace {
@@ -46,7 +49,8 @@ std::vector<NamedRecord> RigOf(const Made& made) {
 TEST(ClippedHeatRelease, MayBeWhereTheDensityEndsInEdges) {
   for (const double level : {0.7, 0.8, 0.9}) {
     for (const double sensor : {1e-3, 4e-3}) {
-      EXPECT_TRUE(HeatReleaseMayBeClipped(RigOf({0.8, 0.03, level, sensor}))) << level << sensor;
+      EXPECT_TRUE(HeatReleaseMayBeClipped(RigOf({0.8, 0.03, level, sensor})))
+          << level << " " << sensor;
     }
   }
 }
@@ -62,30 +66,10 @@ TEST(ClippedHeatRelease, IsNotAskedForWhereSamplesRepeat) {
   EXPECT_FALSE(HeatReleaseMayBeClipped(RigOf({0.8, 0.03, 0.8, 0.0})));
 }
 
-std::vector<NamedRecord> Practice(const std::string& folder) {
-  std::vector<NamedRecord> out;
-  for (const double phi : {0.56, 0.53, 0.51, 0.49, 0.47, 0.45}) {
-    NamedRecord each;
-    each.name = "exp" + std::to_string(out.size() + 1);
-    each.phi = phi;
-    each.record.sampling_hz = 5000.0;
-    std::ifstream file(folder + "/data/" + each.name + ".csv");
-    std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line)) {
-      char* end = nullptr;
-      each.record.pressure.push_back(std::strtod(line.c_str(), &end));
-      each.record.heat_release.push_back(std::strtod(end + 1, nullptr));
-    }
-    out.push_back(std::move(each));
-  }
-  return out;
-}
-
 TEST(LongClippedHeatRelease, IsFoundInAPracticeRig) {
   const char* folder = std::getenv("HOWL_PRACTICE");
   if (!folder) GTEST_SKIP() << "HOWL_PRACTICE is not set";
-  const std::vector<NamedRecord> rig = Practice(std::string(folder) + "/case011");
+  const std::vector<NamedRecord> rig = PracticeRecords(std::string(folder) + "/case011");
   DiagnosisOptions options;
   options.choose_modes = options.choose_delays = true;
   const std::optional<Diagnosis> found = DiagnoseClippedHeatRelease(rig, options);

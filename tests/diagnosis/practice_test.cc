@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "diagnosis/diagnosis.h"
+#include "tests/practice_records.h"
 
 namespace howl::practice_test {
 namespace {
@@ -19,24 +21,11 @@ std::string CaseName(int number) {
 }
 
 std::vector<DiagnosisExperiment> ReadCase(const std::string& folder) {
-  std::vector<DiagnosisExperiment> experiments;
-  const double phi[] = {0.56, 0.53, 0.51, 0.49, 0.47, 0.45};
-  for (int k = 0; k < 6; ++k) {
-    DiagnosisExperiment experiment;
-    experiment.name = "exp" + std::to_string(k + 1);
-    experiment.phi = phi[k];
-    experiment.record.sampling_hz = 5000.0;
-    std::ifstream file(folder + "/data/" + experiment.name + ".csv");
-    std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line)) {
-      char* end = nullptr;
-      experiment.record.pressure.push_back(std::strtod(line.c_str(), &end));
-      experiment.record.heat_release.push_back(std::strtod(end + 1, nullptr));
-    }
-    experiments.push_back(std::move(experiment));
+  std::vector<DiagnosisExperiment> out;
+  for (NamedRecord& each : PracticeRecords(folder)) {
+    out.push_back({each.name, each.phi, std::move(each.record)});
   }
-  return experiments;
+  return out;
 }
 
 std::string ReadEffect(const std::string& path) {
