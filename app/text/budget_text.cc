@@ -104,6 +104,20 @@ std::string SeenText(const Budget& budget) {
   return out;
 }
 
+std::string NotFoundText(const std::vector<ItemBound>& bounds) {
+  if (bounds.empty()) return "";
+  const auto with_unit = [](double value, const std::string& unit) {
+    if (!std::isfinite(value)) return std::string("-");
+    return Significant(value, 2) + (unit.empty() ? "" : " " + unit);
+  };
+  TextTable table({"not found", "value", "at least", "at most (95 %)"});
+  for (const ItemBound& bound : bounds) {
+    table.AddRow({bound.form.empty() ? bound.item : bound.item + " (" + bound.form + ")",
+                  bound.name, with_unit(bound.low, bound.unit), with_unit(bound.high, bound.unit)});
+  }
+  return table.Text();
+}
+
 }  // namespace
 
 std::string ParameterText(const std::vector<EstimatedParameter>& parameters) {
@@ -135,7 +149,7 @@ std::string BudgetText(const Budget& budget) {
   }
   out += "floor of the gap, of a loop that is right: " + Fixed(budget.floor, 3) + "\n";
   if (budget.gap_left > budget.floor) out += OctavesText(budget.left_by_octave);
-  return out;
+  return out + NotFoundText(budget.not_found);
 }
 
 }  // namespace howl

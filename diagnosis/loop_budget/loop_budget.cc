@@ -11,6 +11,7 @@
 #include "diagnosis/held_out/places_left.h"
 #include "diagnosis/loop_budget/delay_trend.h"
 #include "diagnosis/loop_budget/forms/odds.h"
+#include "diagnosis/loop_budget/item_bounds.h"
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "diagnosis/loop_budget/loop_item_parameters.h"
 #include "diagnosis/loop_budget/loop_verdict.h"
@@ -202,6 +203,9 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   out.items = options.given;
   for (const LoopStep& step : found.steps) out.items.push_back(step.item.id);
   TakeVerdict(found, &out);
+  if (out.diagnosis.kind != VerdictKind::kUnknown) {
+    budget.not_found = BoundsBeside(records, found.best, found.base.model, how);
+  }
   return out;
 }
 

@@ -3,14 +3,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
 
+#include "diagnosis/loop_budget/change_values.h"
 #include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
-#include "estimation/record_fit/slow/modal_parts.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
 
 namespace howl {
@@ -53,8 +52,7 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
                                                    const LoopItem& item, std::size_t mode,
                                                    const LoopBudgetOptions& options) {
   std::vector<EstimatedParameter> out;
-  using ValueOf = std::function<double(const RecordSpectra&, const LoopPoint&)>;
-  const auto add = [&](const std::string& name, const std::string& unit, const ValueOf& value_of) {
+  const auto add = [&](const std::string& name, const std::string& unit, const auto& value_of) {
     EstimatedParameter parameter{name, 0.0, 0.0, 0.0, unit};
     for (std::size_t e = 0; e < records.size(); ++e) {
       const RecordSpectra record = records.Whole(fit.model, e);
@@ -131,30 +129,11 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
         return point.path.tau / record.scale.AngularFrequency();
       });
       break;
-    case LoopItemKind::kSlowChange:
-      if (item.change == &PointStructure::damping_follows_amplitude) {
-        add("xi_add_at_cycle", "", [](const RecordSpectra&, const LoopPoint& point) {
-          const LoopMode& of_cycle = ModeOfCycle(point.modes);
-          return 0.5 * std::hypot(of_cycle.a, of_cycle.b) *
-                 point.Change(SlowChange::kDamping).sum() / of_cycle.omega;
-        });
-      } else if (item.change == &PointStructure::frequency_drifts) {
-        add("rel_span", "", [](const RecordSpectra&, const LoopPoint& point) {
-          const LoopMode& of_cycle = ModeOfCycle(point.modes);
-          return 0.5 * std::hypot(of_cycle.a, of_cycle.b) *
-                 point.Change(SlowChange::kFrequency).sum() / std::pow(of_cycle.omega, 2);
-        });
-      } else if (item.change == &PointStructure::gain_follows_amplitude) {
-        add("slope", "", [](const RecordSpectra&, const LoopPoint& point) {
-          return point.Change(SlowChange::kGain).sum();
-        });
-      } else {
-        add("rel_at_cycle", "", [](const RecordSpectra&, const LoopPoint& point) {
-          const double at_cycle = point.Change(SlowChange::kDelay).sum();
-          return at_cycle / (point.path.tau - at_cycle);
-        });
-      }
+    case LoopItemKind::kSlowChange: {
+      const PointValue value = ValueOfChange(item);
+      add(value.name, "", value.of);
       break;
+    }
     case LoopItemKind::kLineErrors:
       add("rms", "", [&](const RecordSpectra&, const LoopPoint& point) {
         const Eigen::VectorXcd& errors = item.lines == &PointStructure::acoustic_lines

@@ -50,9 +50,20 @@ struct SampleFact {
   double line_hz = 0.0;  // of hum; 0: it is at all frequencies
 };
 
+// What an item that was not found may still be (loop_budget/item_bounds.h), at 95 %.
+struct ItemBound {
+  std::string item;
+  std::string form;
+  std::string name;  // of its value
+  std::string unit;
+  double low = 0.0;  // infinite: not bounded
+  double high = 0.0;
+};
+
 struct Budget {
   std::vector<SampleFact> seen_in_samples;
   std::vector<BudgetEntry> entries;
+  std::vector<ItemBound> not_found;  // where the loop is known
   // Of the config's loop; where the budget began with items that were given, of that with them.
   double gap_before = 0.0;
   std::optional<double> gap_without_given;  // of the config's loop, then

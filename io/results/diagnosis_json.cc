@@ -82,6 +82,19 @@ Json SeenJson(const Budget& budget) {
   return out;
 }
 
+Json NotFoundJson(const std::vector<ItemBound>& bounds) {
+  Json out = Json::array();
+  for (const ItemBound& bound : bounds) {
+    out.push_back({{"item", bound.item},
+                   {"form", bound.form.empty() ? Json() : Json(bound.form)},
+                   {"parameter", bound.name},
+                   {"lo", NumberOrNull(bound.low)},
+                   {"hi", NumberOrNull(bound.high)},
+                   {"unit", bound.unit}});
+  }
+  return out;
+}
+
 Json BudgetJson(const Budget& budget) {
   Json entries = Json::array();
   for (const BudgetEntry& entry : budget.entries) {
@@ -173,6 +186,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
         budget.gap_without_given ? NumberOrNull(*budget.gap_without_given) : Json(nullptr);
     json["budget"] = BudgetJson(budget);
     json["seen_in_samples"] = SeenJson(budget);
+    json["not_found"] = NotFoundJson(budget.not_found);
     json["best_model"] = budget.best_model;
     json["left"] = {{"gap", NumberOrNull(budget.gap_left)},
                     {"floor", NumberOrNull(budget.floor)},

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace howl::budget_text_test {
 namespace {
 
@@ -46,6 +48,17 @@ TEST(BudgetText, NamesTheFormOfAnEffect) {
   EXPECT_THAT(BudgetText(budget), testing::Not(testing::HasSubstr("second_delay_path (")));
   budget.entries[0].form = "side before_flame";
   EXPECT_THAT(BudgetText(budget), testing::HasSubstr("second_delay_path (side before_flame)"));
+}
+
+TEST(BudgetText, SaysHowLargeMayBeWhatWasNotFound) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Budget budget;
+  EXPECT_THAT(BudgetText(budget), testing::Not(testing::HasSubstr("not found")));
+  budget.not_found = {{"q_sensor_lowpass", "order 1", "cutoff_hz", "Hz", 2040.0, kInfinity},
+                      {"crosstalk_p_to_q", "", "rel", "", -0.0123, 0.0456}};
+  EXPECT_THAT(BudgetText(budget),
+              testing::ContainsRegex("q_sensor_lowpass .order 1. *cutoff_hz *2040 Hz *-"));
+  EXPECT_THAT(BudgetText(budget), testing::ContainsRegex("crosstalk_p_to_q *rel *-0.012 *0.046"));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // A budget as diagnosis.json and the report have it.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "io/report/figures/catalogue.h"
 #include "io/results/diagnosis_json.h"
 
@@ -32,6 +34,8 @@ Diagnosis Example() {
   effect.parameters = {{"sigma_s", 1e-4, 0.9e-4, 1.1e-4, "s"}};
   budget.entries = {noise, effect};
   budget.seen_in_samples = {{"quantisation", 24.0, 5}};
+  budget.not_found = {{"q_sensor_lowpass", "order 1", "cutoff_hz", "Hz", 2000.0,
+                       std::numeric_limits<double>::infinity()}};
   budget.left_by_octave = {{"exp2", LoopBlock::kFlame, -1, 70.0, 140.0, 0.4, 0.6}};
   budget.left = {{LoopBlock::kFlame, 100.0, 240.0, {"exp2"}, 0.7}};
   diagnosis.budget = budget;
@@ -54,6 +58,11 @@ TEST(BudgetOutput, JsonHasTheContractsKeys) {
   EXPECT_EQ(json["seen_in_samples"][0]["effect"], "quantisation");
   EXPECT_EQ(json["seen_in_samples"][0]["value"], 24.0);
   EXPECT_EQ(json["seen_in_samples"][0]["experiments"], (nlohmann::ordered_json{5, 6}));
+  EXPECT_EQ(json["not_found"][0]["item"], "q_sensor_lowpass");
+  EXPECT_EQ(json["not_found"][0]["form"], "order 1");
+  EXPECT_EQ(json["not_found"][0]["parameter"], "cutoff_hz");
+  EXPECT_EQ(json["not_found"][0]["lo"], 2000.0);
+  EXPECT_TRUE(json["not_found"][0]["hi"].is_null());
   EXPECT_EQ(json["left"]["gap"], 0.3);
   EXPECT_EQ(json["left"]["floor"], 0.1);
   EXPECT_EQ(json["best_model"], "model: {modes: 2, delay_spread: normal}");

@@ -9,6 +9,7 @@
 
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/forms/parameter_labels.h"
+#include "diagnosis/loop_budget/trials/law_of_trial.h"
 #include "estimation/joint_records/best_row.h"
 #include "estimation/parallel.h"
 #include "estimation/record_fit/mode_maxima.h"
@@ -135,12 +136,17 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     });
     if (options.progress) options.progress(++done, fits.size());
   });
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    LoopTrial& trial = out[i / records.size()];
-    trial.gain += fits[i].log_evidence;
-    trial.starts[0][i % records.size()] = fits[i].parameters;
-  }
-  for (LoopTrial& trial : out) {
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    LoopTrial& trial = out[i];
+    const auto first = fits.begin() + static_cast<std::ptrdiff_t>(i * records.size());
+    const std::vector<PointFit> of_points(first,
+                                          first + static_cast<std::ptrdiff_t>(records.size()));
+    for (const PointFit& fit : of_points) trial.gain += fit.log_evidence;
+    trial.starts = {ParametersOf(of_points)};
+    if (records.size() > 1) {
+      const double agreed = GainedByLaw(records, from, trial.model, of_points, options.threads);
+      trial.gain += std::max(agreed, 0.0);
+    }
     const bool tone = trial.item.kind == LoopItemKind::kMode && HasATone(records, trial);
     const bool grows =
         trial.item.change == &PointStructure::gain_follows_amplitude && GainGrows(records, trial);

@@ -1,6 +1,7 @@
 // What a further item would gain, each operating point by itself: nats of its record's evidence,
-// under the priors that the law of the points gives, and wide ones of what the item brings. A fit
-// of all points together takes ten times as long, and is for those that gain most (loop_search.h).
+// under the priors that the law of the points gives, and wide ones of what the item brings, or
+// those that the points give one another where they agree on it (law_of_trial.h). A fit of all
+// points together takes ten times as long, and is for those that gain most (loop_search.h).
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_TRIAL_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_TRIALS_LOOP_TRIAL_H_
 

@@ -214,6 +214,17 @@ std::string DiagnosisSummary(const ReportInput& input) {
                          : "The most probable candidates, with 95 % intervals",
                      {"effect", "gap removed (%)", "gap left", "estimate"}, rows);
   }
+  rows.clear();
+  for (const auto& bound : input.diagnosis.value("not_found", nlohmann::json::array())) {
+    const std::string form = TextAt(bound, "form");
+    rows.push_back({bound.value("item", "") + (form.empty() ? "" : " (" + form + ")"),
+                    bound.value("parameter", ""), TableCell(NumberAt(bound, "lo")),
+                    TableCell(NumberAt(bound, "hi")), bound.value("unit", "")});
+  }
+  if (!rows.empty()) {
+    out += HtmlTable("What was not found, and how large it may still be, at 95 %",
+                     {"effect", "parameter", "at least", "at most", "unit"}, rows);
+  }
   if (input.diagnosis.contains("advice") && input.diagnosis["advice"].is_string()) {
     out += "<p>Next: " + EscapeHtml(input.diagnosis["advice"].get<std::string>()) + ".</p>\n";
   }
