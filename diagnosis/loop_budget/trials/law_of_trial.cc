@@ -36,8 +36,8 @@ PointPrior Exchanged(PointPrior prior, const PointPrior& other,
   for (const Eigen::Index i : parameters) {
     prior.mean[i] = other.mean[i];
     prior.deviation[i] = other.deviation[i];
-    prior.degrees[i] = other.degrees.size() > 0 ? other.degrees[i] : kInfinity;
-    prior.widest[i] = other.widest.size() > 0 ? other.widest[i] : other.deviation[i];
+    if (other.degrees.size() > 0) prior.degrees[i] = other.degrees[i];
+    prior.widest[i] = (other.widest.size() > 0 ? other.widest : other.deviation)[i];
   }
   return prior;
 }
