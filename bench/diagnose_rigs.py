@@ -7,9 +7,11 @@ Each case of FOLDER is diagnosed into ANSWERS/NAME, one on each core, unless it 
 answers are scored against FOLDER's key. A single effect counts as named where the verdict names it
 and nothing else, or has it in a class of at most three; two where it names both and nothing else; one from
 outside the catalogue, where it says unknown. Shares are with Wilson's 95 % interval. One table splits
-single effects of medium and large size at the median of what was drawn. The last shows what the item of
+single effects of medium and large size at the median of what was drawn. One shows what the item of
 a single effect leaves, in further items or in errors at the cycle's lines, over what it gains: the root is
-by how much its form is off (kFormError of diagnosis/loop_budget/forms/odds.h).
+by how much its form is off (kFormError of diagnosis/loop_budget/forms/odds.h). The last counts how often the
+95 % interval of an effect that a rig has not, and that was not found, holds zero
+(diagnosis/loop_budget/item_bounds.h).
 """
 import concurrent.futures
 import json
@@ -95,6 +97,20 @@ def form_errors(rows):
     return sorted(out, key=lambda each: -each[3])
 
 
+def intervals_with_zero(rows):
+    """By effect, of those with two ends, where the answer is right."""
+    out = {}
+    for _, k, answer in rows:
+        held = {each["effect"] for each in k["effects"]}
+        if not is_right(k["effects"], answer["verdict"]):
+            continue
+        for each in answer.get("not_found", []):
+            if each["item"] in held or each["lo"] is None or each["hi"] is None:
+                continue
+            out.setdefault(each["item"], []).append(each["lo"] <= 0.0 <= each["hi"])
+    return out
+
+
 def main():
     if len(sys.argv) < 4:
         sys.exit(__doc__)
@@ -141,6 +157,10 @@ def main():
     print("\n| single effect | gains, nats | leaves, nats | its form is off by |\n|---|---|---|---|")
     for effect, gained, left, error in form_errors(rows):
         print(f"| {effect} | {gained:.0f} | {left:.1f} | {error:.3f} |")
+
+    print("\n| effect that the rig has not | its 95 % interval holds zero |\n|---|---|")
+    for effect, holds in sorted(intervals_with_zero(rows).items()):
+        print(f"| {effect} | {share(holds)} |")
 
 
 if __name__ == "__main__":

@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kWidth = 40.0;
 
+std::string WithForm(const std::string& item, const std::string& form) {
+  return form.empty() ? item : item + " (" + form + ")";
+}
+
 std::string Bar(const BudgetEntry& entry, double whole) {
   const auto cells = [&](double gap) {
     return static_cast<std::size_t>(
@@ -61,8 +65,7 @@ std::string OctavesText(const std::vector<OctaveGap>& gaps) {
 std::string WaterfallText(const Budget& budget) {
   TextTable table({"item", "gap after", "", "lost without: nats", "gap", "points", "estimate"});
   for (const BudgetEntry& entry : budget.entries) {
-    std::string names = entry.item;
-    if (!entry.form.empty()) names += " (" + entry.form + ")";
+    std::string names = WithForm(entry.item, entry.form);
     for (const std::string& other : entry.equals) names += " = " + other;
     table.AddRow(
         {names, Fixed(entry.gap_after, 3), Bar(entry, budget.gap_before), Fixed(entry.lost_nats, 1),
@@ -104,6 +107,15 @@ std::string SeenText(const Budget& budget) {
   return out;
 }
 
+std::string GivenText(const std::vector<GivenItem>& given) {
+  if (given.empty()) return "";
+  TextTable table({"given", "estimate"});
+  for (const GivenItem& each : given) {
+    table.AddRow({WithForm(each.item, each.form), ParameterText(each.parameters)});
+  }
+  return table.Text();
+}
+
 std::string NotFoundText(const std::vector<ItemBound>& bounds) {
   if (bounds.empty()) return "";
   const auto with_unit = [](double value, const std::string& unit) {
@@ -112,8 +124,8 @@ std::string NotFoundText(const std::vector<ItemBound>& bounds) {
   };
   TextTable table({"not found", "value", "at least", "at most (95 %)"});
   for (const ItemBound& bound : bounds) {
-    table.AddRow({bound.form.empty() ? bound.item : bound.item + " (" + bound.form + ")",
-                  bound.name, with_unit(bound.low, bound.unit), with_unit(bound.high, bound.unit)});
+    table.AddRow({WithForm(bound.item, bound.form), bound.name, with_unit(bound.low, bound.unit),
+                  with_unit(bound.high, bound.unit)});
   }
   return table.Text();
 }
@@ -135,7 +147,8 @@ std::string BudgetText(const Budget& budget) {
   std::string out = SeenText(budget);
   if (budget.gap_without_given) {
     out += "with the items that were given the gap, left out, goes from " +
-           Fixed(*budget.gap_without_given, 3) + " to " + Fixed(budget.gap_before, 3) + "\n";
+           Fixed(*budget.gap_without_given, 3) + " to " + Fixed(budget.gap_before, 3) + "\n" +
+           GivenText(budget.given);
   }
   out += budget.entries.empty()
              ? "gap, left out: " + Fixed(budget.gap_left, 3) + "\n"

@@ -36,6 +36,13 @@ struct BudgetEntry {
   Place place;
 };
 
+// An item that the base was given (loop_budget/search/given_items.h).
+struct GivenItem {
+  std::string item;
+  std::string form;
+  std::vector<EstimatedParameter> parameters;  // beside all that the best loop has
+};
+
 // An effect that the samples themselves show (loop_budget/sample_facts.h).
 struct SampleFact {
   std::string effect;
@@ -62,6 +69,7 @@ struct ItemBound {
 
 struct Budget {
   std::vector<SampleFact> seen_in_samples;
+  std::vector<GivenItem> given;
   std::vector<BudgetEntry> entries;
   std::vector<ItemBound> not_found;  // where the loop is known
   // Of the config's loop; where the budget began with items that were given, of that with them.

@@ -82,6 +82,16 @@ Json SeenJson(const Budget& budget) {
   return out;
 }
 
+Json GivenJson(const std::vector<GivenItem>& given) {
+  Json out = Json::array();
+  for (const GivenItem& each : given) {
+    out.push_back({{"item", each.item},
+                   {"form", each.form.empty() ? Json() : Json(each.form)},
+                   {"parameters", ParametersJson(each.parameters)}});
+  }
+  return out;
+}
+
 Json NotFoundJson(const std::vector<ItemBound>& bounds) {
   Json out = Json::array();
   for (const ItemBound& bound : bounds) {
@@ -186,6 +196,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
         budget.gap_without_given ? NumberOrNull(*budget.gap_without_given) : Json(nullptr);
     json["budget"] = BudgetJson(budget);
     json["seen_in_samples"] = SeenJson(budget);
+    json["given"] = GivenJson(budget.given);
     json["not_found"] = NotFoundJson(budget.not_found);
     json["best_model"] = budget.best_model;
     json["left"] = {{"gap", NumberOrNull(budget.gap_left)},

@@ -41,6 +41,15 @@ TEST(BudgetText, SaysHowFarGivenItemsTookTheGap) {
                                  "0.750 to 0.250\n"));
 }
 
+TEST(BudgetText, SaysWhatGivenItemsComeTo) {
+  Budget budget;
+  budget.gap_without_given = 0.75;
+  budget.given = {{"q_sensor_lowpass", "order 1", {{"cutoff_hz", 244.7, 240.0, 250.0, "Hz"}}}};
+  EXPECT_THAT(
+      BudgetText(budget),
+      testing::ContainsRegex("given *estimate\nq_sensor_lowpass .order 1. *cutoff_hz 244.7 Hz\n"));
+}
+
 // Where an effect stands in the loop is part of what was found.
 TEST(BudgetText, NamesTheFormOfAnEffect) {
   Budget budget;

@@ -34,6 +34,7 @@ Diagnosis Example() {
   effect.parameters = {{"sigma_s", 1e-4, 0.9e-4, 1.1e-4, "s"}};
   budget.entries = {noise, effect};
   budget.seen_in_samples = {{"quantisation", 24.0, 5}};
+  budget.given = {{"mains_hum", "", {{"hz", 50.0, 50.0, 50.0, "Hz"}}}};
   budget.not_found = {{"q_sensor_lowpass", "order 1", "cutoff_hz", "Hz", 2000.0,
                        std::numeric_limits<double>::infinity()}};
   budget.left_by_octave = {{"exp2", LoopBlock::kFlame, -1, 70.0, 140.0, 0.4, 0.6}};
@@ -58,6 +59,8 @@ TEST(BudgetOutput, JsonHasTheContractsKeys) {
   EXPECT_EQ(json["seen_in_samples"][0]["effect"], "quantisation");
   EXPECT_EQ(json["seen_in_samples"][0]["value"], 24.0);
   EXPECT_EQ(json["seen_in_samples"][0]["experiments"], (nlohmann::ordered_json{5, 6}));
+  EXPECT_EQ(json["given"][0]["item"], "mains_hum");
+  EXPECT_EQ(json["given"][0]["parameters"]["hz"]["value"], 50.0);
   EXPECT_EQ(json["not_found"][0]["item"], "q_sensor_lowpass");
   EXPECT_EQ(json["not_found"][0]["form"], "order 1");
   EXPECT_EQ(json["not_found"][0]["parameter"], "cutoff_hz");

@@ -11,8 +11,9 @@
 
 namespace howl {
 
-LoopFit WithGiven(const LoopRecords& records, const LoopForm& base, LoopFit fit,
-                  const LoopBudgetOptions& options) {
+GivenLoop WithGiven(const LoopRecords& records, const LoopForm& base, LoopFit fit,
+                    const LoopBudgetOptions& options) {
+  std::vector<LoopItem> given;
   for (std::size_t i = 0; i < options.given.size(); ++i) {
     const std::string key = "given/" + std::to_string(i) + "/";
     std::vector<LoopItem> items = LoopItems(fit.model, base, options.declared);
@@ -23,10 +24,11 @@ LoopFit WithGiven(const LoopRecords& records, const LoopForm& base, LoopFit fit,
     const LoopTrial& best = *std::ranges::max_element(trials, {}, &LoopTrial::gain);
     const double before = fit.Density();
     fit = FitTrial(records, best, best.starts, key, options);
+    given.push_back(best.item);
     VLOG(1) << key << best.item.id << " " << best.gain << " nats, foretells "
             << fit.Density() - before << " better";
   }
-  return fit;
+  return {std::move(fit), std::move(given)};
 }
 
 }  // namespace howl

@@ -66,7 +66,9 @@ void Search::FitBase(LoopFound* out) {
   out->base = Driven({base_, FitRecords(points, base_.structure, fit_options), {}}, "base/");
   if (options_.given.empty()) return;
   out->without_given = out->base;
-  out->base = Driven(WithGiven(records_, base_, *out->without_given, options_), "given/");
+  GivenLoop given = WithGiven(records_, base_, *out->without_given, options_);
+  out->base = Driven(given.fit, "given/");
+  out->given = std::move(given.items);
   base_ = out->base.model;
 }
 

@@ -29,6 +29,7 @@ struct LoopFound : LoopStanding {
   LoopRecords records;  // with the flames driven as `best` has it
   LoopFit base;
   std::optional<LoopFit> without_given;  // the base without items that were given, if any were
+  std::vector<LoopItem> given;           // which the base has
   // `best` with errors at the cycle's lines (loop_point.h), of acoustics or of flame; `best` itself
   // where it has them.
   LoopFit with_acoustic_lines;

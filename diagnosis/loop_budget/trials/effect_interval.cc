@@ -61,13 +61,10 @@ class IntervalSearch {
   }
 
  private:
-  // top - curvature (strength - at)^2 / 2, as far as it was tried on either side of the null;
-  // without a curvature where nothing is told.
+  // top - curvature (strength - at)^2 / 2; without a curvature where nothing is told.
   struct Parabola {
     double at = 0.0;
     double curvature = 0.0;
-    double low = 0.0;
-    double high = 0.0;
   };
 
   double Value(double strength) const {

@@ -31,6 +31,13 @@ TEST(GivenItems, AreOfTheBase) {
   EXPECT_EQ(found.base.effects[0].effect->id(), "q_sensor_lowpass");
   EXPECT_NEAR(found.base.effects[0].values[0], kCutoff_hz, 0.03 * kCutoff_hz);
   const Budget& budget = *found.diagnosis.budget;
+  // What the loop has already is not there twice.
+  ASSERT_EQ(budget.given.size(), 2u);
+  EXPECT_EQ(budget.given[0].item, "complex_residues");
+  EXPECT_EQ(budget.given[1].item, "q_sensor_lowpass");
+  ASSERT_EQ(budget.given[1].parameters.size(), 1u);
+  EXPECT_LT(budget.given[1].parameters[0].low, kCutoff_hz);
+  EXPECT_GT(budget.given[1].parameters[0].high, kCutoff_hz);
   ASSERT_TRUE(budget.gap_without_given.has_value());
   EXPECT_GT(*budget.gap_without_given, 0.3);
   EXPECT_LT(budget.gap_before, 0.1 * *budget.gap_without_given);
