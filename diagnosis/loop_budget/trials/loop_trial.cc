@@ -144,8 +144,9 @@ std::vector<LoopTrial> TryItems(const LoopRecords& records, const LoopFit& from,
     for (const PointFit& fit : of_points) trial.gain += fit.log_evidence;
     trial.starts = {ParametersOf(of_points)};
     if (records.size() > 1) {
-      const double agreed = GainedByLaw(records, from, trial.model, of_points, options.threads);
-      trial.gain += std::max(agreed, 0.0);
+      // In this order what is not a number gains nothing.
+      trial.gain +=
+          std::max(0.0, GainedByLaw(records, from, trial.model, of_points, options.threads));
     }
     const bool tone = trial.item.kind == LoopItemKind::kMode && HasATone(records, trial);
     const bool grows =
