@@ -20,7 +20,7 @@ bool IsOneValue(const LoopItem& item) {
 // The loop with each point as its record alone has it, near where all points have it.
 LoopFit EachAlone(const LoopRecords& records, LoopFit fit, const LoopBudgetOptions& options) {
   RunUnits(records.size(), options.threads, [&](std::size_t e) {
-    const RecordSpectra record = records.Whole(fit.model, e);
+    const RecordSpectra record = records.WholeAlone(fit.model, e);
     PointFit& point = fit.fit.points[e];
     fit.fit.prior[e] = PriorOf(fit.model.structure, record);
     point = KeptFit(options.units, "bounds/alone/" + std::to_string(e), [&] {
@@ -69,7 +69,7 @@ ItemBound BoundOfChange(const LoopRecords& records, const LoopFit& alone, const 
   const PointValue value = ValueOfChange(item);
   std::vector<ValueAtPoint> values(records.size());
   RunUnits(records.size(), options.threads, [&](std::size_t e) {
-    const RecordSpectra record = records.Whole(form, e);
+    const RecordSpectra record = records.WholeAlone(form, e);
     const PointPrior prior = PriorOf(form.structure, record);
     const PointFit fit = KeptFit(options.units, "bounds/" + item.id + "/" + std::to_string(e), [&] {
       return FitPoint(record, form.structure, prior, starts[e]);

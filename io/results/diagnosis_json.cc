@@ -82,11 +82,14 @@ Json SeenJson(const Budget& budget) {
   return out;
 }
 
+// Of an item that has several.
+Json FormOrNull(const std::string& form) { return form.empty() ? Json() : Json(form); }
+
 Json GivenJson(const std::vector<GivenItem>& given) {
   Json out = Json::array();
   for (const GivenItem& each : given) {
     out.push_back({{"item", each.item},
-                   {"form", each.form.empty() ? Json() : Json(each.form)},
+                   {"form", FormOrNull(each.form)},
                    {"parameters", ParametersJson(each.parameters)}});
   }
   return out;
@@ -96,7 +99,7 @@ Json NotFoundJson(const std::vector<ItemBound>& bounds) {
   Json out = Json::array();
   for (const ItemBound& bound : bounds) {
     out.push_back({{"item", bound.item},
-                   {"form", bound.form.empty() ? Json() : Json(bound.form)},
+                   {"form", FormOrNull(bound.form)},
                    {"parameter", bound.name},
                    {"lo", NumberOrNull(bound.low)},
                    {"hi", NumberOrNull(bound.high)},
@@ -109,7 +112,7 @@ Json BudgetJson(const Budget& budget) {
   Json entries = Json::array();
   for (const BudgetEntry& entry : budget.entries) {
     entries.push_back({{"item", entry.item},
-                       {"form", entry.form.empty() ? Json() : Json(entry.form)},
+                       {"form", FormOrNull(entry.form)},
                        {"gap_before", NumberOrNull(entry.gap_before)},
                        {"gap_after", NumberOrNull(entry.gap_after)},
                        {"lost_without",

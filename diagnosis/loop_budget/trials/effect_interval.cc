@@ -70,13 +70,17 @@ class IntervalSearch {
   double Value(double strength) const {
     const double null = parameter_.null_value;
     if (!std::isfinite(null)) return low_ / std::abs(strength);
-    return null + strength * std::max(high_ - null, null - low_);
+    return null + strength * Farther();
+  }
+  // From a finite null to the range's farther end.
+  double Farther() const {
+    return std::max(high_ - parameter_.null_value, parameter_.null_value - low_);
   }
   // How strong it may be on one side.
   double RangeOn(double side) const {
     const double null = parameter_.null_value;
     if (!std::isfinite(null)) return 1.0;
-    return (side > 0.0 ? high_ - null : null - low_) / std::max(high_ - null, null - low_);
+    return (side > 0.0 ? high_ - null : null - low_) / Farther();
   }
   double ValueOrInfinity(double strength) const {
     return std::isfinite(strength) ? Value(strength) : strength;

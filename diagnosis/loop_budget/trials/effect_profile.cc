@@ -99,11 +99,12 @@ EffectPoint EffectProfile::At(const Eigen::VectorXd& u, const std::vector<Eigen:
   out.fits.resize(records_.size());
   out.log_jacobian.resize(records_.size());
   RunUnits(records_.size(), options_.threads, [&](std::size_t e) {
-    const RecordSpectra whole = records_.Whole(form, e);
-    const RecordSpectra& record = extent == RecordExtent::kMiddle ? MiddleOf(whole) : whole;
+    const bool of_middle = extent == RecordExtent::kMiddle;
+    const RecordSpectra whole = of_middle ? records_.Whole(form, e) : records_.WholeAlone(form, e);
+    const RecordSpectra& record = of_middle ? MiddleOf(whole) : whole;
     out.log_jacobian[e] = LogJacobian(record, form.effects);
     out.fits[e] = KeptFit(options_.units, key + std::to_string(e), [&] {
-      const bool compared = known_ == MaximumKnown::kRoughly && extent == RecordExtent::kWhole;
+      const bool compared = known_ == MaximumKnown::kRoughly && !of_middle;
       return FitPoint(
           record, form.structure, PriorOfTrial(records_, from_, form, e, record), starts[e],
           compared ? ToCompareWith(PosteriorWithout(e) - out.log_jacobian[e]) : options);

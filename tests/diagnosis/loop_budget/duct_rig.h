@@ -58,6 +58,15 @@ inline void LowPass(double cutoff_hz, Record* record) {
   Filter(response, record->sampling_hz, &record->heat_release);
 }
 
+// A share of p in q, relative to what the signals are.
+inline void Leak(double share, Record* record) {
+  const double leak =
+      share * RootMeanSquare(record->heat_release) / RootMeanSquare(record->pressure);
+  for (std::size_t i = 0; i < record->pressure.size(); ++i) {
+    record->heat_release[i] += leak * record->pressure[i];
+  }
+}
+
 // A search that is offered these items alone.
 inline LoopBudgetOptions Among(const std::vector<std::string>& kept) {
   LoopBudgetOptions out;

@@ -22,13 +22,7 @@ constexpr PointFitOptions kExact{.iterations = 400, .converged = 1e-9};
 
 // A leak moves acoustics and flame with it, far more than the records leave open.
 std::vector<LoopRecord> LeakingDucts() {
-  return DuctsAt({1.2, 1.5, 1.8}, [](Record* record) {
-    const double leak =
-        kLeak * RootMeanSquare(record->heat_release) / RootMeanSquare(record->pressure);
-    for (std::size_t i = 0; i < record->pressure.size(); ++i) {
-      record->heat_release[i] += leak * record->pressure[i];
-    }
-  });
+  return DuctsAt({1.2, 1.5, 1.8}, [](Record* record) { Leak(kLeak, record); });
 }
 
 LoopItem ItemOf(const std::string& id) {

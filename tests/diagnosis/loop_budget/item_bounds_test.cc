@@ -23,13 +23,7 @@ LoopRecords Leaking(double leak, std::uint64_t seed, double duration_s) {
   std::vector<LoopRecord> ducts;
   for (const double gain : {1.2, 1.5, 1.8}) {
     ducts.push_back(DuctAt(gain, duration_s, 100 * seed + static_cast<std::uint64_t>(10.0 * gain),
-                           [&](Record* record) {
-                             const double rel = leak * RootMeanSquare(record->heat_release) /
-                                                RootMeanSquare(record->pressure);
-                             for (std::size_t i = 0; i < record->pressure.size(); ++i) {
-                               record->heat_release[i] += rel * record->pressure[i];
-                             }
-                           }));
+                           [&](Record* record) { Leak(leak, record); }));
   }
   return {ducts, 0};
 }

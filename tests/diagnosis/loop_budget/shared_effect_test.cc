@@ -126,11 +126,9 @@ TEST(SharedEffect, FindsAStrongLeak) {
   };
   double relative_to_record = 0.0;  // a leak is stated over q as it is recorded
   const std::vector<LoopRecord> rig = Ducts([&](Record* record) {
-    const double leak = kLeak * ratio_of(*record);
-    for (std::size_t i = 0; i < record->pressure.size(); ++i) {
-      record->heat_release[i] += leak * record->pressure[i];
-    }
-    relative_to_record += leak / ratio_of(*record) / 3.0;
+    const double before = ratio_of(*record);
+    Leak(kLeak, record);
+    relative_to_record += kLeak * before / ratio_of(*record) / 3.0;
   });
   const std::vector<LoopTrial> trials = TrialsOn(rig);
   EXPECT_EQ(BestOf(trials).item.id, "crosstalk_p_to_q");
