@@ -42,11 +42,22 @@ struct RecordSpec {
   double heat_release_scale = 1.0;
   double start_s = 0.0;              // from the first sample
   std::optional<double> duration_s;  // absent: to the end
-  // Known responses of the instruments, which are removed from the record (remove_instruments.h).
+  // What is known of the instruments, which is removed from the record (remove_instruments.h).
   std::optional<ResponseSpec> pressure_response;
   std::optional<ResponseSpec> heat_release_response;
   double delay_s = 0.0;  // by how much heat release is recorded later than pressure
   int delay_line = 0;    // in the config
+  double pressure_in_heat_release = 0.0;  // recorded p times this is in recorded q
+
+  bool HasInstruments() const {
+    return pressure_response || heat_release_response || delay_s != 0.0 ||
+           pressure_in_heat_release != 0.0;
+  }
+  void ForgetInstruments() {
+    pressure_response.reset();
+    heat_release_response.reset();
+    delay_s = pressure_in_heat_release = 0.0;
+  }
 };
 
 }  // namespace howl

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/campaign/derived_config.h"
+#include "app/input/derived_config.h"
 #include "io/config/yaml/config_text.h"
 #include "io/config/yaml/yaml_text.h"
 #include "io/config/yaml/yaml_tree.h"

@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "app/command_line/command.h"
 #include "app/diagnose/listed_names.h"
+#include "app/diagnose/next_config.h"
 #include "app/input/diagnose_input.h"
 #include "app/input/fit_state.h"
 #include "app/input/usable_records.h"
@@ -97,6 +101,12 @@ std::vector<EffectPointer> DeclaredIn(const Config& config) {
 
 int RunLoopDiagnosis(const Config& config, const Options& options, std::vector<NamedRecord> read) {
   if (config.record_loop) RefuseOthers(options);
+  const std::filesystem::path next_path = options.out / "next.yaml";
+  if (std::error_code error; std::filesystem::equivalent(config.source, next_path, error)) {
+    throw UsageError("--out: " + options.out.string() +
+                     " has the config itself, in whose place what is found would be written, "
+                     "expected another folder");
+  }
   LoopBudgetOptions how;
   how.withheld = Withheld(options);
   how.given = ListedNames(options, "--with", LoopItemIds(), kNoItem);
@@ -123,9 +133,18 @@ int RunLoopDiagnosis(const Config& config, const Options& options, std::vector<N
   const LoopDiagnosis found = DiagnoseLoops(records, base, how);
   const std::filesystem::path path = options.out / "diagnosis.json";
   WriteWholeFile(path, LoopDiagnosisJson(found).dump(2) + "\n");
+  std::vector<std::string> names;
+  for (const LoopRecord& each : records) names.push_back(each.name);
+  const std::optional<std::string> next = NextConfig(config, names, found);
+  if (next) {
+    WriteWholeFile(next_path, *next);
+  } else {
+    std::filesystem::remove(next_path);  // an earlier diagnosis may have found more
+  }
   state.Forget();
   if (!options.quiet) {
     std::printf("%s", LoopDiagnosisText(found).c_str());
+    if (next) std::printf("as a config of its own: %s\n", next_path.c_str());
     std::printf("written: %s\n", path.c_str());
   }
   return kDone;

@@ -15,11 +15,9 @@ namespace {
 // The record before known instruments are removed from it, because a filter moves the samples that
 // were at the converter's end.
 Record AsRecorded(const RecordSpec& spec, const Config& config, int line, const Record& record) {
-  if (!spec.pressure_response && !spec.heat_release_response && spec.delay_s == 0.0) return record;
+  if (!spec.HasInstruments()) return record;
   RecordSpec plain = spec;
-  plain.pressure_response.reset();
-  plain.heat_release_response.reset();
-  plain.delay_s = 0.0;
+  plain.ForgetInstruments();
   return ReadRecordOn(plain, config.source.string(), line).record.value_or(record);
 }
 

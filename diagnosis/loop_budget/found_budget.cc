@@ -13,8 +13,8 @@
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/loop_held_out.h"
 #include "diagnosis/loop_budget/loop_item_parameters.h"
+#include "diagnosis/loop_budget/stated_loop.h"
 #include "estimation/analysis/spectra/half_width.h"
-#include "estimation/joint_records/loop_names.h"
 #include "estimation/parallel.h"
 
 namespace howl {
@@ -116,7 +116,6 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     ceiling.Lower(without[i]);
   }
   Budget out;
-  out.best_model = ModelLine(found.best.model.structure, found.best.model.flame_input);
   out.experiments = records.size();
   out.everywhere = Everywhere(records.names(), base);
   out.gap_before = ceiling.Gap(base);
@@ -149,8 +148,10 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
     if (step.item.kind == LoopItemKind::kMode) ++mode;
     out.entries.push_back(std::move(entry));
   }
+  out.stated = StatedLoopOf(records, found, out);
   if (std::optional<BudgetEntry> trend = DelayTrendIn(records, found, out, options)) {
     trend->gap_before = trend->gap_after = before;
+    out.stated.own_delays = true;
     out.entries.push_back(std::move(*trend));
   }
   const HeldOutScore left = ceiling.Against(best);

@@ -14,6 +14,7 @@
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/loop_places.h"
 #include "diagnosis/loop_budget/sample_facts.h"
+#include "diagnosis/loop_budget/stated_loop.h"
 #include "diagnosis/loop_budget/why_unknown.h"
 #include "diagnosis/verdict/advice.h"
 #include "diagnosis/verdict/calibration.h"
@@ -149,21 +150,48 @@ void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   if (any) AddCandidate(best - base, odds[1] / sum, &diagnosis);
 }
 
+std::string JoinedBy(const std::string& between, const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
+  return out;
+}
+
+// What a config says of such a loop and such records.
+std::string TextOf(const StatedLoop& stated) {
+  std::vector<std::string> record;
+  if (!stated.pressure_response.empty()) {
+    record.push_back("pressure_response: " + stated.pressure_response);
+  }
+  if (!stated.heat_release_response.empty()) {
+    record.push_back("heat_release_response: " + stated.heat_release_response);
+  }
+  if (stated.delay_s != 0.0) record.push_back("delay_s: " + ShortNumber(stated.delay_s));
+  if (!stated.pressure_in_heat_release.empty()) {
+    record.push_back("pressure_in_heat_release, another one in each");
+  }
+  const std::string model = stated.is_another_model ? stated.model : "the config's model";
+  return model + (record.empty() ? "" : " and records with " + JoinedBy(", ", record));
+}
+
 std::string AdviceOf(const Diagnosis& diagnosis) {
   if (!RestCanBeFound(diagnosis.budget->seen_in_samples)) {
     return kRecordAgain;
   }
-  const std::string& model = diagnosis.budget->best_model;
+  const StatedLoop& stated = diagnosis.budget->stated;
+  std::string fit = "howl fit with " + TextOf(stated);
+  if (!stated.not_stated.empty()) {
+    fit += ", which knows nothing of " + JoinedBy(", ", stated.not_stated);
+  }
   switch (diagnosis.kind) {
     case VerdictKind::kNone:
-      return "the config's loop stands";
+      return diagnosis.budget->given.empty() ? "the config's loop stands" : fit;
     case VerdictKind::kEffect:
-      return "howl fit with " + model;
+      return fit;
     case VerdictKind::kUnknown:
       break;
   }
-  return "howl fit with " + model +
-         ", which is the best loop found, but need not be the rig's: distrust what it says of the "
+  return fit +
+         "; it is the best loop found, but need not be the rig's: distrust what it says of the "
          "cycle";
 }
 

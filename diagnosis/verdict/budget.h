@@ -67,6 +67,25 @@ struct ItemBound {
   double high = 0.0;
 };
 
+// The loop with all entries, as far as a config can state it (loop_budget/stated_loop.h). What the
+// records have of instruments is as `record` of each experiment states it.
+struct StatedLoop {
+  std::string model;              // model: {...}
+  bool is_another_model = false;  // than the config's
+  bool own_delays = false;        // which the paper's loop must state as well
+  std::string pressure_response;
+  std::string heat_release_response;
+  double delay_s = 0.0;
+  std::vector<double> pressure_in_heat_release;  // of each experiment; empty: of none
+  std::vector<std::string> not_stated;           // items
+
+  bool ChangesRecords() const {
+    return !pressure_response.empty() || !heat_release_response.empty() || delay_s != 0.0 ||
+           !pressure_in_heat_release.empty();
+  }
+  bool SaysMore() const { return is_another_model || own_delays || ChangesRecords(); }
+};
+
 struct Budget {
   std::vector<SampleFact> seen_in_samples;
   std::vector<GivenItem> given;
@@ -83,8 +102,8 @@ struct Budget {
   double acoustic_error = 0.0;
   double flame_error = 0.0;
   std::size_t experiments = 0;
-  Place everywhere;        // all operating points and bands
-  std::string best_model;  // of the loop with all entries, as a config's model: {...}
+  Place everywhere;  // all operating points and bands
+  StatedLoop stated;
 };
 
 }  // namespace howl

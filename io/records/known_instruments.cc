@@ -22,7 +22,8 @@ void TakeOutInstruments(const RecordSpec& spec, const std::string& config_file, 
     return known ? std::optional(ResponseOf(*known)) : std::nullopt;
   };
   const Instruments instruments = {response(spec.pressure_response),
-                                   response(spec.heat_release_response), spec.delay_s};
+                                   response(spec.heat_release_response), spec.delay_s,
+                                   spec.pressure_in_heat_release};
   if (instruments.None()) return;
   const double length_s = static_cast<double>(record.pressure.size()) / record.sampling_hz;
   const double most_s = kMostDroppedShare * length_s;

@@ -49,9 +49,7 @@ class Faults {
     alone.pressure = column;
     if (spec_.heat_release == column) alone.pressure_scale = spec_.heat_release_scale;
     alone.heat_release.reset();
-    alone.heat_release_response.reset();
-    alone.pressure_response.reset();
-    alone.delay_s = 0.0;
+    alone.ForgetInstruments();
     alone.time.reset();
     alone.time_unit_s.reset();
     alone.start_s = 0.0;
@@ -65,7 +63,7 @@ class Faults {
     RecordSpec timed = spec_;
     timed.heat_release.reset();
     timed.heat_release_response.reset();
-    timed.delay_s = 0.0;
+    timed.delay_s = timed.pressure_in_heat_release = 0.0;
     Try([&] { LoadRecord(timed, config_file_, config_line_); });
   }
 

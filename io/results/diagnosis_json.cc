@@ -108,6 +108,18 @@ Json NotFoundJson(const std::vector<ItemBound>& bounds) {
   return out;
 }
 
+Json StatedJson(const StatedLoop& stated) {
+  const auto or_null = [](const std::string& text) {
+    return text.empty() ? Json(nullptr) : Json(text);
+  };
+  return {{"model", stated.model},
+          {"pressure_response", or_null(stated.pressure_response)},
+          {"heat_release_response", or_null(stated.heat_release_response)},
+          {"delay_s", stated.delay_s},
+          {"pressure_in_heat_release", stated.pressure_in_heat_release},
+          {"not_stated", stated.not_stated}};
+}
+
 Json BudgetJson(const Budget& budget) {
   Json entries = Json::array();
   for (const BudgetEntry& entry : budget.entries) {
@@ -201,7 +213,7 @@ Json DiagnosisJson(const Diagnosis& diagnosis) {
     json["seen_in_samples"] = SeenJson(budget);
     json["given"] = GivenJson(budget.given);
     json["not_found"] = NotFoundJson(budget.not_found);
-    json["best_model"] = budget.best_model;
+    json["stated"] = StatedJson(budget.stated);
     json["left"] = {{"gap", NumberOrNull(budget.gap_left)},
                     {"floor", NumberOrNull(budget.floor)},
                     {"where", WhereJson(budget.left)},

@@ -38,7 +38,7 @@ Json LinesJson(const LinesLeft& lines) {
 
 Json LoopDiagnosisJson(const LoopDiagnosis& found) {
   Json json = DiagnosisJson(found.diagnosis);
-  for (const char* key : {"free_slack", "bootstrap", "base_parameters", "best_model"}) {
+  for (const char* key : {"free_slack", "bootstrap", "base_parameters"}) {
     json.erase(key);
   }
   json["unknown_because"] =

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -60,6 +61,32 @@ TEST_F(LoopDiagnosis, SaysWhatTheConfigsLoopLacks) {
   EXPECT_LE(json["gap"]["after"].get<double>(), json["gap"]["before"].get<double>());
   EXPECT_TRUE(json["line_errors"]["q_from_p"]["nats"].is_number());
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/diagnosis.state"));
+}
+
+// What was found as a config, which fit takes as it stands.
+TEST_F(LoopDiagnosis, WritesAConfigOfWhatItFound) {
+  const std::filesystem::path next = folder_.path() / "out/next.yaml";
+  ProgramResult run = Diagnose("{modes: 1, flame_input: velocity}",
+                               "--with flame_input_pressure_rate,channel_skew --most-items 0");
+  ASSERT_EQ(run.status, 0) << run.err << run.out;
+  EXPECT_THAT(run.out, HasSubstr("as a config of its own: " + next.string() + "\n"));
+  const std::string text = ReadFile(next);
+  EXPECT_THAT(text, HasSubstr("flame_input: pressure_rate"));
+  EXPECT_THAT(text, HasSubstr("delay_s: "));
+  EXPECT_THAT(text, HasSubstr("The verdict is unknown"));
+  const Json stated = Json::parse(ReadFile(folder_.path() / "out/diagnosis.json"))["stated"];
+  // The rig has no skew; two records tell it to some microseconds.
+  EXPECT_LT(std::abs(stated["delay_s"].get<double>()), 2e-5);
+  run = RunHowl("check " + next.string());
+  EXPECT_EQ(run.status, 0) << run.err << run.out;
+  run = RunHowl("diagnose " + next.string() + " --out " + next.parent_path().string());
+  EXPECT_EQ(run.status, 2) << run.out;
+  EXPECT_THAT(run.err, HasSubstr("has the config itself"));
+  EXPECT_EQ(ReadFile(next), text);
+  // Where nothing is found an earlier one does not stay.
+  run = Diagnose("{modes: 1, flame_input: velocity}", "--most-items 0");
+  ASSERT_EQ(run.status, 0) << run.err << run.out;
+  EXPECT_FALSE(std::filesystem::exists(next));
 }
 
 // The gap of an account, and nothing said of what it lacks.

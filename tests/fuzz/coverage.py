@@ -25,7 +25,7 @@ MARK = "<!-- coverage -->\n"
 # What reads, and not what writes, runs or draws.
 READERS = [
     ("configs", r"io/config/"),
-    ("campaigns and jobs", r"app/campaign/(campaign_(spec|rigs)|derived_config)\.cc|app/jobs/job_spec\.cc"),
+    ("campaigns and jobs", r"app/(campaign/campaign_(spec|rigs)|input/derived_config)\.cc|app/jobs/job_spec\.cc"),
     ("records as text or gzip", r"io/records/(text|columns)/"),
     ("records of MATLAB or HDF5", r"io/records/binary/"),
     ("records of any format", r"io/records/(?!write_record)[a-z_]*\.cc"),

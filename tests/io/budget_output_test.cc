@@ -17,7 +17,9 @@ Diagnosis Example() {
   budget.gap_before = 0.8;
   budget.gap_left = 0.3;
   budget.floor = 0.1;
-  budget.best_model = "model: {modes: 2, delay_spread: normal}";
+  budget.stated.model = "model: {modes: 2, delay_spread: normal}";
+  budget.stated.heat_release_response = "1 / (1 + s / (2 pi 400))";
+  budget.stated.not_stated = {"slow_drift"};
   BudgetEntry noise;
   noise.item = "q_sensor_noise";
   noise.gap_before = 0.8;
@@ -68,7 +70,10 @@ TEST(BudgetOutput, JsonHasTheContractsKeys) {
   EXPECT_TRUE(json["not_found"][0]["hi"].is_null());
   EXPECT_EQ(json["left"]["gap"], 0.3);
   EXPECT_EQ(json["left"]["floor"], 0.1);
-  EXPECT_EQ(json["best_model"], "model: {modes: 2, delay_spread: normal}");
+  EXPECT_EQ(json["stated"]["model"], "model: {modes: 2, delay_spread: normal}");
+  EXPECT_EQ(json["stated"]["heat_release_response"], "1 / (1 + s / (2 pi 400))");
+  EXPECT_TRUE(json["stated"]["pressure_response"].is_null());
+  EXPECT_EQ(json["stated"]["not_stated"], nlohmann::ordered_json{"slow_drift"});
   EXPECT_EQ(json["left"]["where"][0]["block"], "flame");
   const auto& octave = json["left"]["octaves"][0];
   EXPECT_EQ(octave["experiment"], "exp2");

@@ -114,6 +114,19 @@ TEST(KnownInstruments, ANumberIsAResponseToo) {
   }
 }
 
+TEST(KnownInstruments, ALeakOfPressureIsTakenOutBeforeTheResponse) {
+  const Record plain = Loaded("");
+  const Record record =
+      Loaded("      pressure_in_heat_release: 0.25\n      heat_release_response: 2\n");
+  const std::size_t dropped = (plain.pressure.size() - record.pressure.size()) / 2;
+  for (std::size_t i = 0; i < record.pressure.size(); ++i) {
+    const double p = plain.pressure[i + dropped];
+    ASSERT_EQ(record.pressure[i], p) << i;
+    ASSERT_NEAR(record.heat_release[i], (plain.heat_release[i + dropped] - 0.25 * p) / 2.0, 1e-4)
+        << i;
+  }
+}
+
 TEST(KnownInstruments, WithoutTheKeysNoBitChanges) {
   const Record plain = Loaded("");
   const Record zero = Loaded("      delay_s: 0\n");
@@ -176,7 +189,7 @@ TEST(KnownInstrumentsMistakes, OfATableNameItsFileLineAndColumn) {
 }
 
 TEST(KnownInstrumentsMistakes, OfHeatReleaseWithoutItsColumn) {
-  for (const char* const key : {"heat_release_response", "delay_s"}) {
+  for (const char* const key : {"heat_release_response", "delay_s", "pressure_in_heat_release"}) {
     const ConfigFile file(
         "experiments:\n  - name: exp1\n    phi: 0.56\n    record:\n"
         "      file: data.csv\n      sampling_hz: 5000\n      " +

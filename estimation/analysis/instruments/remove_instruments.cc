@@ -140,6 +140,9 @@ std::optional<ResponseFault> RemoveInstruments(const Instruments& instruments, R
   const std::size_t flank = std::max(n / kSamplesPerFlank, kFewestFlank);
   Transform transform(TransformLength(n + 2 * flank));
   const double bin_hz = record.sampling_hz / static_cast<double>(transform.size());
+  for (std::size_t i = 0; i < record.heat_release.size() && instruments.leak != 0.0; ++i) {
+    record.heat_release[i] -= instruments.leak * record.pressure[i];
+  }
   std::size_t dropped = 0;
   const auto divided = [&](const std::vector<double>& signal, const Division& division) {
     const double mean = std::accumulate(signal.begin(), signal.end(), 0.0) / static_cast<double>(n);

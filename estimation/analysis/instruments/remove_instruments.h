@@ -1,6 +1,7 @@
 // Removes known instruments' responses from a record before anything is estimated:
 //
-//   P(f) = P_recorded(f) / H_p(f),   Q(f) = Q_recorded(f) e^(+s delay_s) / H_q(f),   s = 2 pi j f
+//   P(f) = P_recorded(f) / H_p(f),
+//   Q(f) = (Q_recorded(f) - leak P_recorded(f)) e^(+s delay_s) / H_q(f),   s = 2 pi j f
 //
 // in the discrete Fourier transform of the whole record.
 //
@@ -39,8 +40,9 @@ struct Instruments {
   std::optional<InstrumentResponse> pressure;
   std::optional<InstrumentResponse> heat_release;
   double delay_s = 0.0;  // by how much heat release is recorded later than pressure
+  double leak = 0.0;     // of recorded pressure into recorded heat release, in q's unit over p's
 
-  bool None() const { return !pressure && !heat_release && delay_s == 0.0; }
+  bool None() const { return !pressure && !heat_release && delay_s == 0.0 && leak == 0.0; }
 };
 
 inline constexpr double kLeastResponseShare = 0.01;  // of the largest |H|

@@ -90,7 +90,8 @@ void ReadInstruments(const ConfigCursor& record, const std::filesystem::path& co
     record.Read("delay_s", spec.delay_s);
     spec.delay_line = delay->Line();
   }
-  for (const char* const key : {"heat_release_response", "delay_s"}) {
+  record.Read("pressure_in_heat_release", spec.pressure_in_heat_release);
+  for (const char* const key : {"heat_release_response", "delay_s", "pressure_in_heat_release"}) {
     if (record.Find(key) && !spec.heat_release) {
       record.FailAt(key, "has no heat_release to act on, expected the column of it too");
     }

@@ -1,4 +1,4 @@
-#include "app/campaign/derived_config.h"
+#include "app/input/derived_config.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 // A config that is another one with some values changed.
-#ifndef HOWL_APP_CAMPAIGN_DERIVED_CONFIG_H_
-#define HOWL_APP_CAMPAIGN_DERIVED_CONFIG_H_
+#ifndef HOWL_APP_INPUT_DERIVED_CONFIG_H_
+#define HOWL_APP_INPUT_DERIVED_CONFIG_H_
 
 #include <filesystem>
 #include <optional>
@@ -32,4 +32,4 @@ std::vector<std::filesystem::path> InputFiles(LocatedNode& config);
 
 }  // namespace howl
 
-#endif  // HOWL_APP_CAMPAIGN_DERIVED_CONFIG_H_
+#endif  // HOWL_APP_INPUT_DERIVED_CONFIG_H_
