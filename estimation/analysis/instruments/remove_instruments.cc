@@ -54,9 +54,21 @@ class Transform {
 };
 
 struct Division {
-  Spectrum gain;  // what the spectrum is multiplied by
+  Spectrum gain;       // what the spectrum is multiplied by
+  double least = 0.0;  // the smallest size that it is divided by
   std::optional<ResponseFault> fault;
 };
+
+// What a signal was divided by.
+ResponseInHertz Divisor(const std::optional<InstrumentResponse>& response,
+                        const Division& division) {
+  if (!response) return {};
+  return [known = *response, least = division.least](double frequency_hz) {
+    const std::complex<double> value = known.At(frequency_hz);
+    const double size = std::abs(value);
+    return size < least ? std::complex<double>(least) : value;
+  };
+}
 
 Division Divide(const std::optional<InstrumentResponse>& response, Channel channel, double delay_s,
                 double bin_hz, std::size_t bins) {
@@ -77,7 +89,7 @@ Division Divide(const std::optional<InstrumentResponse>& response, Channel chann
     division.fault = {channel, 0.0, true};
     return division;
   }
-  const double least = kLeastResponseShare * most;
+  const double least = division.least = kLeastResponseShare * most;
   for (std::size_t k = 1; k < bins; ++k) {
     std::complex<double>& gain = division.gain[k];
     const double magnitude = std::abs(gain);
@@ -157,20 +169,25 @@ std::optional<ResponseFault> RemoveInstruments(const Instruments& instruments, R
   };
 
   std::vector<double> pressure, heat_release;
+  ResponseInHertz pressure_instrument, heat_release_instrument;
   if (instruments.pressure) {
     const Division division =
         Divide(instruments.pressure, Channel::kPressure, 0.0, bin_hz, transform.bins());
     if (division.fault) return division.fault;
     pressure = divided(record.pressure, division);
+    pressure_instrument = Divisor(instruments.pressure, division);
   }
   if (!record.heat_release.empty() && (instruments.heat_release || instruments.delay_s != 0.0)) {
     const Division division = Divide(instruments.heat_release, Channel::kHeatRelease,
                                      instruments.delay_s, bin_hz, transform.bins());
     if (division.fault) return division.fault;
     heat_release = divided(record.heat_release, division);
+    heat_release_instrument = Divisor(instruments.heat_release, division);
   }
   if (!pressure.empty()) record.pressure = std::move(pressure);
   if (!heat_release.empty()) record.heat_release = std::move(heat_release);
+  record.pressure_instrument = std::move(pressure_instrument);
+  record.heat_release_instrument = std::move(heat_release_instrument);
   dropped = std::min(dropped, static_cast<std::size_t>(kMostDroppedShare * static_cast<double>(n)));
   const auto trim = [&](std::vector<double>& signal) {
     if (signal.empty()) return;

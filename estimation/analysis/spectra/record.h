@@ -2,9 +2,14 @@
 #ifndef HOWL_ESTIMATION_ANALYSIS_SPECTRA_RECORD_H_
 #define HOWL_ESTIMATION_ANALYSIS_SPECTRA_RECORD_H_
 
+#include <complex>
+#include <functional>
 #include <vector>
 
 namespace howl {
+
+// Of the frequency in Hz.
+using ResponseInHertz = std::function<std::complex<double>(double)>;
 
 struct Record {
   double sampling_hz = 0.0;
@@ -15,6 +20,9 @@ struct Record {
   // Where samples of p were lost and others stand in their place: draws of how far off these may
   // be, alike in all periods (draw_clipped.h).
   std::vector<std::vector<double>> pressure_errors;
+  // What the signals were divided by, where the instruments were known (remove_instruments.h), and
+  // with them the noise that had come in behind these; empty: nothing.
+  ResponseInHertz pressure_instrument, heat_release_instrument;
 };
 
 }  // namespace howl

@@ -81,7 +81,8 @@ Eigen::VectorXd PressureNoise(const RecordSpectra& record, const PointStructure&
   }
   const double bin = record.bin_hz / record.scale.cycle_hz;
   const auto instrument_power = [&](C s) {
-    return std::norm(ValueAt(record.pressure_instrument, s));
+    return std::norm(ValueAt(record.pressure_instrument, s) *
+                     ValueAt(record.known_pressure_instrument, s));
   };
   behind *= instrument_power(record.s[record.bins() - 1]);
   Eigen::VectorXcd edges(above + 1);

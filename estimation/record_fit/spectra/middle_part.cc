@@ -109,6 +109,8 @@ void SetMiddle(RecordSpectra* of) {
   if (record.lost_pressure.size() > 0) out.lost_pressure = middle.NearestOf(record.lost_pressure);
   out.pressure_instrument = record.pressure_instrument;
   out.heat_release_instrument = record.heat_release_instrument;
+  out.known_pressure_instrument = record.known_pressure_instrument;
+  out.known_heat_release_instrument = record.known_heat_release_instrument;
   of->middle = std::make_shared<const RecordSpectra>(std::move(out));
 }
 

@@ -58,6 +58,11 @@ Eigen::VectorXcd PressureOf(const RecordSpectra& record, const Eigen::VectorXcd&
   return out;
 }
 
+TransferFunction OverCycle(const ResponseInHertz& response, double cycle_hz) {
+  if (!response) return {};
+  return [response, cycle_hz](C s) { return response(s.imag() * cycle_hz); };
+}
+
 RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
                    const FlamePrior& prior) {
   CHECK_EQ(record.pressure.size(), record.heat_release.size());
@@ -94,6 +99,8 @@ RecordSpectra Make(const Record& record, RecordScale scale, FlameInput input,
   out.position =
       2.0 * (middle.array() / middle[0]).log() / std::log(middle[band.count - 1] / middle[0]) - 1.0;
   out.share = Eigen::VectorXd::Constant(band.count, kSineTaperShare * (1.0 - record.lost_share));
+  out.known_pressure_instrument = OverCycle(record.pressure_instrument, scale.cycle_hz);
+  out.known_heat_release_instrument = OverCycle(record.heat_release_instrument, scale.cycle_hz);
   out.scale = std::move(scale);
   if (!record.pressure_errors.empty()) {
     out.lost_pressure = PressureErrors(record, out).cwiseAbs2().rowwise().mean();

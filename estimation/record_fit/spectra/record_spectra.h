@@ -107,6 +107,8 @@ struct RecordSpectra {
   Eigen::VectorXd lost_pressure;
   // That were taken out of the record: noise that came in behind them was divided by them.
   TransferFunction pressure_instrument, heat_release_instrument;
+  // The same of instruments that were known before, and are no part of the record.
+  TransferFunction known_pressure_instrument, known_heat_release_instrument;
   SlowSignals slow;  // where they have been set
   // How the cycle's harmonics follow what drives the flame's curve (curve_exponents.h); empty where
   // no loop has told: as the answer itself does.

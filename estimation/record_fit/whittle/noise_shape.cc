@@ -76,15 +76,15 @@ Eigen::VectorXd WithoutInstruments(const NoiseTerm& term, const RecordSpectra& r
   return Eigen::VectorXd::Ones(record.bins());
 }
 
-// Of the instrument before the place where it comes in.
+// Of the instruments before the place where it comes in.
 TransferFunction InstrumentBefore(LoopNoise source, const RecordSpectra& record) {
   switch (source) {
     case LoopNoise::kPressureSensor:
     case LoopNoise::kPressureHum:
-      return record.pressure_instrument;
+      return Product(record.known_pressure_instrument, record.pressure_instrument);
     case LoopNoise::kHeatReleaseSensor:
     case LoopNoise::kHeatReleaseHum:
-      return record.heat_release_instrument;
+      return Product(record.known_heat_release_instrument, record.heat_release_instrument);
     case LoopNoise::kCombustion:
     case LoopNoise::kDuct:
     case LoopNoise::kBackground:
@@ -127,7 +127,9 @@ double AnswerToGain(const NoiseTerm& gain, const RecordSpectra& record) {
 Eigen::VectorXd LostPower(const NoiseTerm& term, const RecordSpectra& record) {
   if (term.source != LoopNoise::kPressureSensor || record.lost_pressure.size() == 0) return {};
   Eigen::VectorXd out = record.lost_pressure;
-  if (record.pressure_instrument) out.array() *= NoiseShape(term, record).array();
+  for (Eigen::Index i = 0; i < out.size() && record.pressure_instrument; ++i) {
+    out[i] /= std::norm(record.pressure_instrument(record.s[i]));
+  }
   return out;
 }
 

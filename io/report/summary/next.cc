@@ -42,7 +42,8 @@ void AddUnreliable(const ReportInput& input, std::vector<std::string>& out) {
 void AddAdvice(const ReportInput& input, std::vector<std::string>& out) {
   std::string advice = TextAt(input.diagnosis, "advice");
   if (advice.empty()) return;
-  if (advice.front() >= 'a' && advice.front() <= 'z') advice.front() -= 'a' - 'A';
+  const bool is_command = advice.starts_with("howl ");
+  if (!is_command && advice.front() >= 'a' && advice.front() <= 'z') advice.front() -= 'a' - 'A';
   out.push_back(advice + ".");
 }
 

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "diagnosis/loop_budget/forms/shared_effect.h"
+#include "diagnosis/loop_budget/loop_budget.h"
 #include "estimation/analysis/instruments/instrument_response.h"
+#include "estimation/analysis/instruments/remove_instruments.h"
 #include "model/effects/effect.h"
+#include "tests/diagnosis/loop_budget/duct_rig.h"
 
 namespace howl::stated_loop_test {
 namespace {
@@ -54,6 +57,29 @@ TEST(StatedLoop, SaysNothingOfAnInstrumentAtItsNull) {
     shared.values[0] = effect->parameters()[0].null_value;
     EXPECT_EQ(ResponseFormula(shared), "") << effect->id();
   }
+}
+
+// The sensor's noise is divided by the instrument with the signal. Who does not know that finds it
+// coloured.
+TEST(StatedLoop, LeavesNothingToFindInRecordsThatAreCorrectedByIt) {
+  constexpr double kCutoff_hz = 150.0;
+  const EffectPointer low_pass = SharedEffects().front();
+  ASSERT_EQ(low_pass->id(), "q_sensor_lowpass");
+  FormulaError error;
+  Instruments known;
+  known.heat_release = InstrumentResponse::Parse(ResponseFormula({low_pass, {kCutoff_hz}}), error);
+  std::vector<LoopRecord> records;
+  for (const double gain : {1.2, 1.5, 1.8}) {
+    records.push_back(DuctAt(
+        gain, 0.8, 7, [](Record* record) { LowPass(kCutoff_hz, record); },
+        [](ModalLoop* loop) { loop->sensor_noise = 0.03; }));
+  }
+  for (LoopRecord& each : records) ASSERT_FALSE(RemoveInstruments(known, each.record).has_value());
+  const LoopBudgetOptions how = Among({"q_sensor_noise"});
+  const LoopForm right = DuctsForm();
+  EXPECT_EQ(DiagnoseLoops(records, right, how).diagnosis.kind, VerdictKind::kNone);
+  for (LoopRecord& each : records) each.record.heat_release_instrument = nullptr;
+  EXPECT_EQ(DiagnoseLoops(records, right, how).diagnosis.effect, "q_sensor_noise");
 }
 
 TEST(StatedLoop, KnowsWhatAConfigCannotSay) {
