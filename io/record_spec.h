@@ -48,6 +48,7 @@ struct RecordSpec {
   double delay_s = 0.0;  // by how much heat release is recorded later than pressure
   int delay_line = 0;    // in the config
   double pressure_in_heat_release = 0.0;  // recorded p times this is in recorded q
+  int pressure_in_heat_release_line = 0;  // in the config
 
   bool HasInstruments() const {
     return pressure_response || heat_release_response || delay_s != 0.0 ||

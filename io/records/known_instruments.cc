@@ -35,8 +35,12 @@ void TakeOutInstruments(const RecordSpec& spec, const std::string& config_file, 
   const auto fail = [&](Channel channel, const std::string& what) {
     const bool pressure = channel == Channel::kPressure;
     const auto& known = pressure ? spec.pressure_response : spec.heat_release_response;
-    throw UserError(config_file, known ? known->line : spec.delay_line,
-                    pressure ? "pressure_response" : "heat_release_response", what);
+    if (known) {
+      throw UserError(config_file, known->line,
+                      pressure ? "pressure_response" : "heat_release_response", what);
+    }
+    throw UserError(config_file, spec.pressure_in_heat_release_line, "pressure_in_heat_release",
+                    what);
   };
   if (const auto fault = RemoveInstruments(instruments, record)) {
     fail(fault->channel, fault->zero

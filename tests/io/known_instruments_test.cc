@@ -160,6 +160,10 @@ TEST(KnownInstrumentsMistakes, OfTheConfigNameFileLineAndKey) {
               HasSubstr("config.yaml:8: heat_release_response: is zero at every frequency"));
   EXPECT_THAT(Mistake("      pressure_response: 1e-29\n      pressure_scale: 1e10\n"),
               HasSubstr("config.yaml:8: pressure_response: leaves a signal from "));
+  EXPECT_THAT(Mistake("      pressure_in_heat_release: 1e30\n      pressure_scale: 100\n"),
+              HasSubstr("config.yaml:8: pressure_in_heat_release: leaves a signal from "));
+  EXPECT_THAT(Mistake("      pressure_in_heat_release: some\n"),
+              HasSubstr("config.yaml:8: " + at + "pressure_in_heat_release: "));
 }
 
 TEST(KnownInstrumentsMistakes, OfATableNameItsFileLineAndColumn) {

@@ -90,7 +90,10 @@ void ReadInstruments(const ConfigCursor& record, const std::filesystem::path& co
     record.Read("delay_s", spec.delay_s);
     spec.delay_line = delay->Line();
   }
-  record.Read("pressure_in_heat_release", spec.pressure_in_heat_release);
+  if (const auto leak = record.Find("pressure_in_heat_release")) {
+    record.Read("pressure_in_heat_release", spec.pressure_in_heat_release);
+    spec.pressure_in_heat_release_line = leak->Line();
+  }
   for (const char* const key : {"heat_release_response", "delay_s", "pressure_in_heat_release"}) {
     if (record.Find(key) && !spec.heat_release) {
       record.FailAt(key, "has no heat_release to act on, expected the column of it too");
