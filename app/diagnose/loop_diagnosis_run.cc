@@ -101,12 +101,6 @@ std::vector<EffectPointer> DeclaredIn(const Config& config) {
 
 int RunLoopDiagnosis(const Config& config, const Options& options, std::vector<NamedRecord> read) {
   if (config.record_loop) RefuseOthers(options);
-  const std::filesystem::path next_path = options.out / "next.yaml";
-  if (std::error_code error; std::filesystem::equivalent(config.source, next_path, error)) {
-    throw UsageError("--out: " + options.out.string() +
-                     " has the config itself, in whose place what is found would be written, "
-                     "expected another folder");
-  }
   LoopBudgetOptions how;
   how.withheld = Withheld(options);
   how.given = ListedNames(options, "--with", LoopItemIds(), kNoItem);
@@ -135,11 +129,13 @@ int RunLoopDiagnosis(const Config& config, const Options& options, std::vector<N
   WriteWholeFile(path, LoopDiagnosisJson(found).dump(2) + "\n");
   std::vector<std::string> names;
   for (const LoopRecord& each : records) names.push_back(each.name);
+  const std::filesystem::path next_path = NextConfigPath(config, options.out);
   const std::optional<std::string> next = NextConfig(config, names, found);
   if (next) {
     WriteWholeFile(next_path, *next);
   } else {
-    std::filesystem::remove(next_path);  // an earlier diagnosis may have found more
+    std::error_code ignored;
+    std::filesystem::remove(next_path, ignored);  // an earlier diagnosis may have found more
   }
   state.Forget();
   if (!options.quiet) {

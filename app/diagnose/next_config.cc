@@ -60,6 +60,8 @@ bool SetRecords(const Config& config, const std::vector<std::string>& names,
     }
     const auto name = std::ranges::find(names, each.experiment.name);
     if (found.pressure_in_heat_release.empty() || name == names.end()) continue;
+    all &= !each.record->pressure_response && !each.record->heat_release_response &&
+           each.record->delay_s == 0.0;
     const auto e = static_cast<std::size_t>(name - names.begin());
     const double leak = each.record->pressure_in_heat_release + found.pressure_in_heat_release[e];
     SetKey(at + "pressure_in_heat_release", Number(leak), tree);
@@ -69,11 +71,11 @@ bool SetRecords(const Config& config, const std::vector<std::string>& names,
 
 // A loop that is fitted to whole records takes no parameters and no residuals.
 void SetModel(const std::string& model_line, LocatedNode* tree) {
-  const LocatedNode stated = ParseYaml("next.yaml", model_line);
+  const std::string file;  // the line is right
+  const LocatedNode stated = ParseYaml(file, model_line);
   const LocatedNode& model = stated.Find("model")->value;
   SetKey("model", model, tree);
   Config probe;
-  const std::string file = "next.yaml";
   ReadRecordLoop(ConfigCursor(file, model), probe);
   if (!probe.record_loop) return;
   std::erase_if(tree->members, [](const LocatedMember& member) {
@@ -103,6 +105,11 @@ std::string Head(const LoopDiagnosis& found) {
 
 }  // namespace
 
+std::filesystem::path NextConfigPath(const Config& config, const std::filesystem::path& out) {
+  std::filesystem::path name = config.source.stem();
+  return out / (name += "_next.yaml");
+}
+
 std::optional<std::string> NextConfig(const Config& config, const std::vector<std::string>& names,
                                       const LoopDiagnosis& found) {
   const Budget& budget = *found.diagnosis.budget;
@@ -111,8 +118,9 @@ std::optional<std::string> NextConfig(const Config& config, const std::vector<st
   MakePathsAbsolute(tree, config.source.parent_path());
   if (budget.stated.is_another_model) SetModel(budget.stated.model, &tree);
   const bool papers = !budget.stated.is_another_model && !config.record_loop;
-  if (budget.stated.own_delays && papers)
+  if (budget.stated.own_delays && papers) {
     SetKey("parameters.tau_s.scope", Text("experiment"), &tree);
+  }
   if (!SetRecords(config, names, budget.stated, &tree)) return std::nullopt;
   return YamlComment(Head(found)) + "\n" + YamlText(tree);
 }

@@ -1,9 +1,10 @@
-// DIR/next.yaml: the config of a diagnosis with what was found, as far as a config can state it
-// (diagnosis/verdict/budget.h), so that `howl fit DIR/next.yaml` fits that loop to what the records
-// are without the instruments.
+// DIR/NAME_next.yaml, NAME being the config's: that config with what a diagnosis found, as far as a
+// config can state it (diagnosis/verdict/budget.h), so that `howl fit` of it fits that loop to what
+// the records are without the instruments.
 #ifndef HOWL_APP_DIAGNOSE_NEXT_CONFIG_H_
 #define HOWL_APP_DIAGNOSE_NEXT_CONFIG_H_
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +14,12 @@
 
 namespace howl {
 
-// Nothing where there is no more to say, or where a record has a table of a response beside which
-// one was found. Its paths are as they read from any folder.
-// `names`: of the records that were diagnosed, in their order.
+std::filesystem::path NextConfigPath(const Config& config, const std::filesystem::path& out);
+
+// Nothing where there is no more to say, or where what was found in records that had been corrected
+// already cannot be stated: a response beside a table of another, and a leak beside a response or a
+// delay. Its paths are as they read from any folder. `names`: of the records that were diagnosed,
+// in their order.
 std::optional<std::string> NextConfig(const Config& config, const std::vector<std::string>& names,
                                       const LoopDiagnosis& found);
 

@@ -65,7 +65,7 @@ TEST_F(LoopDiagnosis, SaysWhatTheConfigsLoopLacks) {
 
 // What was found as a config, which fit takes as it stands.
 TEST_F(LoopDiagnosis, WritesAConfigOfWhatItFound) {
-  const std::filesystem::path next = folder_.path() / "out/next.yaml";
+  const std::filesystem::path next = folder_.path() / "out/rig_next.yaml";
   ProgramResult run = Diagnose("{modes: 1, flame_input: velocity}",
                                "--with flame_input_pressure_rate,channel_skew --most-items 0");
   ASSERT_EQ(run.status, 0) << run.err << run.out;
@@ -79,10 +79,6 @@ TEST_F(LoopDiagnosis, WritesAConfigOfWhatItFound) {
   EXPECT_LT(std::abs(stated["delay_s"].get<double>()), 2e-5);
   run = RunHowl("check " + next.string());
   EXPECT_EQ(run.status, 0) << run.err << run.out;
-  run = RunHowl("diagnose " + next.string() + " --out " + next.parent_path().string());
-  EXPECT_EQ(run.status, 2) << run.out;
-  EXPECT_THAT(run.err, HasSubstr("has the config itself"));
-  EXPECT_EQ(ReadFile(next), text);
   // Where nothing is found an earlier one does not stay.
   run = Diagnose("{modes: 1, flame_input: velocity}", "--most-items 0");
   ASSERT_EQ(run.status, 0) << run.err << run.out;
