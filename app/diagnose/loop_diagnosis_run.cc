@@ -140,8 +140,12 @@ int RunLoopDiagnosis(const Config& config, const Options& options, std::vector<N
   state.Forget();
   if (!options.quiet) {
     std::printf("%s", LoopDiagnosisText(found).c_str());
-    if (next) std::printf("as a config of its own: %s\n", next_path.c_str());
-    std::printf("written: %s\n", path.c_str());
+    if (next) {
+      std::printf("written: diagnosis.json and %s (a config of what was found) in %s\n",
+                  next_path.filename().c_str(), options.out.c_str());
+    } else {
+      std::printf("written: %s\n", path.c_str());
+    }
   }
   return kDone;
 }

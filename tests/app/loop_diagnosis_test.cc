@@ -69,7 +69,9 @@ TEST_F(LoopDiagnosis, WritesAConfigOfWhatItFound) {
   ProgramResult run = Diagnose("{modes: 1, flame_input: velocity}",
                                "--with flame_input_pressure_rate,channel_skew --most-items 0");
   ASSERT_EQ(run.status, 0) << run.err << run.out;
-  EXPECT_THAT(run.out, HasSubstr("as a config of its own: " + next.string() + "\n"));
+  EXPECT_THAT(run.out, HasSubstr("written: diagnosis.json and rig_next.yaml (a config of what was "
+                                 "found) in " +
+                                 next.parent_path().string() + "\n"));
   const std::string text = ReadFile(next);
   EXPECT_THAT(text, HasSubstr("flame_input: pressure_rate"));
   EXPECT_THAT(text, HasSubstr("delay_s: "));

@@ -43,6 +43,7 @@ Defaults StructDefaults() {
       {"experiments[].record.heat_release_scale", Dump(record.heat_release_scale)},
       {"experiments[].record.start_s", Dump(record.start_s)},
       {"experiments[].record.delay_s", Dump(record.delay_s)},
+      {"experiments[].record.pressure_in_heat_release", Dump(record.pressure_in_heat_release)},
       {"model.modes", Dump(config.model.modes)},
       {"model.ratio", Dump(config.model.harmonic_ratio)},
       // Without them the loop is the paper's, which ConfigRecordLoop tests.
