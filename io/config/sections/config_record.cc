@@ -35,7 +35,7 @@ std::string ShownPath(const ConfigCursor& file, const std::filesystem::path& pat
 
 std::filesystem::path FilePath(const ConfigCursor& file, const std::filesystem::path& config_file,
                                const char* content) {
-  const std::filesystem::path path =
+  std::filesystem::path path =
       (config_file.parent_path() / ExpandEnvironment(file)).lexically_normal();
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
