@@ -49,7 +49,7 @@ bool SetRecords(const Config& config, const std::vector<std::string>& names,
     const ExperimentConfig& each = config.experiments[i];
     if (!each.record) continue;
     const std::string at = "experiments[" + std::to_string(i) + "].record.";
-    const LocatedNode stated =
+    const LocatedNode& stated =
         config.tree.Find("experiments")->value.items[i].Find("record")->value;
     all &= SetResponse(at, "pressure_response", each.record->pressure_response, stated,
                        found.pressure_response, tree);

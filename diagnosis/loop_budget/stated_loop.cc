@@ -12,7 +12,6 @@
 namespace howl {
 namespace {
 
-constexpr std::string_view kLeakId = "crosstalk_p_to_q";
 constexpr std::string_view kSkewId = "channel_skew";
 
 std::string RadiansAt(double frequency_hz) { return "(2 pi " + ShortNumber(frequency_hz) + ")"; }
@@ -44,15 +43,14 @@ SharedEffect AsReported(SharedEffect shared, const Budget& budget) {
   return shared;
 }
 
-void State(const SharedEffect& shared, const LoopRecords& records, const LoopForm& form,
-           StatedLoop* out) {
+void State(const SharedEffect& shared, const LoopRecords& records, StatedLoop* out) {
   const std::string_view id = shared.effect->id();
   if (id == kSkewId) out->delay_s += shared.values[0];
   if (id == kLeakId) {
     // The leak is relative to each record's own q over p.
     out->pressure_in_heat_release.resize(records.size(), 0.0);
     for (std::size_t e = 0; e < records.size(); ++e) {
-      const RecordScale scale = records.WholeAlone(form, e).scale;
+      const RecordScale& scale = records.Scale(e);
       out->pressure_in_heat_release[e] += shared.values[0] * scale.heat_release / scale.pressure;
     }
   }
@@ -111,7 +109,7 @@ StatedLoop StatedLoopOf(const LoopRecords& records, const LoopFound& found, cons
   out.model = model_of(best);
   out.is_another_model = out.model != model_of(config);
   for (const SharedEffect& each : best.effects) {
-    State(AsReported(each, budget), records, best, &out);
+    State(AsReported(each, budget), records, &out);
   }
   const auto add = [&](const LoopItem& item) {
     if (!IsStated(item)) out.not_stated.push_back(item.id);

@@ -29,6 +29,8 @@ class LoopRecords {
   RecordSpectra Whole(const LoopForm& form, std::size_t e) const;
   // Without its middle, which costs as much as the rest.
   RecordSpectra WholeAlone(const LoopForm& form, std::size_t e) const;
+  // The units of a point's whole record.
+  const RecordScale& Scale(std::size_t e) const { return spectra_.front().points[e].record.scale; }
   // How many coefficients the flame has.
   Eigen::Index FlameTerms(FlameInput input, std::size_t e) const {
     return Of(input).points[e].record.flame.cols();

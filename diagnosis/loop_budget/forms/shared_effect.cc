@@ -23,7 +23,7 @@ enum class Stage : std::uint8_t { kLeak, kFlame, kPressure, kHeatRelease };
 constexpr std::array kStages = {Stage::kLeak, Stage::kFlame, Stage::kPressure, Stage::kHeatRelease};
 
 Stage StageOf(const Effect& effect) {
-  if (effect.id() == "crosstalk_p_to_q") return Stage::kLeak;
+  if (effect.id() == kLeakId) return Stage::kLeak;
   if (IsFlameFilter(effect)) return Stage::kFlame;
   return effect.block() == LoopBlock::kPressureInstrument ? Stage::kPressure : Stage::kHeatRelease;
 }

@@ -28,6 +28,8 @@ struct SharedEffect {
   std::vector<double> values;  // of its parameters
 };
 
+// The leak of p into q.
+inline constexpr std::string_view kLeakId = "crosstalk_p_to_q";
 // Before the curve they filter what drives it. Behind the curve they are the loop's own, with other
 // values at each operating point (loop_point.h).
 inline constexpr std::string_view kSecondPathId = "second_delay_path";
