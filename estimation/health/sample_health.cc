@@ -20,9 +20,8 @@ constexpr double kClippedShare = 1e-3;
 constexpr double kClippedOverNext = 10.0;
 constexpr std::size_t kNextValues = 8;
 // Runs by chance are longer than m times what is expected in one record of n^(m - 1). On the
-// measured records none is longer than twice that; neighbouring samples are not independent, and a
-// signal that is called stuck is filled.
-constexpr double kStuckBeyondExpected = 4.0;
+// measured records none is longer than 1.95 times that: neighbouring samples are not independent.
+constexpr double kStuckBeyondExpected = 3.0;
 constexpr double kHeldShare = 0.45;        // of samples equal to the one before: each stands twice
 constexpr std::size_t kHeldLevels = 100;   // fewer values repeat by themselves
 constexpr std::size_t kCoarseLevels = 32;  // five bits
@@ -102,6 +101,7 @@ class SampleCheck {
     const std::size_t n = samples_.size();
     std::size_t equal = 0;
     std::size_t repeated = 0;  // runs of two and more
+    std::size_t longer = 0;    // of three and more
     std::size_t run = 1;
     std::size_t longest = 1;
     std::size_t longest_end = 0;
@@ -111,7 +111,9 @@ class SampleCheck {
         continue;
       }
       ++equal;
-      if (++run == 2) ++repeated;
+      ++run;
+      if (run == 2) ++repeated;
+      if (run == 3) ++longer;
       // A clipped signal stands still at its end, which is reported as clipping.
       if (run > longest && std::ranges::find(clipped_, samples_[i]) == clipped_.end()) {
         longest = run;
@@ -119,8 +121,8 @@ class SampleCheck {
       }
     }
     const double share = static_cast<double>(equal) / static_cast<double>(n - 1);
-    // A run counts once, however long: those that are stuck tell nothing of chance.
-    const double goes_on = (static_cast<double>(repeated) + 1.0) / static_cast<double>(n - equal);
+    const std::size_t runs = n - equal;
+    const double goes_on = static_cast<double>(repeated) / static_cast<double>(runs);
     if (std::min(share, goes_on) >= kHeldShare && levels_ >= kHeldLevels && longest < n / 10) {
       const double times = 1.0 / (1.0 - share);
       Add("held", share, kHeldShare,
@@ -129,7 +131,10 @@ class SampleCheck {
               NumberWord(sampling_hz_, 5) + " Hz");
       return;
     }
-    const double expected = std::log(static_cast<double>(n)) / -std::log(std::min(goes_on, 0.99));
+    // By chance, as runs of one and of two have it: those that are stuck are longer.
+    const double by_chance = (static_cast<double>(repeated - longer) + 1.0) /
+                             (static_cast<double>(runs - repeated) + 1.0);
+    const double expected = std::log(static_cast<double>(n)) / -std::log(std::min(by_chance, 0.99));
     const double limit = kStuckBeyondExpected * expected;
     if (static_cast<double>(longest) <= limit) return;
     KeepStuck(limit);

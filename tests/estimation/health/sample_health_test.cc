@@ -73,6 +73,22 @@ TEST(SampleHealth, StuckSamplesAreAllButTheFirstOfARun) {
   EXPECT_THAT(StuckSamples(samples), testing::IsEmpty());
 }
 
+// Of a slow recorder a stand of 4 ms has four samples, and those of stands are one in fifty: they
+// must not be taken for what repeats by chance.
+TEST(SampleHealth, ManyShortStandsAreNotByChance) {
+  for (const std::size_t length : {4, 6}) {
+    std::vector<double> samples = Signal(1e-6);
+    samples.resize(5000);
+    ASSERT_THAT(StuckSamples(samples), testing::IsEmpty());
+    for (std::size_t first = 100; first + length < samples.size(); first += 50 * length) {
+      std::fill_n(samples.begin() + static_cast<std::ptrdiff_t>(first), length, samples[first]);
+    }
+    const std::vector<Gap> found = StuckSamples(samples);
+    EXPECT_EQ(found.size(), (samples.size() - 100 - length + 50 * length - 1) / (50 * length));
+    for (const Gap& gap : found) EXPECT_EQ(gap.length, length - 1);
+  }
+}
+
 TEST(SampleHealth, ClippedAtOneEndOrBoth) {
   std::vector<double> samples = Signal();
   for (double& each : samples) each = std::min(each, 0.9);
