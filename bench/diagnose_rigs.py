@@ -9,9 +9,10 @@ and nothing else, or has it in a class of at most three; two where it names both
 outside the catalogue, where it says unknown. Shares are with Wilson's 95 % interval. One table splits
 single effects of medium and large size at the median of what was drawn. One shows what the item of
 a single effect leaves, in further items or in errors at the cycle's lines, over what it gains: the root is
-by how much its form is off (kFormError of diagnosis/loop_budget/forms/odds.h). The last counts how often the
-95 % interval of an effect that a rig has not, and that was not found, holds zero
-(diagnosis/loop_budget/item_bounds.h).
+by how much its form is off (kFormError of diagnosis/loop_budget/forms/odds.h). One shows what the flame errs
+by at the cycle's lines beside a gain that fluctuates, over the bound of what that makes (kBoundOfGain
+there). The last counts how often the 95 % interval of an effect that a rig has not, and that was not
+found, holds zero (diagnosis/loop_budget/item_bounds.h).
 """
 import concurrent.futures
 import json
@@ -97,6 +98,18 @@ def form_errors(rows):
     return sorted(out, key=lambda each: -each[3])
 
 
+def lines_of_gain(rows):
+    """(withheld, nats, over their bound) of the flame's errors at the lines, where a gain fluctuates."""
+    out = []
+    for _, k, answer in rows:
+        lines = answer["line_errors"]["q_from_p"]
+        bound = lines["of_gain"]["bound"]
+        if bound and lines["nats"] > 0.0:
+            held = "+".join(each["effect"] for each in k["effects"]) or "nothing"
+            out.append((held, lines["nats"], lines["of_gain"]["missed"] / bound))
+    return sorted(out, key=lambda each: each[2])
+
+
 def intervals_with_zero(rows):
     """By effect, of those with two ends, where the answer is right."""
     out = {}
@@ -157,6 +170,10 @@ def main():
     print("\n| single effect | gains, nats | leaves, nats | its form is off by |\n|---|---|---|---|")
     for effect, gained, left, error in form_errors(rows):
         print(f"| {effect} | {gained:.0f} | {left:.1f} | {error:.3f} |")
+
+    print("\n| withheld, where a gain fluctuates | lines, nats | over their bound |\n|---|---|---|")
+    for held, nats, over in lines_of_gain(rows):
+        print(f"| {held} | {nats:.1f} | {over:.2f} |")
 
     print("\n| effect that the rig has not | its 95 % interval holds zero |\n|---|---|")
     for effect, holds in sorted(intervals_with_zero(rows).items()):

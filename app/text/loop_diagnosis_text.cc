@@ -49,7 +49,8 @@ std::string WhereText(const Diagnosis& diagnosis) {
 std::string LinesText(const std::string& cut, const LinesLeft& lines, std::size_t points) {
   return "free errors of " + cut + " at the cycle's lines: " + Fixed(lines.nats, 1) + " nats, on " +
          std::to_string(lines.experiments_better) + " of " + std::to_string(points) +
-         " points; of " + Significant(100.0 * lines.size, 2) + " % of what the loop foretells\n";
+         " points; of " + Significant(100.0 * lines.size, 2) + " % of what the loop foretells" +
+         (lines.AreOfGain() ? ", as a gain that fluctuates makes them" : "") + "\n";
 }
 
 // What else would gain alone.

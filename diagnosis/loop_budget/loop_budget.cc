@@ -59,6 +59,7 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
       LinesOf(records, found, found.with_acoustic_lines, &PointStructure::acoustic_lines);
   out.flame = LinesOf(records, found, found.with_flame_lines, &PointStructure::flame_lines);
   out.diagnosis.budget = BudgetOf(records, found, how);
+  out.flame.of_gain = LinesOfGainIn(records, found.with_flame_lines);
   Budget& budget = *out.diagnosis.budget;
   budget.seen_in_samples = NamedOnce(seen, budget.entries);
   budget.acoustic_error = out.acoustics.size;
@@ -68,6 +69,13 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   TakeVerdict(found, &out);
   if (out.diagnosis.kind != VerdictKind::kUnknown) {
     budget.not_found = BoundsBeside(records, found.best, found.base.model, how);
+    // Whether the gain follows the amplitude or the amplitude the gain, the loop does not know
+    // then.
+    if (out.flame.AreOfGain()) {
+      std::erase_if(budget.not_found, [](const ItemBound& bound) {
+        return bound.item == "amplitude_dependent_gain";
+      });
+    }
   }
   return out;
 }

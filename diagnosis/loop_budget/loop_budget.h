@@ -4,7 +4,8 @@
 // The verdict names what the samples themselves show (sample_facts.h), and then nothing is added;
 // else all that was added, in that order, but finer spectra of noise; `none` where nothing pays. It
 // is `unknown` where free errors at the cycle's lines (loop_point.h), of the acoustics or of the
-// flame, pay where nothing else does: the best loop then is not the rig's; where more is left of
+// flame, pay where nothing else does, unless a gain that fluctuates makes such (lines_of_gain.h):
+// the best loop then is not the rig's; where more is left of
 // the gap than its floor, which a right loop leaves (held_out_score.h), or where that floor is so
 // high that no gap could exceed it; where it would name more than two causes (odds.h); where one
 // half of the records speaks against an item; and where an effect of the catalogue would have a
@@ -17,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/loop_budget/forms/odds.h"
+#include "diagnosis/loop_budget/lines_of_gain.h"
 #include "diagnosis/loop_budget/trials/loop_trial.h"
 #include "diagnosis/verdict/diagnosis_result.h"
 
@@ -28,6 +31,11 @@ struct LinesLeft {
   double nats = 0.0;  // of what was left out
   double size = 0.0;  // relative: what the law of the points has (parameter_law.h)
   std::size_t experiments_better = 0;
+  LinesOfGain of_gain = {};  // of the flame
+
+  // Where they gain more than this, and are none of a gain that fluctuates.
+  bool Err(double least_nats) const { return nats > least_nats && !AreOfGain(); }
+  bool AreOfGain() const { return of_gain.missed < kBoundOfGain * of_gain.bound; }
 };
 
 struct LoopDiagnosis {

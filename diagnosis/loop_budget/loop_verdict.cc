@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,17 +26,22 @@ namespace {
 constexpr double kKindsOfLineErrors = 2.0;
 
 // Errors at the cycle's lines are no cause, and finer spectra of noise name none.
-bool IsCause(const LoopStep& step) {
-  return step.item.lines == nullptr && step.item.kind != LoopItemKind::kNoiseShape;
+bool NamesCause(std::string_view item) {
+  return !item.ends_with("_line_errors") && item != "noise_shape";
+}
+bool IsCause(const LoopStep& step) { return NamesCause(step.item.id); }
+
+// Errors at the cycle's lines that no gain of the flame makes.
+bool IsOfLines(const LoopStep& step, bool of_gain) {
+  return step.item.lines == &PointStructure::acoustic_lines ||
+         (step.item.lines == &PointStructure::flame_lines && !of_gain);
 }
 
-bool IsOfLines(const LoopStep& step) { return step.item.lines != nullptr; }
-
 // Without errors at the cycle's lines, the best loop has at most this density.
-double DensityWithoutLines(const LoopFound& found) {
+double DensityWithoutLines(const LoopFound& found, bool of_gain) {
   double out = found.best.Density();
   for (std::size_t i = 0; i < found.steps.size(); ++i) {
-    if (IsOfLines(found.steps[i])) out = std::min(out, found.without[i].Density());
+    if (IsOfLines(found.steps[i], of_gain)) out = std::min(out, found.without[i].Density());
   }
   return out;
 }
@@ -45,7 +51,7 @@ std::string Joined(const Budget& budget) {
   const auto add = [&out](const std::string& name) { out += (out.empty() ? "" : "+") + name; };
   for (const SampleFact& fact : budget.seen_in_samples) add(fact.effect);
   for (const BudgetEntry& entry : budget.entries) {
-    if (entry.item != "noise_shape") add(entry.item);
+    if (NamesCause(entry.item)) add(entry.item);
   }
   return out;
 }
@@ -102,9 +108,9 @@ std::vector<std::string> Alike(const Budget& budget) {
 }
 
 // What free errors of either cut at the cycle's lines must gain before a loop is said to err there.
-double LeastOfLines(const LoopFound& found) {
+double LeastOfLines(const LoopFound& found, bool of_gain) {
   return std::log(kOddsOfItem * kKindsOfLineErrors) +
-         LeftByForms(DensityWithoutLines(found) - found.base.Density());
+         LeftByForms(DensityWithoutLines(found, of_gain) - found.base.Density());
 }
 
 // The samples have been changed; of what else there may be nothing is said, so that what is known
@@ -119,8 +125,10 @@ void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
 
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
-  const double gained = std::max(out->acoustics.nats, out->flame.nats);
-  const double least = LeastOfLines(found);
+  const bool of_gain = out->flame.AreOfGain();
+  const double gained =
+      of_gain ? out->acoustics.nats : std::max(out->acoustics.nats, out->flame.nats);
+  const double least = LeastOfLines(found, of_gain);
   const bool errs = gained > least;
   double trend = 0.0;
   for (const BudgetEntry& entry : diagnosis.budget->entries) {
@@ -136,8 +144,9 @@ void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
                    : any   ? VerdictKind::kEffect
                            : VerdictKind::kNone;
   if (diagnosis.kind == VerdictKind::kEffect) diagnosis.effect = Joined(*diagnosis.budget);
-  const double best = DensityWithoutLines(found) + trend;
-  const bool lines_stay = std::ranges::any_of(found.steps, IsOfLines);
+  const double best = DensityWithoutLines(found, of_gain) + trend;
+  const bool lines_stay = std::ranges::any_of(
+      found.steps, [&](const LoopStep& step) { return IsOfLines(step, of_gain); });
   const double with_lines = (lines_stay ? found.best.Density() + trend : best + gained) - least;
   const double base = found.base.Density();
   const double most = std::max({with_lines, best, base});
@@ -211,7 +220,7 @@ void TakeVerdict(const LoopFound& found, LoopDiagnosis* out) {
   AddAlone(found, &diagnosis);
   if (RestCanBeFound(budget.seen_in_samples)) Calibrate(DoubtOfBudget(diagnosis.kind), &diagnosis);
   if (diagnosis.kind == VerdictKind::kEffect) diagnosis.indistinguishable = Alike(budget);
-  diagnosis.where = PlacesOf(*out, LeastOfLines(found));
+  diagnosis.where = PlacesOf(*out, LeastOfLines(found, out->flame.AreOfGain()));
   diagnosis.advice = AdviceOf(diagnosis);
 }
 

@@ -31,7 +31,11 @@ Json FormJson(const LoopForm& form) {
 Json LinesJson(const LinesLeft& lines) {
   return {{"size", NumberOrNull(lines.size)},
           {"nats", NumberOrNull(lines.nats)},
-          {"experiments_better", lines.experiments_better}};
+          {"experiments_better", lines.experiments_better},
+          {"of_gain",
+           {{"missed", NumberOrNull(lines.of_gain.missed)},
+            {"bound", NumberOrNull(lines.of_gain.bound)},
+            {"are", lines.AreOfGain()}}}};
 }
 
 }  // namespace

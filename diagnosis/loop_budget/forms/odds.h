@@ -29,6 +29,13 @@ inline double LeftByForms(double gained_nats) {
   return kFormError * kFormError * std::max(gained_nats, 0.0);
 }
 
+// Of the bound of what a fluctuating gain makes of the cycle's lines (lines_of_gain.h), how far its
+// errors may go: gain and amplitudes are those of a curve that is itself off. On rigs of three
+// simulators whose gain fluctuates or jumps errors were 0.3, 0.6, 1.0, 1.0, 1.5 and 1.5 of it
+// (bench/diagnose_rigs.py prints them), of what else errs there 3.9, 8 and 19: a delay and an
+// operating point that wander, and a cube of p in q.
+inline constexpr double kBoundOfGain = 2.0;
+
 // Against another item in the place of one that came in: within them the two are a class.
 inline constexpr double kOddsOfClass = 50.0;
 
