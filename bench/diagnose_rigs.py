@@ -12,7 +12,7 @@ a single effect leaves, in further items or in errors at the cycle's lines, over
 by how much its form is off (kFormError of diagnosis/loop_budget/forms/odds.h). One shows what the flame errs
 by at the cycle's lines beside a gain that fluctuates, over the bound of what that makes (kBoundOfGain
 there). The last counts how often the 95 % interval of an effect that a rig has not, and that was not
-found, holds zero (diagnosis/loop_budget/item_bounds.h).
+found, holds zero (diagnosis/loop_budget/account/item_bounds.h).
 """
 import concurrent.futures
 import json

@@ -29,7 +29,7 @@
 #include "diagnosis/held_out/common_ceiling.h"
 #include "diagnosis/held_out/octave_gaps.h"
 #include "diagnosis/held_out/places_left.h"
-#include "diagnosis/loop_budget/loop_held_out.h"
+#include "diagnosis/loop_budget/account/loop_held_out.h"
 #include "estimation/joint_records/fitted_loop.h"
 #include "estimation/joint_records/half_fits.h"
 #include "estimation/joint_records/loop_names.h"

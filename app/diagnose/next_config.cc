@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/input/derived_config.h"
+#include "diagnosis/loop_budget/account/stated_loop.h"
 #include "diagnosis/loop_budget/sample_facts.h"
-#include "diagnosis/loop_budget/stated_loop.h"
 #include "io/config/reading/config_reading.h"
 #include "io/config/schema/config_cursor.h"
 #include "io/config/sections/config_sections.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "diagnosis/loop_budget/found_budget.h"
-#include "diagnosis/loop_budget/item_bounds.h"
+#include "diagnosis/loop_budget/account/found_budget.h"
+#include "diagnosis/loop_budget/account/item_bounds.h"
 #include "diagnosis/loop_budget/loop_verdict.h"
 #include "diagnosis/loop_budget/sample_facts.h"
 #include "estimation/health/mended_records.h"

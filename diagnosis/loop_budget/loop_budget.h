@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/loop_budget/account/lines_of_gain.h"
 #include "diagnosis/loop_budget/forms/odds.h"
-#include "diagnosis/loop_budget/lines_of_gain.h"
 #include "diagnosis/loop_budget/trials/loop_trial.h"
 #include "diagnosis/verdict/diagnosis_result.h"
 

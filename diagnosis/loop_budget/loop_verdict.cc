@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "diagnosis/loop_budget/delay_trend.h"
+#include "diagnosis/loop_budget/account/delay_trend.h"
+#include "diagnosis/loop_budget/account/stated_loop.h"
 #include "diagnosis/loop_budget/forms/odds.h"
 #include "diagnosis/loop_budget/loop_places.h"
 #include "diagnosis/loop_budget/sample_facts.h"
-#include "diagnosis/loop_budget/stated_loop.h"
 #include "diagnosis/loop_budget/why_unknown.h"
 #include "diagnosis/verdict/advice.h"
 #include "diagnosis/verdict/calibration.h"

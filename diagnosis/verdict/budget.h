@@ -57,7 +57,7 @@ struct SampleFact {
   double line_hz = 0.0;  // of hum; 0: it is at all frequencies
 };
 
-// What an item that was not found may still be (loop_budget/item_bounds.h), at 95 %.
+// What an item that was not found may still be (loop_budget/account/item_bounds.h), at 95 %.
 struct ItemBound {
   std::string item;
   std::string form;
@@ -67,8 +67,8 @@ struct ItemBound {
   double high = 0.0;
 };
 
-// The loop with all entries, as far as a config can state it (loop_budget/stated_loop.h). What the
-// records have of instruments is as `record` of each experiment states it.
+// The loop with all entries, as far as a config can state it (loop_budget/account/stated_loop.h).
+// What the records have of instruments is as `record` of each experiment states it.
 struct StatedLoop {
   std::string model;              // model: {...}
   bool is_another_model = false;  // than the config's

@@ -1,5 +1,5 @@
 // Whether delays follow the operating parameter, on drawn delays whose law is known.
-#include "diagnosis/loop_budget/delay_trend.h"
+#include "diagnosis/loop_budget/account/delay_trend.h"
 
 #include <gtest/gtest.h>
 

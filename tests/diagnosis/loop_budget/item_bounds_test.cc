@@ -1,5 +1,5 @@
 // How large what was not found may be, against profiles at its ends and against what was put in.
-#include "diagnosis/loop_budget/item_bounds.h"
+#include "diagnosis/loop_budget/account/item_bounds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a flame's gain that fluctuates makes of the cycle's lines, and what it does not.
-#include "diagnosis/loop_budget/lines_of_gain.h"
+#include "diagnosis/loop_budget/account/lines_of_gain.h"
 
 #include <gtest/gtest.h>
 

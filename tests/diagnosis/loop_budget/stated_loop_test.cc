@@ -1,5 +1,5 @@
 // What a config says of a loop that was found: formulas against the catalogue's own responses.
-#include "diagnosis/loop_budget/stated_loop.h"
+#include "diagnosis/loop_budget/account/stated_loop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/change_values.h"
+#include "diagnosis/loop_budget/account/change_values.h"
 
 #include <cmath>
 

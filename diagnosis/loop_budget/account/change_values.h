@@ -1,6 +1,6 @@
 // What a slow change (slow_changes.h) is at an operating point, in the units of the catalogue.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_CHANGE_VALUES_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_CHANGE_VALUES_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_CHANGE_VALUES_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_CHANGE_VALUES_H_
 
 #include <functional>
 #include <string>
@@ -20,4 +20,4 @@ PointValue ValueOfChange(const LoopItem& item);
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_CHANGE_VALUES_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_CHANGE_VALUES_H_

@@ -2,8 +2,8 @@
 // half of its record, under the law that the other points give; the other half is then predicted
 // (band_errors.h). What modes hold at the ends of a half is that half's own: it is estimated there,
 // given the rest.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_HELD_OUT_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_HELD_OUT_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LOOP_HELD_OUT_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LOOP_HELD_OUT_H_
 
 #include <string>
 
@@ -18,4 +18,4 @@ HeldOutScore ScoreHeldOut(const LoopRecords& records, const LoopFit& fit, const 
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_HELD_OUT_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LOOP_HELD_OUT_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_held_out.h"
+#include "diagnosis/loop_budget/account/loop_held_out.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -1,11 +1,11 @@
-#include "diagnosis/loop_budget/item_bounds.h"
+#include "diagnosis/loop_budget/account/item_bounds.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "diagnosis/loop_budget/change_values.h"
+#include "diagnosis/loop_budget/account/change_values.h"
 #include "diagnosis/loop_budget/trials/effect_interval.h"
 #include "estimation/analysis/spectra/half_width.h"
 #include "estimation/parallel.h"

@@ -1,7 +1,7 @@
 // What an item of a budget is in numbers: the mean over the operating points of the best loop,
 // between the least and the largest; of a shared effect the values, with their intervals.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LOOP_ITEM_PARAMETERS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LOOP_ITEM_PARAMETERS_H_
 
 #include <vector>
 
@@ -17,4 +17,4 @@ std::vector<EstimatedParameter> LoopItemParameters(const LoopRecords& records, c
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_ITEM_PARAMETERS_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LOOP_ITEM_PARAMETERS_H_

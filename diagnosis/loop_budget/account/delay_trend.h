@@ -14,8 +14,8 @@
 // The score is that of the budget (loop_search.h): the density of each point's delay by what the
 // others show, summed, less the same without a trend. Two points have no trend: of one left out
 // the other tells none.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_DELAY_TREND_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_DELAY_TREND_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_DELAY_TREND_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_DELAY_TREND_H_
 
 #include <cstddef>
 #include <vector>
@@ -61,4 +61,4 @@ DelayTrend TrendOf(const std::vector<TimedPoint>& points);
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_DELAY_TREND_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_DELAY_TREND_H_

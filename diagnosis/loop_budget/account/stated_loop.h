@@ -1,7 +1,7 @@
 // What of a loop that was found a config can state: its model, and what of the records is its
 // instruments' (record_spec.h), which are taken out before a loop is fitted.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_STATED_LOOP_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_STATED_LOOP_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_STATED_LOOP_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_STATED_LOOP_H_
 
 #include <string>
 
@@ -28,4 +28,4 @@ StatedLoop StatedLoopOf(const LoopRecords& records, const LoopFound& found, cons
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_STATED_LOOP_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_STATED_LOOP_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/delay_trend.h"
+#include "diagnosis/loop_budget/account/delay_trend.h"
 
 #include <glog/logging.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/stated_loop.h"
+#include "diagnosis/loop_budget/account/stated_loop.h"
 
 #include <algorithm>
 #include <array>

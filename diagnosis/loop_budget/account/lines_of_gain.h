@@ -7,8 +7,8 @@
 //
 // (Cauchy and Schwarz), where A_h is what the loop foretells of q about the line and g A_h what it
 // leaves there.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LINES_OF_GAIN_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_LINES_OF_GAIN_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LINES_OF_GAIN_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LINES_OF_GAIN_H_
 
 #include "diagnosis/loop_budget/forms/loop_records.h"
 #include "diagnosis/loop_budget/trials/loop_starts.h"
@@ -26,4 +26,4 @@ LinesOfGain LinesOfGainIn(const LoopRecords& records, const LoopFit& fit);
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_LINES_OF_GAIN_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_LINES_OF_GAIN_H_

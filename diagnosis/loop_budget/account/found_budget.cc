@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/found_budget.h"
+#include "diagnosis/loop_budget/account/found_budget.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include "diagnosis/held_out/common_ceiling.h"
 #include "diagnosis/held_out/octave_gaps.h"
 #include "diagnosis/held_out/places_left.h"
-#include "diagnosis/loop_budget/delay_trend.h"
+#include "diagnosis/loop_budget/account/delay_trend.h"
+#include "diagnosis/loop_budget/account/loop_held_out.h"
+#include "diagnosis/loop_budget/account/loop_item_parameters.h"
+#include "diagnosis/loop_budget/account/stated_loop.h"
 #include "diagnosis/loop_budget/forms/odds.h"
-#include "diagnosis/loop_budget/loop_held_out.h"
-#include "diagnosis/loop_budget/loop_item_parameters.h"
-#include "diagnosis/loop_budget/stated_loop.h"
 #include "estimation/analysis/spectra/half_width.h"
 #include "estimation/parallel.h"
 

@@ -9,8 +9,8 @@
 // All else of each operating point is free, under wide priors: the law of the points, which the
 // search compares loops by, would hold fast what an item that is not in the loop has moved at all
 // of them.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ITEM_BOUNDS_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_ITEM_BOUNDS_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_ITEM_BOUNDS_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_ITEM_BOUNDS_H_
 
 #include <vector>
 
@@ -27,4 +27,4 @@ std::vector<ItemBound> BoundsBeside(const LoopRecords& records, const LoopFit& b
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ITEM_BOUNDS_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_ITEM_BOUNDS_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/lines_of_gain.h"
+#include "diagnosis/loop_budget/account/lines_of_gain.h"
 
 #include <algorithm>
 #include <cmath>

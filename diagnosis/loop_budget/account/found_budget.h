@@ -1,7 +1,7 @@
 // The account of what a search has found: each item with what it takes off the gap, what is lost
 // without it, its values and its place; what was given; and what is left.
-#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_FOUND_BUDGET_H_
-#define HOWL_DIAGNOSIS_LOOP_BUDGET_FOUND_BUDGET_H_
+#ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_FOUND_BUDGET_H_
+#define HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_FOUND_BUDGET_H_
 
 #include <cstddef>
 
@@ -19,4 +19,4 @@ Budget BudgetOf(const LoopRecords& records, const LoopFound& found,
 
 }  // namespace howl
 
-#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_FOUND_BUDGET_H_
+#endif  // HOWL_DIAGNOSIS_LOOP_BUDGET_ACCOUNT_FOUND_BUDGET_H_

@@ -1,4 +1,4 @@
-#include "diagnosis/loop_budget/loop_item_parameters.h"
+#include "diagnosis/loop_budget/account/loop_item_parameters.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "diagnosis/loop_budget/change_values.h"
+#include "diagnosis/loop_budget/account/change_values.h"
 #include "diagnosis/loop_budget/trials/shared_effect_trial.h"
 #include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/whittle/noise_shape.h"
