@@ -68,14 +68,10 @@ LoopDiagnosis DiagnoseLoops(const std::vector<LoopRecord>& all, const LoopForm& 
   for (const LoopStep& step : found.steps) out.items.push_back(step.item.id);
   TakeVerdict(found, &out);
   if (out.diagnosis.kind != VerdictKind::kUnknown) {
-    budget.not_found = BoundsBeside(records, found.best, found.base.model, how);
     // Whether the gain follows the amplitude or the amplitude the gain, the loop does not know
     // then.
-    if (out.flame.AreOfGain()) {
-      std::erase_if(budget.not_found, [](const ItemBound& bound) {
-        return bound.item == "amplitude_dependent_gain";
-      });
-    }
+    if (out.flame.AreOfGain()) how.withheld.emplace_back("amplitude_dependent_gain");
+    budget.not_found = BoundsBeside(records, found.best, found.base.model, how);
   }
   return out;
 }

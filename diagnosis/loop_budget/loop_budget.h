@@ -5,16 +5,17 @@
 // else all that was added, in that order, but finer spectra of noise; `none` where nothing pays. It
 // is `unknown` where free errors at the cycle's lines (loop_point.h), of the acoustics or of the
 // flame, pay where nothing else does, unless a gain that fluctuates makes such (lines_of_gain.h):
-// the best loop then is not the rig's; where more is left of
-// the gap than its floor, which a right loop leaves (held_out_score.h), or where that floor is so
-// high that no gap could exceed it; where it would name more than two causes (odds.h); where one
-// half of the records speaks against an item; and where an effect of the catalogue would have a
-// value that it cannot have, as a share of the flame below zero: something else does the same then.
-// The probabilities are those of the base, of the best loop without such errors, and of that with
-// them, by the densities of what was left out.
+// the best loop then is not the rig's; where more is left of the gap than its floor, which a right
+// loop leaves (held_out_score.h), or where that floor is so high that no gap could exceed it; where
+// it would name more than two causes (odds.h); where one half of the records speaks against an
+// item; and where an effect of the catalogue would have a value that it cannot have, as a share of
+// the flame below zero: something else does the same then. The probabilities are those of the base,
+// of the best loop without such errors, and of that with them, by the densities of what was left
+// out.
 #ifndef HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
 #define HOWL_DIAGNOSIS_LOOP_BUDGET_LOOP_BUDGET_H_
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,11 @@ struct LinesLeft {
   std::size_t experiments_better = 0;
   LinesOfGain of_gain = {};  // of the flame
 
-  // Where they gain more than this, and are none of a gain that fluctuates.
-  bool Err(double least_nats) const { return nats > least_nats && !AreOfGain(); }
   bool AreOfGain() const { return of_gain.missed < kBoundOfGain * of_gain.bound; }
+  // What they say against the loop: those of a gain that fluctuates nothing.
+  double NatsAgainst() const {
+    return AreOfGain() ? -std::numeric_limits<double>::infinity() : nats;
+  }
 };
 
 struct LoopDiagnosis {

@@ -16,7 +16,7 @@ std::vector<Place> PlacesOfLines(const LoopDiagnosis& of, double least) {
   double sum = 0.0;
   for (const auto& [block, lines] :
        {std::pair(LoopBlock::kAcoustics, of.acoustics), std::pair(LoopBlock::kFlame, of.flame)}) {
-    if (!lines.Err(least)) continue;
+    if (!(lines.NatsAgainst() > least)) continue;
     out.push_back(of.diagnosis.budget->everywhere);
     out.back().block = block;
     out.back().share = lines.nats;

@@ -126,8 +126,7 @@ void TakeWhatSamplesShow(const LoopFound& found, Diagnosis* diagnosis) {
 void TakeOdds(const LoopFound& found, LoopDiagnosis* out) {
   Diagnosis& diagnosis = out->diagnosis;
   const bool of_gain = out->flame.AreOfGain();
-  const double gained =
-      of_gain ? out->acoustics.nats : std::max(out->acoustics.nats, out->flame.nats);
+  const double gained = std::max(out->acoustics.NatsAgainst(), out->flame.NatsAgainst());
   const double least = LeastOfLines(found, of_gain);
   const bool errs = gained > least;
   double trend = 0.0;

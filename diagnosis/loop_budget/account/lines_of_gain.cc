@@ -6,12 +6,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "estimation/record_fit/spectra/unitary_transform.h"
+#include "estimation/record_fit/loop/loop_residuals.h"
+#include "estimation/record_fit/spectra/amplitude_about.h"
 
 namespace howl {
 namespace {
-
-using C = std::complex<double>;
 
 bool HasGain(const LoopForm& form) {
   return std::ranges::any_of(form.structure.noise, [](const NoiseTerm& term) {
@@ -19,18 +18,26 @@ bool HasGain(const LoopForm& form) {
   });
 }
 
-// |x|^2 over time, of what of x lies about the line.
-Eigen::VectorXd PowerAbout(double line, const Eigen::VectorXcd& edges,
-                           const RecordSpectra& record) {
-  const Eigen::Index instants = record.Instants();
-  Eigen::VectorXcd spectrum = Eigen::VectorXcd::Zero(instants / 2 + 1);
-  for (Eigen::Index i = 0; i < edges.size(); ++i) {
-    if (std::abs(record.edge_s[i].imag() - line) < kLineReach) {
-      spectrum[record.below.size() + i] = edges[i];
+// The record's bins that lie about a multiple of the cycle's frequency.
+struct BinsAbout {
+  BinsAbout(double multiple, const RecordSpectra& record) {
+    for (Eigen::Index i = 0; i < record.edge_s.size(); ++i) {
+      if (std::abs(record.edge_s[i].imag() - multiple) >= kLineReach) continue;
+      if (count++ == 0) first = i;
     }
   }
-  return UnitarySignal(spectrum, instants).cwiseAbs2() +
-         UnitarySignal(C(0.0, -1.0) * spectrum, instants).cwiseAbs2();
+  double PowerOf(const Eigen::VectorXcd& edges) const {
+    return edges.segment(first, count).squaredNorm();
+  }
+
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+};
+
+// Of an amplitude its variance, over its mean square.
+double Fluctuation(const Eigen::VectorXd& squared_amplitude) {
+  const double mean = squared_amplitude.cwiseSqrt().mean();
+  return std::max(1.0 - mean * mean / squared_amplitude.mean(), 0.0);
 }
 
 }  // namespace
@@ -44,19 +51,18 @@ LinesOfGain LinesOfGainIn(const LoopRecords& records, const LoopFit& fit) {
   for (std::size_t e = 0; e < points.size(); ++e) {
     const LoopPoint& point = points[e];
     const RecordSpectra record = records.WholeAlone(fit.model, e);
-    const Eigen::VectorXcd foretold =
-        point.path.At(record.edge_s).cwiseProduct(record.flame * point.flame);
+    const Eigen::VectorXcd foretold = AnswerOfFlame(record, point);
     const Eigen::VectorXcd left = record.heat_release - foretold;
     for (Eigen::Index h = 0; h < point.flame_lines.size(); ++h) {
       const auto line = static_cast<double>(h + 1);
       if (line + kLineReach > record.s[record.bins() - 1].imag()) break;
-      const Eigen::VectorXd about = PowerAbout(line, foretold, record);
-      const double mean = about.mean();
-      if (!(mean > 0.0)) continue;
-      const double fluctuates = 1.0 - std::pow(about.cwiseSqrt().mean(), 2) / mean;
-      power += mean;
-      missed += mean * std::norm(point.flame_lines[h]);
-      bound += PowerAbout(line, left, record).mean() * std::max(fluctuates, 0.0);
+      const BinsAbout bins(line, record);
+      const double of_line = bins.PowerOf(foretold);
+      if (!(of_line > 0.0)) continue;
+      power += of_line;
+      missed += of_line * std::norm(point.flame_lines[h]);
+      bound += bins.PowerOf(left) *
+               Fluctuation(SquaredAmplitudeAbout(line, kLineReach, foretold, record));
     }
   }
   if (!(power > 0.0)) return {};

@@ -80,6 +80,10 @@ void SetSlowColumns(const RecordSpectra& record, const PointStructure& structure
 
 }  // namespace
 
+Eigen::VectorXcd AnswerOfFlame(const RecordSpectra& record, const LoopPoint& point) {
+  return point.path.At(record.edge_s).cwiseProduct(record.flame * point.flame);
+}
+
 LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point) {
   LoopResiduals out;
   out.r = Transfer(point, record.s);
@@ -99,10 +103,9 @@ LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& str
   out.acoustic = Tapered(record.pressure -
                          AnswerOfAcoustics(record, point)
                              .cwiseProduct(LineFactors(record.edge_s, point.acoustic_lines)));
-  out.flame = Tapered(HeatReleaseOfFlame(record, point) -
-                      point.path.At(record.edge_s)
-                          .cwiseProduct(record.flame * point.flame)
-                          .cwiseProduct(LineFactors(record.edge_s, point.flame_lines)));
+  out.flame = Tapered(
+      HeatReleaseOfFlame(record, point) -
+      AnswerOfFlame(record, point).cwiseProduct(LineFactors(record.edge_s, point.flame_lines)));
   out.spectra.resize(record.bins(), static_cast<Eigen::Index>(structure.noise.size()));
   for (std::size_t j = 0; j < structure.noise.size(); ++j) {
     auto spectrum = out.spectra.col(static_cast<Eigen::Index>(j));

@@ -16,6 +16,8 @@ namespace howl {
 LoopResiduals TransfersOf(const RecordSpectra& record, const LoopPoint& point);
 LoopResiduals ResidualsOf(const RecordSpectra& record, const PointStructure& structure,
                           const LoopPoint& point);
+// What the flame gives out of q, on the transform's bins, but for errors at the cycle's lines.
+Eigen::VectorXcd AnswerOfFlame(const RecordSpectra& record, const LoopPoint& point);
 // The path's answer on the record's bins, with V in it, and on the transform's, with the slopes of
 // its logarithm by each of its parameters.
 struct PathOnGrids {

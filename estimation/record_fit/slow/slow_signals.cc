@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "estimation/record_fit/loop/loop_residuals.h"
 #include "estimation/record_fit/slow/modal_parts.h"
+#include "estimation/record_fit/spectra/amplitude_about.h"
 #include "estimation/record_fit/spectra/middle_part.h"
 #include "estimation/record_fit/spectra/unitary_transform.h"
 
@@ -56,14 +58,6 @@ class Instants {
   }
   Eigen::VectorXd Time(const DriftRange& drift) const {
     return Eigen::VectorXd::LinSpaced(count_, drift.from, drift.to);
-  }
-  // A^2.
-  Eigen::VectorXd SquaredAmplitude() const {
-    const auto near = [](C turn) {
-      return [turn](C s) { return IsNearCycle(s, kNearCycle) ? turn : 0.0; };
-    };
-    return SignalOf(record_.pressure, near(1.0)).cwiseAbs2() +
-           SignalOf(record_.pressure, near({0.0, -1.0})).cwiseAbs2();
   }
   // m of an amplitude, or of its square.
   Eigen::VectorXd LaggedAboutMean(const Eigen::VectorXd& of, double memory_cycles) const {
@@ -112,7 +106,7 @@ Eigen::MatrixXcd OverPressure(const Eigen::VectorXcd& s, C rate, C ratio) {
 // q without the flame's noise, as far as it is known.
 Eigen::VectorXcd GivenOut(const RecordSpectra& record, const LoopPoint* fitted) {
   if (fitted && fitted->flame.size() == record.flame.cols()) {
-    return fitted->path.At(record.edge_s).cwiseProduct(record.flame * fitted->flame);
+    return AnswerOfFlame(record, *fitted);
   }
   Eigen::VectorXcd out = record.heat_release;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
@@ -181,7 +175,9 @@ void SetSlowSignals(const PointStructure& structure, const LoopPoint* fitted,
   record->slow.signals.setZero(record->edge_s.size(), kSlowColumns);
   const Instants instants(*record);
   const bool follow = structure.damping_follows_amplitude || structure.FlameChanges() > 0;
-  const Eigen::VectorXd square = follow ? instants.SquaredAmplitude() : Eigen::VectorXd();
+  const Eigen::VectorXd square =
+      follow ? SquaredAmplitudeAbout(1.0, kNearCycle, record->pressure, *record)
+             : Eigen::VectorXd();
   SetAcousticSignals(structure, modes, drift, instants, square, record);
   SetFlameSignals(structure, fitted, instants, square, record);
   const C ratio = RatioAtCycle(*record);
