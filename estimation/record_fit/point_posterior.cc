@@ -27,8 +27,8 @@ double PointPosterior::Value(const Eigen::VectorXd& parameters) {
   return std::isfinite(value) ? value + LogPrior(parameters) : value;
 }
 
-Eigen::VectorXd PointPosterior::Gradient(const Eigen::VectorXd& parameters) {
-  Eigen::VectorXd out = likelihood_.Gradient(parameters);
+Eigen::VectorXd PointPosterior::Gradient(const Eigen::VectorXd& parameters, Eigen::Index first) {
+  Eigen::VectorXd out = likelihood_.Gradient(parameters, first);
   const Eigen::VectorXd possible = GradientOfPossible(record_, structure_, PointAt(parameters));
   out.head(possible.size()) += possible;
   return prior_.deviation.cwiseProduct(out) + prior_.Slope(parameters);
@@ -58,11 +58,12 @@ Eigen::MatrixXd PointPosterior::Curvature(const Eigen::VectorXd& parameters,
     const double step = kDifference / std::sqrt(std::max(here.information(i, i), 1.0));
     Eigen::VectorXd moved = parameters;
     moved[i] += step * prior_.deviation[i];
-    out.col(i) = (here.gradient - Gradient(moved)) / step;
+    out.col(i).tail(size - i) = (here.gradient - Gradient(moved, i)).tail(size - i) / step;
+    out.row(i).tail(size - i) = out.col(i).tail(size - i).transpose();
   }
   // Next to parameters where spectra leave the range of numbers there may be no slope.
   if (!out.allFinite()) return Information(parameters);
-  return 0.5 * (out + out.transpose());
+  return out;
 }
 
 double PointPosterior::ShareWithin(const Eigen::VectorXd& parameters,

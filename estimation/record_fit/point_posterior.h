@@ -26,7 +26,8 @@ class PointPosterior {
   double LogPrior(const Eigen::VectorXd& parameters) const;  // of possible loops
   // -infinity where the parameters are impossible.
   double Value(const Eigen::VectorXd& parameters);
-  Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters);
+  // By the parameters from `first` on.
+  Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters, Eigen::Index first = 0);
   // That of whittle.h, and the prior's.
   Eigen::MatrixXd Information(const Eigen::VectorXd& parameters);
   // The same from the record's share, in the parameters' own units.
@@ -36,8 +37,9 @@ class PointPosterior {
     return {Gradient(parameters), Information(parameters)};
   }
   // The curvature itself, by differences of the gradient from that in `here`, whose information
-  // sets their length. Where the model misses what the record shows it differs from the
-  // information, and steps on the latter come near the maximum slowly.
+  // sets their length. Of the two differences that show an element that one is taken which needs no
+  // slopes by earlier parameters, which cost most. Where the model misses what the record shows it
+  // differs from the information, and steps on the latter come near the maximum slowly.
   Eigen::MatrixXd Curvature(const Eigen::VectorXd& parameters, const PosteriorSlopes& here);
   // How much of a step, in units of the prior's deviations, stays among possible loops with room to
   // the edge.

@@ -30,8 +30,8 @@ class KeptLoop {
   const LoopPoint& point() const { return point_; }
   const LoopResiduals& residuals() const { return residuals_; }
   const PathOnGrids& path() const { return path_; }
-  // By all parameters.
-  Eigen::VectorXd Slope(const WhittleWeights& weights);
+  // By all parameters from `first` on; of others it may be anything.
+  Eigen::VectorXd Slope(const WhittleWeights& weights, Eigen::Index first = 0);
 
  private:
   // 1 / (s^2 + 2 xi omega s + omega^2) on both grids.

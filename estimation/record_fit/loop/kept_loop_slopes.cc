@@ -31,12 +31,12 @@ void MultiplyBy(const C* by, Eigen::VectorXcd* out) {
 
 }  // namespace
 
-Eigen::VectorXd KeptLoop::Slope(const WhittleWeights& weights) {
+Eigen::VectorXd KeptLoop::Slope(const WhittleWeights& weights, Eigen::Index first) {
   const Eigen::Index flame = record_.flame.cols();
   Eigen::VectorXd out = Eigen::VectorXd::Zero(structure_.Parameters(flame));
-  SlopeByAcoustics(weights, &out);
-  SlopeByFlame(weights, &out);
-  if (structure_.HasChanges()) SlopeByChanges(weights, &out);
+  if (first < structure_.AcousticChange()) SlopeByAcoustics(weights, &out);
+  if (first < structure_.FlameChange(flame)) SlopeByFlame(weights, &out);
+  if (structure_.HasChanges() && first < structure_.Noise(flame)) SlopeByChanges(weights, &out);
   Eigen::Index next = structure_.Noise(flame);
   for (std::size_t j = 0; j < noise_columns_.size(); ++j) {
     const Eigen::MatrixXd& columns = noise_columns_[j];

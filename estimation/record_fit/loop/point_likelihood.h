@@ -18,8 +18,9 @@ class PointLikelihood {
 
   // ln L, -infinity where the parameters are impossible.
   double Value(const Eigen::VectorXd& parameters);
-  // By the parameters, in the time of two or three values.
-  Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters);
+  // By the parameters from `first` on, in the time of two or three values; of others it may be
+  // anything. A bin's noise is by far the cheapest to take back.
+  Eigen::VectorXd Gradient(const Eigen::VectorXd& parameters, Eigen::Index first = 0);
   // The information of whittle.h.
   Eigen::MatrixXd Information(const Eigen::VectorXd& parameters);
 

@@ -65,6 +65,9 @@ TEST_P(KeptParts, AreThoseOfAnEvaluationByItself) {
         const Eigen::VectorXd anew = PointLikelihood(record, structure).Gradient(parameters);
         EXPECT_LT((gradient - anew).norm(), 1e-11 * gradient.norm())
             << "parameter " << moved << " of " << parameters.size();
+        const Eigen::Index left = parameters.size() - moved;
+        EXPECT_EQ(kept.Gradient(parameters, moved).tail(left), gradient.tail(left))
+            << "from parameter " << moved << " on, of " << parameters.size();
       }
     }
   }
