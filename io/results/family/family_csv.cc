@@ -41,6 +41,16 @@ double ParseCell(const std::string& cell, const std::filesystem::path& path, int
   return value;
 }
 
+int ParseMember(const std::string& cell, const std::filesystem::path& path, int line) {
+  int member = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), member);
+  if (error != std::errc() || end != cell.data() + cell.size() || member < 1) {
+    throw UserError(path.string(), line, "member",
+                    "\"" + cell + "\", expected a whole number from 1 on");
+  }
+  return member;
+}
+
 void AddSummary(FamilyTable& table, std::size_t numbers) {
   for (std::vector<double>& row : table.rows) {
     double omega_min = std::numeric_limits<double>::infinity();
@@ -109,7 +119,7 @@ FamilyTable ReadFamilyCsv(const std::filesystem::path& path) {
           path.string(), number, "",
           std::to_string(cells.size()) + " columns, expected " + std::to_string(header.size()));
     }
-    const double member = ParseCell(cells[0], path, number, "member");
+    const double member = ParseMember(cells[0], path, number);
     if (table.rows.empty() || table.rows.back()[0] != member) {
       table.rows.push_back({member, 0.0, 0.0});
     }
