@@ -97,9 +97,11 @@ TEST_F(RecordFitOfFirstRig, FindsTheLoopThatMadeTheRecords) {
   }
 }
 
+using LongRecordFitOfFirstRig = RecordFitOfFirstRig;
+
 // Of p a fifteenth stands still: what the fit says of the loop stays within the intervals of the
 // records as they were, and it says what was lost.
-TEST_F(RecordFitOfFirstRig, StuckSamplesAreFilled) {
+TEST_F(LongRecordFitOfFirstRig, StuckSamplesAreFilled) {
   const std::string model = "model: {modes: 1, residue: complex}\n";
   ASSERT_EQ(Run("fit", model).status, 0);
   const Json whole = Solution();

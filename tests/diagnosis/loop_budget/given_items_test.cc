@@ -43,14 +43,14 @@ TEST(GivenItems, AreOfTheBase) {
   EXPECT_LT(budget.gap_before, 0.1 * *budget.gap_without_given);
 }
 
-TEST(GivenItems, AreNotSpokenOfWhereThereAreNone) {
+TEST(LongGivenItems, AreNotSpokenOfWhereThereAreNone) {
   const LoopDiagnosis found =
       DiagnoseLoops(DuctsBehindALowPass(), DuctsForm(), Among({"q_sensor_lowpass"}));
   EXPECT_FALSE(found.diagnosis.budget->gap_without_given.has_value());
 }
 
 // What is not there is kept all the same, and what is there is found beside it.
-TEST(GivenItems, LeaveTheRestToBeFound) {
+TEST(LongGivenItems, LeaveTheRestToBeFound) {
   LoopBudgetOptions how = Among({"duct_noise", "q_sensor_lowpass"});
   how.given = {"duct_noise"};
   const LoopDiagnosis found = DiagnoseLoops(DuctsBehindALowPass(), DuctsForm(), how);

@@ -57,7 +57,7 @@ TEST(LongLinesOfRecords, AreHumInTheChannelThatHasIt) {
 
 // Of the mains' multiples one may stand out alone: a source in the duct would have driven the
 // flame.
-TEST(LinesOfRecords, AreHumAtOneMultipleAlone) {
+TEST(LongLinesOfRecords, AreHumAtOneMultipleAlone) {
   ExpectHum(
       DiagnoseLoops(DuctsWithHum(350.0, true), DuctsForm(), Among({"mains_hum", "external_tone"})),
       350.0, true);

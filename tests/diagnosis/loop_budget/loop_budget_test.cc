@@ -34,7 +34,7 @@ TEST(LoopBudget, OfTheRightLoopHasNothing) {
 }
 
 // A search that begins at one mode finds the second, whatever the base says of dampings.
-TEST(LoopBudget, FindsASecondModeBesideASingleOne) {
+TEST(LongLoopBudget, FindsASecondModeBesideASingleOne) {
   RecordLoopSpec spec;
   spec.modes = 1;
   spec.own_damping = false;

@@ -33,7 +33,7 @@ std::string NamedOf(double further_pole) {
 }
 
 // Far off, the further pole is what errors of a form are; near, it is a delay of its own.
-TEST(FormErrors, AreNoFurtherCause) {
+TEST(LongFormErrors, AreNoFurtherCause) {
   EXPECT_EQ(NamedOf(40.0), "q_sensor_lowpass");
   EXPECT_EQ(NamedOf(10.0), "q_sensor_lowpass+channel_skew");
 }

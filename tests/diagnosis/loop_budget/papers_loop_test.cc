@@ -66,7 +66,7 @@ class Kept final : public FitUnits {
   std::map<std::string, std::string> all_;
 };
 
-TEST(PapersLoop, ADiagnosisGoesOnWhereItWasStopped) {
+TEST(LongPapersLoop, ADiagnosisGoesOnWhereItWasStopped) {
   const std::vector<LoopRecord> rig = LoopRecordsOf(RigOfLowPass());
   LoopBudgetOptions options = Among({"q_sensor_lowpass"});
   const Budget whole = *DiagnoseLoops(rig, PapersForm(), options).diagnosis.budget;

@@ -119,7 +119,7 @@ TEST(SharedEffect, FindsAWeakLowPassInItsOwnOrder) {
   EXPECT_NEAR(best.model.effects.back().values[0], kCutoff_hz, 60.0);
 }
 
-TEST(SharedEffect, FindsAStrongLeak) {
+TEST(LongSharedEffect, FindsAStrongLeak) {
   constexpr double kLeak = 0.5;
   const auto ratio_of = [](const Record& record) {
     return RootMeanSquare(record.heat_release) / RootMeanSquare(record.pressure);
@@ -144,7 +144,7 @@ std::vector<LoopRecord> Changed(double duration_s, const std::function<void(Moda
   return out;
 }
 
-TEST(SharedEffect, FindsASecondPathBeforeTheCurve) {
+TEST(LongSharedEffect, FindsASecondPathBeforeTheCurve) {
   const std::vector<LoopTrial> trials = TrialsOn(Changed(4.0, [](ModalLoop* loop) {
     loop->share = 0.25;
     loop->later_s = 1e-3;
@@ -192,7 +192,7 @@ TEST(SharedEffect, FindsASpreadBeforeTheCurve) {
 // The laws of a loop that was fitted without the resonance hold its modes where they are not: a
 // trial names it, and the search beyond the trial finds its values.
 // So it does where the same samples are of a rig that is eight times as slow.
-TEST(SharedEffect, FindsAResonanceOfThePressureSensor) {
+TEST(LongSharedEffect, FindsAResonanceOfThePressureSensor) {
   std::vector<LoopRecord> rig = Ducts([](Record* record) {
     const auto resonance = [](double hz) {
       const std::complex<double> s(0.0, hz / 900.0);
@@ -223,7 +223,7 @@ TEST(SharedEffect, FindsAResonanceOfThePressureSensor) {
 // an item must gain to come in.
 // Of 30 Hz that of p is worth 16 nats in records as short as these, as a weak second path is: the
 // last digits of linear algebra would choose between them.
-TEST(SharedEffect, FindsHighPassesOfEitherSensor) {
+TEST(LongSharedEffect, FindsHighPassesOfEitherSensor) {
   constexpr double kCutoff_hz = 60.0;
   const auto response = [](double hz) {
     return std::complex<double>(0.0, hz) / std::complex<double>(kCutoff_hz, hz);
@@ -338,7 +338,7 @@ TEST(SharedEffect, ShapesTheNoiseBehindIt) {
 }
 
 // White noise of the sensor's electronics comes in behind its low-pass, and stays white there.
-TEST(SharedEffect, HasNoColouredNoiseBesideIt) {
+TEST(LongSharedEffect, HasNoColouredNoiseBesideIt) {
   const std::vector<LoopRecord> rig = Ducts([](Record* record) { LowPass(150.0, record); });
   const LoopDiagnosis found = DiagnosisWith(rig, {"q_sensor_lowpass", "q_sensor_noise"});
   EXPECT_EQ(found.diagnosis.effect, "q_sensor_lowpass");

@@ -55,7 +55,7 @@ TEST(SlowChanges, AreNotFoundWhereThereAreNone) {
   EXPECT_EQ(found.diagnosis.kind, VerdictKind::kNone) << found.diagnosis.effect;
 }
 
-TEST(SlowChanges, OfTheDampingAreFound) {
+TEST(LongSlowChanges, OfTheDampingAreFound) {
   const double amplitude = std::sqrt(MeanSquaredAmplitude(Ducts({})));
   constexpr double kAdded = 0.03;
   const double per_square = kAdded / (amplitude * amplitude);

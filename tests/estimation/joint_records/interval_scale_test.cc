@@ -113,7 +113,7 @@ TEST(IntervalScale, IsOneButForChanceWhereTheModelIsRight) {
 
 // Half way between two states there is none, and the plain intervals are about what the fit makes
 // of both, next to the middle or not: they are too narrow to hold both.
-TEST(IntervalScale, IntervalsOfARigThatChangesHoldItsMiddle) {
+TEST(LongIntervalScale, IntervalsOfARigThatChangesHoldItsMiddle) {
   constexpr double kDrift = 0.06;
   Drifting rig(kDrift);
   const std::vector<IntervalScale> scales = rig.Scales();

@@ -241,7 +241,7 @@ TEST(SharedUnits, AreTheSameInAllUnits) {
 }
 
 // A flame that dp/dt drives is not taken for one that p or its integral does.
-TEST(ChooseLoop, FindsWhatDrivesTheFlame) {
+TEST(LongChooseLoop, FindsWhatDrivesTheFlame) {
   std::vector<LoopRecord> records;
   for (const double gain : {1.2, 1.5}) records.push_back(RecordAt(gain, 0.8, 30));
   RecordLoopSpec spec{.ratio = std::nullopt, .choose_flame_input = true};
