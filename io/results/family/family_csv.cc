@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -30,25 +31,28 @@ std::vector<std::string> Split(const std::string& line) {
   return cells;
 }
 
-double ParseCell(const std::string& cell, const std::filesystem::path& path, int line,
-                 const std::string& column) {
-  if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
-  double value = 0.0;
+// The number that a whole cell is.
+template <typename T>
+std::optional<T> NumberIn(const std::string& cell) {
+  T value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size()) {
-    throw UserError(path.string(), line, column, "\"" + cell + "\", expected a number");
-  }
+  if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
   return value;
 }
 
+double ParseCell(const std::string& cell, const std::filesystem::path& path, int line,
+                 const std::string& column) {
+  if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const std::optional<double> value = NumberIn<double>(cell);
+  if (value) return *value;
+  throw UserError(path.string(), line, column, "\"" + cell + "\", expected a number");
+}
+
 int ParseMember(const std::string& cell, const std::filesystem::path& path, int line) {
-  int member = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), member);
-  if (error != std::errc() || end != cell.data() + cell.size() || member < 1) {
-    throw UserError(path.string(), line, "member",
-                    "\"" + cell + "\", expected a whole number from 1 on");
-  }
-  return member;
+  const std::optional<int> member = NumberIn<int>(cell);
+  if (member && *member >= 1) return *member;
+  throw UserError(path.string(), line, "member",
+                  "\"" + cell + "\", expected a whole number from 1 on");
 }
 
 void AddSummary(FamilyTable& table, std::size_t numbers) {
